@@ -20,7 +20,7 @@ namespace rondel {
 struct CheckReport {
   bool is_valid = false;
   std::string reason;  ///< one line that says what is wrong, with indices; empty when valid
-  /// vertices; below dimension 2 the number of different places, those of hidden sites included
+  /// Vertices; below dimension 2 the number of different places, those of hidden sites included.
   std::size_t num_vertices = 0;
   std::size_t num_edges = 0;
   std::size_t num_duplicates = 0;

@@ -59,7 +59,7 @@ struct CoordinatePair {
 struct CoordinateQuery {
   std::string lon;  ///< the name of the longitudes; if empty, they are found
   std::string lat;  ///< the name of the latitudes; if empty, they are found
-  /// a variable whose coordinates are wanted; if empty, those of all variables are
+  /// A variable whose coordinates are wanted; if empty, those of all variables are.
   std::string values;
 };
 

@@ -19,7 +19,7 @@ namespace rondel {
 /// An immutable copy of a DynamicTriangulation.
 struct Snapshot {
   std::vector<Index> ids;  ///< ascending; site i of `triangulation` is ids[i]
-  /// the triangulation that delaunay() computes for the sites, without a report
+  /// The triangulation that delaunay() computes for the sites, without a report.
   Triangulation triangulation;
 };
 

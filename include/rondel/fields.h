@@ -56,7 +56,7 @@ struct FieldSet {
   /// The number that stands for missing values in a file that is written (`_FillValue`). Values
   /// that were read have NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();
-  /// sentences that say which variables of netCDF were left out, and why
+  /// Sentences that say which variables of netCDF were left out, and why.
   std::vector<std::string> remarks;
   std::vector<std::uint64_t> lines;  ///< for a table the line of each point, from 1 on; else empty
 };

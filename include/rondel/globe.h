@@ -49,13 +49,13 @@ struct GlobeOptions {
   bool show_circles = false;  ///< the circles of weighted sites
   bool show_coast = true;
   double graticule_deg = 30;  ///< distance of the drawn meridians and parallels; 0: none
-  /// the middle of the picture, with the whole globe in view; if empty, the view is filled by the
-  /// sites
+  /// The middle of the picture, with the whole globe in view; if empty, the view is filled by the
+  /// sites.
   std::optional<LonLat> view{};
   double up_deg = 0;  ///< the direction that points up, clockwise from north
   std::string value_name = "Value";
   const Isolines* isolines = nullptr;  ///< drawn over the cells; null: none
-  /// one value for each site, or empty; a value that is not finite is missing
+  /// One value for each site, or empty; a value that is not finite is missing.
   std::span<const double> values{};
 };
 

@@ -30,7 +30,7 @@ enum class GraphKind : std::uint8_t {
 
 /// The edges of a graph between vertices, with their lengths.
 struct SiteGraph {
-  /// two sites, the lower index first; edges in lexicographic order
+  /// Two sites, the lower index first; edges in lexicographic order.
   std::vector<std::array<Index, 2>> edges;
   std::vector<double> lengths;  ///< radians along the great circle, relative error at most 8e-16
 };

@@ -61,8 +61,8 @@ enum class SharedPlace : std::uint8_t {
 /// The rule for the sum of the weights of a target.
 enum class Normalization : std::uint8_t {
   unity,  ///< the sum is 1: constants are reproduced
-  /// the weighted sum of the sites is u: x, y, z are reproduced, and so are rotations; for linear,
-  /// laplace and sibson
+  /// The weighted sum of the sites is u: x, y, z are reproduced, and so are rotations; for linear,
+  /// laplace and sibson.
   homogeneous,
 };
 

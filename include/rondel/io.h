@@ -62,7 +62,7 @@ RONDEL_API bool is_netcdf_file(const FileName& file);
 /// Options for reading sites.
 struct ReadOptions {
   char delimiter = '\0';  ///< for .csv and .tsv; 0: a comma, or a tab
-  /// column names; if empty, found by header (lon, lng, long, longitude ...)
+  /// Column names; if empty, found by header (lon, lng, long, longitude ...).
   std::string lon, lat;
   std::string x, y, z;  ///< column names; if empty, found by header
   /// The name of the column (or GeoJSON property) with angular radii in degrees. Each site is then
@@ -88,7 +88,7 @@ struct Column {
 /// The sites of a file.
 struct SiteTable {
   std::string name;  ///< the file, for messages; "<stdin>" for standard input
-  /// unit vectors for longitudes and latitudes, otherwise as given; polar points for circles
+  /// Unit vectors for longitudes and latitudes, otherwise as given; polar points for circles.
   std::vector<Point> sites;
   std::vector<LonLat> positions;  ///< degrees as given; empty for xyz input
   std::vector<double> radii_deg;  ///< the radii of circles; empty without a radius column

@@ -43,7 +43,7 @@ struct MeshArrays {
 
   std::vector<Point> cell_points;  ///< the sites
   std::vector<double> cell_areas;
-  /// the density of each cell by design, the largest 1; empty: 1 everywhere
+  /// The density of each cell by design, the largest 1; empty: 1 everywhere.
   std::vector<double> density;
   std::vector<std::uint64_t> offsets = {0};  ///< one offset more than cells
   std::vector<Index> edges_on_cell;

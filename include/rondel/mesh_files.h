@@ -30,7 +30,7 @@ struct CellTable {
   std::optional<LonLatGrid> grid;
   std::vector<LonLat> centers;     ///< as in the file; empty if it has none
   std::vector<std::int32_t> mask;  ///< 0: the cell takes no part; empty: all cells do
-  /// the shape of a grid, whose last dimension changes fastest: nlat, nlon
+  /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
   std::vector<std::uint64_t> shape;
   std::vector<std::string>
       remarks;  ///< sentences: what is masked or left out, and which grid of several was read
@@ -85,11 +85,11 @@ RONDEL_API bool can_read_cells(const FileName& file);
 /// The sites of a netCDF file.
 struct NetcdfSites {
   SiteTable table;  ///< with positions
-  /// the lengths of the dimensions of the sites: nlat, nlon for a grid
+  /// The lengths of the dimensions of the sites: nlat, nlon for a grid.
   std::vector<std::uint64_t> shape;
   /// 0 if a mask of SCRIP, ESMF or OASIS says that the cell takes no part; empty if all do.
   std::vector<std::int32_t> mask;
-  /// remarks about the cells, and about fields that are no column
+  /// Remarks about the cells, and about fields that are no column.
   std::vector<std::string> remarks;
 
   /// Returns for each site whether it takes part.

@@ -21,8 +21,8 @@ namespace rondel::mesh {
 /// Sites beside lines or on them, for ScvtOptions::fixed.
 struct LineSites {
   std::vector<Point> sites;  ///< unit vectors
-  /// the number of places left out because they are too near to another line, or another part of
-  /// the same one
+  /// The number of places left out because they are too near to another line, or another part of
+  /// the same one.
   std::size_t num_left_out = 0;
 };
 

@@ -40,7 +40,7 @@ struct Quality {
   std::size_t num_cells = 0;
   std::size_t num_edges = 0;
   std::size_t num_vertices = 0;
-  /// edges with one cell; triangles are those of vertices with three cells
+  /// Edges with one cell; triangles are those of vertices with three cells.
   std::size_t num_border_edges = 0;
   std::vector<std::uint64_t> sides;  ///< sides[k]: the number of cells with k edges
 
@@ -53,10 +53,10 @@ struct Quality {
   double mean_centroid_offset = 0;
   Worst max_centroid_offset;  ///< index: cell
 
-  /// angles of the triangles of sites, in the planes of their corners; index: vertex
+  /// Angles of the triangles of sites, in the planes of their corners; index: vertex.
   Worst min_angle_deg;
   Worst max_angle_deg;  ///< index: vertex
-  /// the number of triangles whose circumcenter, a vertex of the mesh, lies outside of them
+  /// The number of triangles whose circumcenter, a vertex of the mesh, lies outside of them.
   std::uint64_t num_obtuse = 0;
   /// The share of all angles of triangles that are from 40 to 80 degrees.
   double share_40_to_80_deg = 0;
@@ -64,10 +64,10 @@ struct Quality {
   Worst min_edge_ratio;      ///< vertex_distance / cell_distance (dv/dc); index: edge
   Worst min_side_ratio;      ///< the shortest edge of a cell over its longest; index: cell
   Worst max_distance_ratio;  ///< the farthest neighbor of a cell over the nearest; index: cell
-  /// the difference of the spacings of two neighbors over their mean; index: edge
+  /// The difference of the spacings of two neighbors over their mean; index: edge.
   Worst max_gradient;
-  /// the distance from the middle of an edge to its edge_points, over its cell_distance; index:
-  /// edge
+  /// The distance from the middle of an edge to its edge_points, over its cell_distance; index:
+  /// edge.
   Worst max_staggering;
   double mean_staggering = 0;
 

@@ -129,7 +129,7 @@ class MpiCommunicator final : public Communicator {
     }
     received[self] = std::move(messages[self]);
     for (std::size_t i = 1; i < num_ranks; ++i) {
-      // so that not all ranks send to the same one at once
+      // So that not all ranks send to the same one at once.
       const std::size_t r = (self + i) % num_ranks;
       for_pieces(messages[r], [&](std::byte* piece, int size) {
         MPI_Isend(piece, size, MPI_BYTE, static_cast<int>(r), 0, ranks_, &requests.emplace_back());

@@ -50,7 +50,7 @@ RONDEL_API Outline alpha_shape(const Triangulation& triangulation, double radius
 struct EmptyCircle {
   Point center;       ///< a unit vector from the center of the sphere
   double radius = 0;  ///< radians, to 2e-15
-  /// three sites on the circle; it may have more
+  /// Three sites on the circle; it may have more.
   std::array<Index, 3> sites = {no_index, no_index, no_index};
 };
 

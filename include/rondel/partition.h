@@ -33,7 +33,7 @@ struct LonLatGrid {
 /// The northern and southern sides of a grid's cells.
 enum class GridSides : std::uint8_t {
   parallels,  ///< circles of latitude, as in most models
-  /// the shorter arcs between the corners, as ESMF's conservative method takes them
+  /// The shorter arcs between the corners, as ESMF's conservative method takes them.
   great_circles,
 };
 

@@ -104,7 +104,7 @@ RONDEL_API std::vector<double> areas(const CellRings& cells);
 /// Cells as polygons with holes in longitude and latitude, in compressed rows: the polygons of
 /// write_regions().
 struct LonLatRegions {
-  /// the positions of all rings; the last one of a ring equals its first
+  /// The positions of all rings; the last one of a ring equals its first.
   std::vector<LonLat> positions;
   /// Ring k has `positions[rings[k]] ... positions[rings[k+1]-1]`; outer rings are
   /// counterclockwise, holes clockwise.

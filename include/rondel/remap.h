@@ -19,8 +19,8 @@ namespace rondel {
 
 /// The area that the sum over a target cell is divided by.
 enum class RemapNorm : std::uint8_t {
-  /// the area of the target: the integral is conserved, and the part that no source covers counts
-  /// as 0
+  /// The area of the target: the integral is conserved, and the part that no source covers counts
+  /// as 0.
   destarea,
   fracarea,  ///< the area that sources cover: constants are conserved
 };
@@ -29,8 +29,8 @@ enum class RemapNorm : std::uint8_t {
 enum class CellOverlap : std::uint8_t {
   error,  ///< the cells are refused; the message has two of them and a place
   first,  ///< the cell with the lowest index has it, as if the others ended there
-  /// it counts for each of the cells, divided by their number; on both sides if cells of both
-  /// overlap
+  /// It counts for each of the cells, divided by their number; on both sides if cells of both
+  /// overlap.
   share,
 };
 

@@ -23,16 +23,16 @@ struct WeightFault {
 };
 
 struct WeightReport {
-  /// one for each kind that occurs; empty if the weights are right
+  /// One for each kind that occurs; empty if the weights are right.
   std::vector<WeightFault> faults;
   std::size_t empty_rows = 0;
   double least = 0;     ///< the least weight
   double greatest = 0;  ///< the greatest weight
   double worst_row =
       0;  ///< the largest difference of the sum of a row (or column) from what it should be
-  /// the largest relative difference of the area that a source gives
+  /// The largest relative difference of the area that a source gives.
   std::optional<double> worst_column;
-  /// the largest |u x sum of w x|, for the unit vectors u of a target and x of its sources
+  /// The largest |u x sum of w x|, for the unit vectors u of a target and x of its sources.
   std::optional<double> worst_direction;
   bool sums_are_fractions =
       false;  ///< true if the rows should add up to the fractions of the targets instead of 1

@@ -24,11 +24,11 @@ struct WeightSide {
   std::vector<double> areas;       ///< steradians
   std::vector<double> fractions;   ///< the share of each cell that takes part
   std::vector<std::int32_t> mask;  ///< 0: the cell takes no part
-  /// the shape of a grid, whose last dimension changes fastest: nlat, nlon
+  /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
   std::vector<std::uint64_t> shape;
-  /// corners of cells, counterclockwise, the same number for each cell
+  /// Corners of cells, counterclockwise, the same number for each cell.
   std::vector<LonLat> corners;
-  /// texts and numbers for each cell, such as the properties of polygons
+  /// Texts and numbers for each cell, such as the properties of polygons.
   std::vector<Column> columns;
 };
 

@@ -56,10 +56,8 @@ std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q)
 
 // A point with its place on the map.
 struct MapPoint {
-  // a unit vector
-  Point point;
-  // degrees
-  LonLat position;
+  Point point;      // a unit vector
+  LonLat position;  // degrees
 };
 
 // True if a point is drawn in the east. A point on the antimeridian is: think of the antimeridian

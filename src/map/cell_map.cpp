@@ -90,7 +90,7 @@ void CellMap::list_cells() {
   };
   cells_in_order_.reserve(sites_.size());
   for (const Triple& face : triangulation_.faces()) std::ranges::for_each(face, add);
-  // adds the rest below dimension 2
+  // Adds the rest below dimension 2.
   for (std::size_t site = 0; site < sites_.size(); ++site) add(site);
 }
 

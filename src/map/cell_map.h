@@ -65,7 +65,7 @@ class CellMap {
 
  private:
   using Edge = std::pair<Index, Index>;  // two points of the diagram, the lower index first
-  // two lines of a drawn ring
+  // Two lines of a drawn ring.
   using LinePair = std::pair<std::size_t, std::size_t>;
 
   // The points of an edge between its ends, in no order: those that stay and those that are
@@ -122,21 +122,21 @@ class CellMap {
   double tolerance_;               // radians
   ArcTolerance circle_tolerance_;  // tolerance below dimension 2
   Point axis_{};                   // normal of the great circle of the sites in dimension 1
-  // the vertex in dimension 0
+  // The vertex in dimension 0.
   std::size_t only_vertex_;
   std::vector<Point> directions_;  // unit vectors from the center to the sites
-  // for each point, the point that it is merged with
+  // For each point, the point that it is merged with.
   std::vector<Index> representatives_;
   std::vector<Index> cells_in_order_;   // sites; neighbors are close to each other in the list
   std::vector<LonLat> positions_;       // of each point, degrees
   std::vector<std::uint8_t> is_plain_;  // for each site, the result of find_plain()
-  // the points that divide an edge, from its lower end on
+  // The points that divide an edge, from its lower end on.
   std::map<Edge, std::vector<Point>> inner_points_;
   std::set<Index> merged_;            // points that were merged because lines crossed
   std::set<std::size_t> unresolved_;  // sites whose cells have crossing lines
   Ring ring_;                         // the ring of the cell that is being resolved
   Trace trace_;                       // the drawing of that cell
-  // the polygons of each site if cells were settled; else empty
+  // The polygons of each site if cells were settled; else empty.
   std::vector<std::vector<LonLatPolygon>> settled_;
 };
 

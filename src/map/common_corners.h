@@ -46,7 +46,7 @@ class CommonCorners {
                                              unsigned threads);
   static void sort_along_curve(std::vector<RingArc>& arcs, unsigned threads);
 
-  // the corners on an arc, from its beginning on
+  // The corners on an arc, from its beginning on.
   std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;
 };
 

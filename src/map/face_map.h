@@ -55,7 +55,7 @@ class FaceMap {
   std::vector<Point> directions_;       // unit vectors from the center to the sites
   std::vector<LonLat> positions_;       // of each site, degrees
   std::vector<double> tolerances_deg_;  // of each face
-  // the polygons of each face if faces were settled; else empty
+  // The polygons of each face if faces were settled; else empty.
   std::vector<std::vector<LonLatPolygon>> settled_;
 };
 

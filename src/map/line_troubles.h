@@ -17,11 +17,11 @@ struct Trouble {
   enum class TroubleKind : std::uint8_t {
     touching,  // the position c is on the line from a to b
     crossing,  // the lines from a to b and from c to d cross
-    // the lines from a to b and from a to d (c equals a) are neighbors around a and have the region
-    // on the same side
+    // The lines from a to b and from a to d (c equals a) are neighbors around a and have the region
+    // on the same side.
     unpaired,
-    // the lines from a to b and from a to d (c equals a) are neighbors around a, where other lines
-    // are unpaired; these two have the region between them, or outside of both
+    // The lines from a to b and from a to d (c equals a) are neighbors around a, where other lines
+    // are unpaired; these two have the region between them, or outside of both.
     beside,
     turned,  // `loop` is misplaced: it has the region on the wrong side
   };

@@ -35,7 +35,7 @@ class PlanarFaces {
   }
 
  private:
-  // one count for each region, in ascending order; no count is 0
+  // One count for each region, in ascending order; no count is 0.
   using Counts = std::vector<NodedLine::RegionCount>;
 
   [[nodiscard]] const LonLat& start_of(std::size_t halfedge) const;
@@ -51,7 +51,7 @@ class PlanarFaces {
   [[nodiscard]] std::size_t list_at(double lon_deg) const;
 
   std::span<const NodedLine> lines_;
-  // halfedges, sorted by start and then counterclockwise around it
+  // Halfedges, sorted by start and then counterclockwise around it.
   std::vector<std::size_t> order_;
   std::vector<std::size_t> next_;    // the next halfedge along the face of each
   std::vector<std::size_t> faces_;   // the face of each halfedge
@@ -59,7 +59,7 @@ class PlanarFaces {
   std::vector<Counts> counts_;  // for each face, how often the sides of each region go around it
   std::vector<bool> is_counted_;
   std::vector<std::size_t> regions_;  // the region of each face
-  // lines that are not meridians, sorted into lists by longitude
+  // Lines that are not meridians, sorted into lists by longitude.
   std::vector<std::vector<std::size_t>> lists_;
 };
 

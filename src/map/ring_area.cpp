@@ -101,8 +101,8 @@ double area_on_left(std::span<const Point> ring) {
   constexpr double least = 1e-12;
   const Point moment = moment_of(ring);
   const bool is_balanced =
-      // the ring goes back on itself, or the center of mass of its region is the center of the
-      // sphere
+      // The ring goes back on itself, or the center of mass of its region is the center of the
+      // sphere.
       norm(moment) < least;
   const Point middle = is_balanced ? Point{0, 0, 1} : normalized(moment);
   const double area = area_around(origin_for(ring, middle), ring);

@@ -60,7 +60,7 @@ class SharedLines {
   void append_line(const LonLat& a, const LonLat& b, Descent& descent,
                    std::vector<DirectedLine>& out) const;
 
-  // the division of each line, named by its ends, the lower one first
+  // The division of each line, named by its ends, the lower one first.
   std::map<Ends, LonLat, EndsInPlane> divisions_;
   std::map<LonLat, LonLat, InPlane> merged_;
 };

@@ -12,7 +12,7 @@ namespace {
 const Point* pole_on_arc(const Point& p, const Point& q) {
   static constexpr Point north{0, 0, 1};
   static constexpr Point south{0, 0, -1};
-  // the arc turns by less than 90 degrees around the axis
+  // The arc turns by less than 90 degrees around the axis.
   if (p.x * q.x + p.y * q.y >= 0) return nullptr;
   const Point normal = cross(p, q - p);
   if (std::abs(p.x * q.y - p.y * q.x) > merge_distance * norm(normal)) return nullptr;

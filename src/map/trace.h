@@ -26,11 +26,11 @@ namespace rondel::map {
 // A drawn ring or line: its chains, one after the other.
 struct Trace {
   std::vector<MapPoint> points;  // the points of all chains
-  // for each point, the arc of the ring on which the line that begins there lies
+  // For each point, the arc of the ring on which the line that begins there lies.
   std::vector<std::uint32_t> arcs;
-  // the first point of each chain; empty if the ring is one closed loop
+  // The first point of each chain; empty if the ring is one closed loop.
   std::vector<std::size_t> starts;
-  // true if the north pole's end of the antimeridian is inside of the region
+  // True if the north pole's end of the antimeridian is inside of the region.
   bool has_north_corners = false;
 };
 

@@ -170,7 +170,7 @@ class RegionsInPlane {
     return settled_regions(sides, threads_);
   }
 
-  // the given regions, and the part of the map outside of all of them
+  // The given regions, and the part of the map outside of all of them.
   std::vector<LoopsOfRegion> regions_;
   unsigned threads_;
   std::size_t num_changes_ = 0;

@@ -30,8 +30,8 @@ namespace rondel::overlay {
 // An arc of a great circle that bounds a piece.
 struct PieceArc {
   Index left;  // the cell of the cover to the left
-  // for an arc of an edge of the cover, its cell to the right; no_index for an arc of the cell's
-  // boundary
+  // For an arc of an edge of the cover, its cell to the right; no_index for an arc of the cell's
+  // boundary.
   Index right;
   Index from;  // index into points()
   Index to;
@@ -57,7 +57,7 @@ class ArcMaker {
   // A place where the boundary leaves a cell of the cover.
   struct Passage {
     Halfedge edge;  // the lower one of `out` and its twin
-    // the halfedge of the cover by which the boundary leaves
+    // The halfedge of the cover by which the boundary leaves.
     Halfedge out;
     Halfedge by;  // the halfedge of the cell that crosses
     Index point;  // the crossing, an index into points_

@@ -24,7 +24,7 @@ namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t keys_per_block = 256;
-// the area of a clockwise ring that is taken for rounding, in multiples of area_of_rounding()
+// The area of a clockwise ring that is taken for rounding, in multiples of area_of_rounding().
 constexpr double of_holes = 8;
 
 bool is_before(const Point& a, const Point& b) {

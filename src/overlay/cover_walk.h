@@ -42,7 +42,7 @@ class CoverWalk {
   }
 
  private:
-  // the corners that are tested at once: most cells of diagrams have no more
+  // The corners that are tested at once: most cells of diagrams have no more.
   static constexpr Index most_at_once = 8;
 
   // Returns the halfedge by which the line leaves a convex cell: its origin is right of the line

@@ -128,7 +128,7 @@ Index SideMesh::put_first(Index p, Index q, Index owner) {
     a = b;
     b = apex(p, a);
     if (a != around_[p]) continue;
-    // no direction is defined
+    // A side to the antipode has no direction.
     throw InvalidInput("a side is 180 degrees long", names_of_cells_[owner]);
   }
   if (turn(p, a, q) == Sign::zero) return a;

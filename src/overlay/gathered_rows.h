@@ -26,9 +26,9 @@ namespace rondel::overlay {
 // The pieces of a block of cells, in the order of the cells.
 struct RowBlock {
   std::vector<Index> counts;  // the number of pieces of each cell
-  // the column of each piece
+  // The column of each piece.
   std::vector<Index> columns;
-  // the place of each piece
+  // The place of each piece.
   std::vector<Index> places;
   std::vector<double> areas;
   std::vector<Point> moments;

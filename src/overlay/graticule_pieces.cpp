@@ -69,7 +69,7 @@ class RowStrips {
  private:
   double area_ = 0;
   double northern_ = 0;  // the sum of the widths of strips whose areas begin at the north pole
-  // the same for the south pole
+  // The sum for strips that begin at the south pole.
   double southern_ = 0;
   bool has_northern_ = false;
   bool has_southern_ = false;

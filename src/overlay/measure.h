@@ -161,8 +161,8 @@ struct Measures {
   double area = 0;
   double length = 0;  // approximate length of the border, radians
   Point moment{};
-  // false if the area is not certain: the region goes around the sphere (as belts do) and has its
-  // center of mass near the center of the sphere
+  // False if the area is not certain: the region goes around the sphere (as belts do) and has its
+  // center of mass near the center of the sphere.
   bool is_sure =
       true;  // the area; not of regions around the sphere, as belts, whose center of mass is its center
 };

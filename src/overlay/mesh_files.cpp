@@ -45,9 +45,9 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& 
   throw io::BadValue(text + io::remark_on_units(io::headers_of(file)));
 }
 
-// radians; nodes with double precision that are nearer are one corner
+// Nodes in double precision that are nearer to each other than this (radians) are one corner.
 constexpr double same_place = 1e-10;
-// the same for single precision
+// The distance for nodes in single precision.
 constexpr double same_single_place = 1e-6;
 
 // Rings with the inside to the left, without corners that repeat the one before.

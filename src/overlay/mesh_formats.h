@@ -30,18 +30,18 @@ struct MeshContent {
   std::vector<LonLat> nodes;  // as in the file; both numbers of a missing node are NaN
   std::string names;          // the quoted names of the variables of the nodes, for messages
   bool is_single = false;     // true if the nodes have single precision
-  // compressed rows: the rings of each cell
+  // Compressed rows: the rings of each cell.
   std::vector<std::uint64_t> cells = {0};
-  // compressed rows: the corners of each ring
+  // Compressed rows: the corners of each ring.
   std::vector<std::uint64_t> rings = {0};
   std::vector<Index> corners;  // indices of nodes
-  // set if the cells are between meridians and parallels; then there are no nodes
+  // Set if the cells are between meridians and parallels; then there are no nodes.
   std::optional<LonLatGrid> grid;
-  // one for each cell, or none at all
+  // One for each cell, or none at all.
   std::vector<LonLat> centers;
   // 0 for a masked cell; empty if no cell is masked
   std::vector<std::int32_t> mask;
-  // nlat and nlon of a logically rectangular grid, or empty
+  // The lengths nlat and nlon of a logically rectangular grid, or empty.
   std::vector<std::uint64_t> shape;
   std::vector<std::string> remarks;  // what the file contains that the cells cannot represent
 
@@ -106,7 +106,7 @@ struct Connectivity {
   std::uint64_t of_each;
   bool is_transposed;  // true if the cells are the last dimension
   double first;        // the number that the file gives to the first node
-  // the entry that begins a further ring; not in use if it is `first` or more
+  // The entry that begins a further ring; not in use if it is `first` or more.
   double break_value = 0;
 };
 // Reads the corners of all cells. `counts` are the lengths of rows, or empty. Throws BadValue for a

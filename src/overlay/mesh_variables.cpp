@@ -24,7 +24,7 @@ std::string cells_in_words(std::size_t count, std::size_t of_all) {
 
 // True if the numbers are a place, up to rounding of single precision.
 bool is_place(const LonLat& place) {
-  // pi / 2 in single precision is 90.0000025 degrees.
+  // A latitude of pi / 2 in single precision is 90.0000025 degrees.
   constexpr double rounding = 1e-5;
   return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
 }

@@ -236,7 +236,7 @@ class OverlapFinder {
       if (cells_.shapes[cell] != Shape::empty) difference += cells_.area_of_rings(cell);
     }
     of_border = std::remainder(of_border, whole_area);
-    // the region is nearly empty or nearly the sphere
+    // The region is nearly empty or nearly the sphere.
     if (std::abs(of_border) < surely) return false;
     if (of_border < 0) of_border += whole_area;
     return std::abs(difference - of_border) < surely && is_region(sides, told_);

@@ -231,7 +231,7 @@ class AreaKeeper {
   double share_;
   unsigned threads_;
   SideDivider divider_;
-  // where the sides of each cell begin, for the cells that have any
+  // Where the sides of each cell begin, for the cells that have any.
   std::vector<std::size_t> begins_;
   std::vector<std::uint8_t> num_halvings_;
 };

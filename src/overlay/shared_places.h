@@ -22,7 +22,7 @@ namespace rondel::overlay {
 
 // The cells that take part in an overlay, as given or cut into parts.
 struct TakingPart {
-  // the cells or the parts
+  // The cells or the parts.
   const PartitionData* data = nullptr;
   std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data` if these are parts
   // Part k belongs to the cells owners[offsets[k]] ... owners[offsets[k + 1] - 1], in equal shares.

@@ -66,7 +66,7 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides, do
     const Point& a = points_[low];
     const Point& b = points_[high];
     const Point step = b - a;
-    // the arc is nearer to its chord than this
+    // The arc is nearer to its chord than this.
     const double margin = dot(step, step) / 4 + distance_;
     const auto x_of = [&](Index p) { return points_[p].x; };
     const auto is_beside = [margin](double from, double to, double at) {

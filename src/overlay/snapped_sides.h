@@ -59,7 +59,7 @@ class Snaps {
 
   std::span<const Point> points_;
   double distance_;
-  // a union-find forest of merged points; the lowest index is the root
+  // A union-find forest of merged points; the lowest index is the root.
   std::vector<Index> parents_;
   std::vector<PassedCorner> passed_;
   bool has_joined_ = false;

@@ -31,8 +31,8 @@ inline constexpr std::size_t cells_per_piece = 4096;
 enum class Shape : std::uint8_t {
   empty,   // no ring
   convex,  // one ring, strictly convex
-  // one ring in less than a hemisphere; each halfedge turns counterclockwise around the cell's
-  // center
+  // One ring in less than a hemisphere; each halfedge turns counterclockwise around the cell's
+  // center.
   star,
   other,
 };
@@ -47,17 +47,17 @@ struct Subdivision {
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
   LargeVector<Index> rings;   // ring r has the halfedges rings[r] ... rings[r+1]-1
   LargeVector<Index> begins;  // the halfedges of cell i are begins[i] ... begins[i+1]-1
-  // the point at the origin of each halfedge
+  // The point at the origin of each halfedge.
   LargeVector<Index> corners;
   LargeVector<Halfedge> twins;  // the opposite halfedge; no_index if there is no cell beyond
-  // the cell of each halfedge
+  // The cell of each halfedge.
   LargeVector<Index> cell_of;
   LargeVector<Shape> shapes;
   std::vector<Point> centers;  // the directions of the centers of mass
   // The cells of Shape::other with their areas, in ascending order of cells.
   std::vector<std::pair<Index, double>> areas_of_others;
   LargeVector<Index> names;  // the index of each cell in the input
-  // of the cells, in ascending order: their places along the space-filling curve
+  // The places of the cells along the space-filling curve, ascending.
   std::vector<std::uint64_t> keys;
   bool is_closed = false;  // true if every halfedge has a twin and every cell is convex or a star
 

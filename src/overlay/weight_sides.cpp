@@ -13,7 +13,7 @@
 namespace rondel {
 namespace {
 
-// cells with more corners are written without corners
+// Cells with more corners are written without corners.
 constexpr std::size_t most_weight_corners = 16;
 
 // Returns four corners for each cell of a grid.

@@ -76,7 +76,7 @@ void require_disjoint(const CellRings& polygons, const Execution& execution) {
 struct OwnedCells {
   Partition cells;
   std::vector<Index> owners;
-  // the union of the cells of each feature, if it was computed on the way
+  // The union of the cells of each feature, if it was computed on the way.
   std::optional<CellRings> joined;
 };
 OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
