@@ -16,6 +16,7 @@ import numpy as np
 
 from . import _core
 from ._geo import write_named
+from ._projected import with_divided_sides
 from ._properties import json_cells
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
@@ -142,14 +143,20 @@ def in_degrees(geometries: Any) -> Any:
     from pyproj.exceptions import ProjError
 
     try:
-        return geometries.to_crs(4326)
+        return _converted(geometries, crs, 4326)
     except ProjError as error:
         sphere = crs.geodetic_crs  # of the Moon, say, of which there is no way to WGS 84
         if sphere is None or not _has_degrees(sphere):
             raise ValueError(
                 f"the CRS {crs.name!r} cannot be converted to EPSG:4326: {error}"
             ) from None
-        return geometries if crs.equals(sphere) else geometries.to_crs(sphere)
+        return geometries if crs.equals(sphere) else _converted(geometries, crs, sphere)
+
+
+def _converted(geometries: Any, crs: Any, target: Any) -> Any:
+    if crs.is_projected:
+        geometries = with_divided_sides(geometries, crs, target)
+    return geometries.to_crs(target)
 
 
 def _has_degrees(crs: Any) -> bool:

@@ -135,7 +135,8 @@ class FileCells:
         geometries : GeoDataFrame, GeoSeries, sequence or mapping
             Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
             has `__geo_interface__`; arrays and tables of GeoArrow. A projected
-            `crs` is undone. Or a box: west, south, east, north in degrees.
+            `crs` is undone, with sides that stay straight in it. Or a box: west, south, east, north
+            in degrees.
         edges, overlap
             As in `read`.
         threads : int, optional
