@@ -16,7 +16,7 @@ import sys
 import formulas
 import headers
 
-DOCUMENTS = ["docs", "bench/RESULTS.md", "bench/EXPERIMENTS.md", "bench/README.md", "CHANGELOG.md"]
+DOCUMENTS = ["docs", "bench/history", "bench/RESULTS.md", "bench/EXPERIMENTS.md", "bench/README.md", "CHANGELOG.md"]
 LEXERS = {".cpp": "cpp", ".c": "c", ".txt": "cmake"}
 # Folders and files that a page stands for.
 PAGES = {
@@ -69,7 +69,7 @@ def with_links(text, place, repository, staged):
 
 def with_contents(text):
     """An index whose links are also the order of the pages beside it."""
-    names = re.findall(r"\]\(([\w-]+)\.md\)", text)
+    names = re.findall(r"\]\(((?:\w[\w-]*/)?[\w-]+)\.md\)", text)
     return text + "\n```{toctree}\n:hidden:\n\n" + "\n".join(dict.fromkeys(names)) + "\n```\n"
 
 
@@ -86,7 +86,7 @@ def copy_documents(repository, folder):
             shutil.copyfile(source, copy)
             continue
         text = with_links(source.read_text(encoding="utf-8"), pathlib.PurePath(name), repository, names)
-        if name in ("docs/guide/README.md", "docs/decisions/README.md", "bench/README.md"):
+        if name in ("docs/guide/README.md", "docs/decisions/README.md", "bench/README.md", "bench/history/README.md"):
             text = with_contents(text)
         if name.startswith("docs/theory/"):
             text = formulas.with_formulas(text)
@@ -125,15 +125,11 @@ def pages_of_examples(repository, folder):
 
 
 def page_of_measurements(repository, folder):
-    """The comparison with peers in the latest full run of bench/RESULTS.md, below what site/measured.md says."""
-    sections = re.split(r"^## ", (repository / "bench/RESULTS.md").read_text(encoding="utf-8"), flags=re.M)
-    runs = []
-    for section in sections:
-        tables = [t for t in re.findall(r"(?:^\|.*\n)+", section, re.M) if re.search(r"^\| STRIPACK, csstrid / Rondel", t, re.M)]
-        runs += [(section.split("\n", 1)[0], table) for table in tables]
-    title, table = runs[-1]
+    """The comparison with peers in bench/RESULTS.md, below what site/measured.md says."""
+    text = (repository / "bench/RESULTS.md").read_text(encoding="utf-8")
+    section = re.search(r"^## Triangulations beside peers\n.*?(?=^## )", text, re.M | re.S)
     page = folder / "measured.md"
-    page.write_text(page.read_text(encoding="utf-8") + f"## {title}\n\n{table}", encoding="utf-8")
+    page.write_text(page.read_text(encoding="utf-8") + section[0], encoding="utf-8")
 
 
 def main(repository, folder):

@@ -14,6 +14,7 @@ import dataclasses
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -21,7 +22,7 @@ from . import environment
 from .settings import ROOT
 from .tables import Table, number, power
 
-LEDGER = ROOT / "bench" / "ledger.json"
+LEDGER = pathlib.Path(__file__).with_name("ledger.json")
 # Of a rank, of rank 0 for each site that it joins (docs/guide/distributed.md).
 BYTES_OF_SITE = 130
 BYTES_OF_OPEN_SITE = 330
@@ -243,6 +244,12 @@ def measure(folder, sizes, all_ranks, seam_sizes, repeats):
     return {"processor": environment.processor(), "ranks": ranks, "seams": seams}
 
 
+def text_of(ledger):
+    """The text of a ledger's file: a line for each phase of a run and for each square of a seam."""
+    text = json.dumps(ledger, indent=1)
+    return re.sub(r"\{[^{}\[\]]*\}", lambda innermost: " ".join(innermost[0].split()), text) + "\n"
+
+
 def read_ledger(path):
     try:
         ledger = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
@@ -302,7 +309,7 @@ def main(words=None):
     task = parse(words)
     if task.command == "measure":
         ledger = measure(task.programs, task.sites, task.ranks, task.seam_sites, task.repeats)
-        task.output.write_text(json.dumps(ledger, indent=1) + "\n", encoding="utf-8")
+        task.output.write_text(text_of(ledger), encoding="utf-8")
     elif task.command == "ranks":
         network = Network(task.latency, task.bandwidth)
         print(ranks_table(read_ledger(task.ledger), task.sites, task.ranks, task.threads,

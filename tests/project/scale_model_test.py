@@ -129,6 +129,10 @@ class Command(unittest.TestCase):
         text = self.run_command("threads", "--threads", "1", "2", "--ledger", str(self.ledger))
         self.assertIn("\n| 2^20 | 2 | 6.50 | 2,000 |", text)
 
+    def test_the_ledger_is_kept_as_it_is_written(self):
+        text = scale_model.LEDGER.read_text(encoding="utf-8")
+        self.assertEqual(scale_model.text_of(json.loads(text)), text)
+
     def test_what_is_wrong_is_named(self):
         self.assertIn("'0' is not a number of", self.run_command("ranks", "--ranks", "0"))
         self.assertIn("'many' is not a number of", self.run_command("threads", "--threads", "many"))
