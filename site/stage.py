@@ -13,7 +13,6 @@ import re
 import shutil
 import sys
 
-import formulas
 import headers
 
 DOCUMENTS = ["docs", "bench/history", "bench/RESULTS.md", "bench/EXPERIMENTS.md", "bench/README.md", "CHANGELOG.md"]
@@ -88,8 +87,6 @@ def copy_documents(repository, folder):
         text = with_links(source.read_text(encoding="utf-8"), pathlib.PurePath(name), repository, names)
         if name in ("docs/guide/README.md", "docs/decisions/README.md", "bench/README.md", "bench/history/README.md"):
             text = with_contents(text)
-        if name.startswith("docs/theory/"):
-            text = formulas.with_formulas(text)
         copy.write_text(text, encoding="utf-8")
 
 
