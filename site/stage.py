@@ -131,7 +131,7 @@ def page_of_measurements(repository, folder):
 
 def main(repository, folder):
     shutil.rmtree(folder, ignore_errors=True)
-    tools = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules")
+    tools = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules", "play")
     top = str(repository / "site")
     shutil.copytree(top, folder, ignore=lambda place, names: tools(place, names) if place == top else [])
     copy_documents(repository, folder)

@@ -3,13 +3,13 @@
 
 // A globe whose sites come, go and move: each state of the worker takes the place of the one before.
 
-import { circle } from "../../src/arcs.js";
-import { Finder } from "../../src/find.js";
-import { Globe } from "../../src/globe.js";
-import { Layers } from "../../src/layers.js";
-import { summary } from "../../src/panel.js";
-import { none, Surface } from "../../src/surface.js";
-import { lengthOf, triple } from "../../src/vectors.js";
+import { circle } from "../../../viewer/src/arcs.js";
+import { Finder } from "../../../viewer/src/find.js";
+import { Globe } from "../../../viewer/src/globe.js";
+import { Layers } from "../../../viewer/src/layers.js";
+import { summary } from "../../../viewer/src/panel.js";
+import { none, Surface } from "../../../viewer/src/surface.js";
+import { lengthOf, triple } from "../../../viewer/src/vectors.js";
 import { Groups } from "./groups.js";
 
 // Colors keep their meaning while a site is dragged: the range is that of the last rest.

@@ -3,7 +3,7 @@
 
 // Sites to begin with: {xyz}, {lonLat} or {lonLat, radii}, all flat arrays, angles in degrees.
 
-import { cross, directionOf, lonLatOf, perpendicular, plus, times } from "../../src/vectors.js";
+import { cross, directionOf, lonLatOf, perpendicular, plus, times } from "../../../viewer/src/vectors.js";
 
 // Mulberry32: numbers from 0 to 1 that look random, the same for the same seed.
 function randomNumbers(seed) {

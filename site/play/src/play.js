@@ -3,9 +3,9 @@
 
 // The page to play: sites are dragged, added and removed, and the worker's triangulation follows.
 
-import { areaText, digits } from "../../src/numbers.js";
-import { none } from "../../src/surface.js";
-import { angleBetween, lengthOf, lonLatOf, minus, plus, times } from "../../src/vectors.js";
+import { areaText, digits } from "../../../viewer/src/numbers.js";
+import { none } from "../../../viewer/src/surface.js";
+import { angleBetween, lengthOf, lonLatOf, minus, plus, times } from "../../../viewer/src/vectors.js";
 import { Files } from "./files.js";
 import { History } from "./history.js";
 import { LiveGlobe } from "./live.js";

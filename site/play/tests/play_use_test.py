@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page to play with keys, fingers and files: play_use_test.py TOOL CHROMIUM AXE PAGE TEST
+"""The page to play with keys, fingers and files: play_use_test.py TOOL CHROMIUM AXE PAGE [TEST ...]
 
 As play_test.py.
 """

@@ -4,10 +4,12 @@
 
 import argparse
 import json
+import pathlib
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "tests" / "globe"))
 from pages import PageTest  # noqa: E402 (after the line above)
 
 PRESETS = ("spiral", "random", "circles", "grid", "circle", "metre", "empty")
@@ -80,9 +82,10 @@ class PlayTest(PageTest):
 
 
 def main(about):
-    """Runs the tests of a class, as the command line says."""
+    """Runs the tests of a file, or of the classes and methods that the command line names."""
     parser = argparse.ArgumentParser(description=about)
-    for name in ("tool", "chromium", "axe", "page", "test"):
+    for name in ("tool", "chromium", "axe", "page"):
         parser.add_argument(name)
+    parser.add_argument("tests", nargs="*")
     PageTest.settings = parser.parse_args()
-    unittest.main(argv=[sys.argv[0], "-v", PageTest.settings.test])
+    unittest.main(argv=[sys.argv[0], "-v", *PageTest.settings.tests])

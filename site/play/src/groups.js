@@ -4,7 +4,7 @@
 // The chunks of a triangulation that changes: a site stays in its chunk until it moves, and the chunks in which nothing
 // changed keep their buffers.
 
-import { makeChunk, makeChunks } from "../../src/chunks.js";
+import { makeChunk, makeChunks } from "../../../viewer/src/chunks.js";
 
 const mostGrowth = 2;  // of a chunk, before all are made again
 const least = 300;  // sites of a chunk that may grow so far

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page to play, which scripts/build-js makes, in a browser without a screen: what a change does.
+"""The page to play, in a browser without a screen: what a change does. scripts/site --test runs it.
 
-    play_test.py TOOL CHROMIUM AXE PAGE TEST
+    play_test.py TOOL CHROMIUM AXE PAGE [TEST ...]
 
-AXE is axe.min.js of the npm package axe-core; TEST a class of this file.
+AXE is axe.min.js of the npm package axe-core; a TEST is a class of this file or one of its methods.
 """
 
 import json

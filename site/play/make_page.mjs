@@ -18,9 +18,9 @@ const namesIn = (list) => read("viewer", list).trim().split("\n");
 
 const shared = namesIn("modules.txt");
 const own = ["groups", "live", "presets", "table", "files", "history", "remote", "play", "start"];
-const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["viewer", "play", "src", `${name}.js`])];
+const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["site", "play", "src", `${name}.js`])];
 const library = ["errors", "arguments", "engine", "located", "triangulation", "build", "dynamic"];
-const workerModules = [...library.map((name) => ["bindings", "js", "src", `${name}.js`]), ["viewer", "play", "src", "worker.js"]];
+const workerModules = [...library.map((name) => ["bindings", "js", "src", `${name}.js`]), ["site", "play", "src", "worker.js"]];
 
 // Comments that begin a line go, as does the indentation. `given`: names that no module has.
 function script(modules, given = []) {
@@ -55,14 +55,14 @@ function data(name, bytes) {
   return `<script type="application/octet-stream" id="data-${name}">${text}</script>\n`;
 }
 
-let frame = read("viewer", "play", "page.html");
+let frame = read("site", "play", "page.html");
 for (const name of namesIn("parts.txt")) {
   const place = `\n@${name.toUpperCase()}@\n`;
   if (!frame.includes(place)) throw new Error(`page.html has no place for ${name}.html`);
   frame = frame.replace(place, () => `\n${read("viewer", "parts", `${name}.html`)}`);
 }
 const places = {
-  "@STYLE@": read("viewer", "style.css") + read("viewer", "play", "style.css"),
+  "@STYLE@": read("viewer", "style.css") + read("site", "play", "style.css"),
   "@DATA@": data("module", readFileSync(join(packageFolder, "rondel.wasm"))) + data("coast", Buffer.from(read("data", "coast.txt"))),
   "@ABOUT@": JSON.stringify({ arrays }),
   "@WORKER@": script(workerModules, ["encodedModule"]).replace('"use strict";', '"use strict";\nconst encodedModule = "";'),

@@ -3,7 +3,7 @@
 
 // Starts the page to play. window.rondelGlobe is for tests.
 
-import { readPage } from "../../src/decode.js";
+import { readPage } from "../../../viewer/src/decode.js";
 import { Play } from "./play.js";
 import { Remote } from "./remote.js";
 
