@@ -4,24 +4,20 @@
 """Makes docs/figures/graphs.png: graphs, an alpha shape and empty circles of the weather stations around Iceland and
 Scandinavia. Needs the package `rondel`:
 
-    PYTHONPATH=build/release/python build/python/bin/python scripts/graphs-figure
+    PYTHONPATH=build/release/python build/python/bin/python docs/figures/make/graphs.py
 """
 
 import csv
 import itertools
-import pathlib
-import subprocess
 
-import matplotlib
-
-matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rondel
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import ROOT, save
+
 KINDS = ["delaunay", "urquhart", "gabriel", "relative", "mst"]
 VIEW = (-26, 32, 53, 72)  # west, east, south, north
 
@@ -60,10 +56,7 @@ def main():
     for ax in axes.flat:
         ax.plot(lon, lat, ".", color="black", markersize=2)
         ax.set(xlim=VIEW[:2], ylim=VIEW[2:], xticks=[], yticks=[], aspect=2)
-    path = ROOT / "docs/figures/graphs.png"
-    fig.savefig(path)
-    shrink = ["pngquant", "--force", "--nofs", "--speed", "1", "--strip", "256"]
-    subprocess.run([*shrink, "--output", path, path], check=True)
+    save(fig, "graphs.png")
 
 
 if __name__ == "__main__":

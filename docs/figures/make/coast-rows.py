@@ -4,20 +4,16 @@
 """Makes docs/figures/coast-rows.png: cells on land and at sea, without and with rows of sites along the coast. Needs the
 package `rondel`:
 
-    PYTHONPATH=build/release/python build/python/bin/python scripts/coast-rows-figure
+    PYTHONPATH=build/release/python build/python/bin/python docs/figures/make/coast-rows.py
 """
 
-import pathlib
-import subprocess
 
-import matplotlib
-
-matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rondel.mesh
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import ROOT, save
+
 LAND = ROOT / "data/land-110m.geojson"
 VIEW = (-14, 9, 33, 51)  # west, east, south, north
 CELLS = 40962
@@ -36,10 +32,7 @@ def main():
         ax.plot(lon.T, lat.T, color="black", linewidth=1.4, solid_capstyle="round")
         ax.collections[1].set(color="tab:red", linewidth=1.2, zorder=4)
         ax.set(title=title, xlim=VIEW[:2], ylim=VIEW[2:], xlabel="", ylabel="", xticks=[], yticks=[], aspect=1.35)
-    path = ROOT / "docs/figures/coast-rows.png"
-    fig.savefig(path)
-    shrink = ["pngquant", "--force", "--nofs", "--speed", "1", "--strip", "256"]
-    subprocess.run([*shrink, "--output", path, path], check=True)
+    save(fig, "coast-rows.png")
 
 
 if __name__ == "__main__":

@@ -4,21 +4,17 @@
 """Makes docs/figures/interpolation.png: the made-up climate of docs/guide/interpolation.md at the weather stations, carried
 to a grid; and what several methods make of it where stations are few. Needs the package `rondel`:
 
-    PYTHONPATH=build/release/python build/python/bin/python scripts/interpolation-figure
+    PYTHONPATH=build/release/python build/python/bin/python docs/figures/make/interpolation.py
 """
 
 import csv
-import pathlib
-import subprocess
 
-import matplotlib
-
-matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rondel
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import ROOT, save
+
 METHODS = ["nearest", "linear", "sibson", "hermite", "the formula"]
 SOUTH_PACIFIC = (-180, -70, -62, 0)  # west, east, south, north
 LEVELS = np.arange(-28, 37, 4)
@@ -65,10 +61,7 @@ def main():
     for ax, method in zip(below.subplots(1, 5), METHODS, strict=True):
         draw(ax, sites, SOUTH_PACIFIC, 0.25, method, markersize=2)
         ax.set_title(method)
-    path = ROOT / "docs/figures/interpolation.png"
-    fig.savefig(path)
-    shrink = ["pngquant", "--force", "--nofs", "--speed", "1", "--strip", "256"]
-    subprocess.run([*shrink, "--output", path, path], check=True)
+    save(fig, "interpolation.png")
 
 
 if __name__ == "__main__":

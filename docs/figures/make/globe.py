@@ -4,7 +4,7 @@
 """Makes the figures of a page with the weather stations as a browser shows it: docs/figures/globe.png, and the
 globe that turns, docs/figures/turning-globe.webp.
 
-    scripts/globe-figures build/release/bin/rondel
+    docs/figures/make/globe.py build/release/bin/rondel
 """
 
 import pathlib
@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 FIGURES = ROOT / "docs/figures"
 sys.path.insert(0, str(ROOT / "tests/globe"))
 

@@ -4,21 +4,16 @@
 """Makes docs/figures/remapping.png: means over the Voronoi cells of scattered sites, carried to a grid to first and to second
 order, and what is off. Needs the package `rondel`:
 
-    PYTHONPATH=build/release/python build/python/bin/python scripts/remapping-figure
+    PYTHONPATH=build/release/python build/python/bin/python docs/figures/make/remapping.py
 """
 
-import pathlib
-import subprocess
-
-import matplotlib
-
-matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rondel
 from matplotlib.collections import PolyCollection
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import save
+
 VIEW = (-60, 60, -45, 45)  # west, east, south, north
 STEP = 1.5
 
@@ -62,10 +57,7 @@ def main():
     fig.colorbar(drawn, ax=axes[:, 0], location="left", shrink=0.6)
     for ax in axes.flat[:3]:
         ax.set(xlim=VIEW[:2], ylim=VIEW[2:], xticks=[], yticks=[], aspect="equal")
-    path = ROOT / "docs/figures/remapping.png"
-    fig.savefig(path)
-    shrink = ["pngquant", "--force", "--nofs", "--speed", "1", "--strip", "256"]
-    subprocess.run([*shrink, "--output", path, path], check=True)
+    save(fig, "remapping.png")
 
 
 if __name__ == "__main__":

@@ -4,22 +4,18 @@
 """Makes docs/figures/regions.png: cells of the weather stations on land, the same joined by country, and the waters nearest
 to each country. Needs the package `rondel`, and GeoPandas:
 
-    PYTHONPATH=build/release/python build/python/bin/python scripts/regions-figure
+    PYTHONPATH=build/release/python build/python/bin/python docs/figures/make/regions.py
 """
 
 import csv
-import pathlib
-import subprocess
 
 import geopandas
-import matplotlib
-
-matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import rondel
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from common import ROOT, save
+
 LAND = ROOT / "data/land-110m.geojson"
 COUNTRIES = ROOT / "data/countries-110m.geojson"
 VIEW = (-12, 30, 34, 62)  # west, east, south, north
@@ -59,10 +55,7 @@ def main():
     countries.plot(ax=axes[2], color=[color_of(number[name]) for name in countries["name"]])
     for ax in axes:
         ax.set(xlim=VIEW[:2], ylim=VIEW[2:], xticks=[], yticks=[], aspect=1.45)
-    path = ROOT / "docs/figures/regions.png"
-    fig.savefig(path)
-    shrink = ["pngquant", "--force", "--nofs", "--speed", "1", "--strip", "256"]
-    subprocess.run([*shrink, "--output", path, path], check=True)
+    save(fig, "regions.png")
 
 
 if __name__ == "__main__":
