@@ -4,7 +4,7 @@
 // ranks_bench KIND N RANKS [--seed S]: what each phase of a build by ranks costs each rank, in processor
 // time and in bytes sent to others. Ranks are simulated, one runs at a time with one thread, so the
 // figures do not depend on how many cores there are. Beside them the processor time of the build in
-// memory, with one thread, of the same sites. JSON, for scripts/scale-model.
+// memory, with one thread, of the same sites. JSON, for scripts/bench --scale-model.
 
 #include <algorithm>
 #include <cstdint>

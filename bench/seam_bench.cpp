@@ -3,7 +3,7 @@
 
 // seam_bench KIND N [--seed S]: the parts of a build in memory, in processor time of one thread, and
 // each square of the tree that fills the seam: what many threads can share, and what they wait for.
-// JSON, for scripts/scale-model. Uses the library's own headers.
+// JSON, for scripts/bench --scale-model. Uses the library's own headers.
 
 #include <cstdint>
 #include <cstdio>

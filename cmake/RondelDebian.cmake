@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Debian's packages, one for each component of cmake/RondelInstall.cmake and one for Python. scripts/package-debs
+# Debian's packages, one for each component of cmake/RondelInstall.cmake and one for Python. scripts/package debs
 # configures for them: shared libraries, prefix /usr (docs/decisions/024-packages.md).
 
 if(NOT BUILD_SHARED_LIBS OR NOT RONDEL_BUILD_TOOL OR NOT RONDEL_BUILD_C OR NOT RONDEL_BUILD_PYTHON)
-  message(FATAL_ERROR "Debian's packages hold everything, with shared libraries: scripts/package-debs")
+  message(FATAL_ERROR "Debian's packages hold everything, with shared libraries: scripts/package debs")
 endif()
 
 set(CPACK_GENERATOR DEB)
@@ -40,7 +40,7 @@ configure_file(cmake/debian/changelog.in ${changelog} @ONLY)
 execute_process(COMMAND gzip -9nf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 
 # rondel_debian_package(COMPONENT NAME SECTION SUMMARY DEPENDS MORE [PART...]): MORE ends the long description; the
-# package holds the parts of scripts/third-party.
+# package holds the parts of scripts/tools/third-party.
 macro(rondel_debian_package component name section summary depends more)
   string(TOUPPER ${component} upper)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
@@ -51,7 +51,7 @@ macro(rondel_debian_package component name section summary depends more)
   set(copyright ${PROJECT_BINARY_DIR}/debian/${name}/copyright)
   configure_file(cmake/debian/copyright ${copyright} COPYONLY)
   if(${ARGC} GREATER 6)
-    execute_process(COMMAND scripts/third-party "${name} holds" ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    execute_process(COMMAND scripts/tools/third-party "${name} holds" ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
                     OUTPUT_VARIABLE parts COMMAND_ERROR_IS_FATAL ANY)
     file(APPEND ${copyright} "\n${parts}")
   endif()

@@ -23,7 +23,7 @@ macro(rondel_find_package name debian_package)
   if(NOT ${name}_FOUND)
     string(JOIN " " rondel_wanted ${name} ${ARGN})
     message(FATAL_ERROR "Rondel needs ${rondel_wanted}, which was not found. On Debian or Ubuntu: apt install "
-                        "${debian_package}. All that is needed is in scripts/packages/build.txt, which "
-                        "scripts/install-deps build installs.")
+                        "${debian_package}. All that is needed is in scripts/tools/packages/build.txt, which "
+                        "scripts/install build installs.")
   endif()
 endmacro()

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 
-# Toolchain of wasm32-wasi with Debian's clang-19, lld-19, libc++ and wasi-libc (scripts/packages/js.txt).
+# Toolchain of wasm32-wasi with Debian's clang-19, lld-19, libc++ and wasi-libc (scripts/tools/packages/js.txt).
 # There are no threads and no files. Exceptions are those of WebAssembly; what Debian's libc++abi lacks
 # for them is the target rondel_wasm_exceptions (bindings/js/exceptions), which every program links.
 # Vectors of 128 bits are in every engine since 2023, as these exceptions are; copies and fills of memory, and

@@ -280,7 +280,7 @@ def positive(text):
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(prog="scripts/scale-model", description=__doc__,
+    parser = argparse.ArgumentParser(prog="scripts/bench --scale-model", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     ranks = commands.add_parser("ranks", help="builds by many ranks")

@@ -32,5 +32,5 @@ writeFileSync(
 );
 
 // What the module holds besides Rondel.
-const parts = execFileSync(join(source, "scripts", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);
+const parts = execFileSync(join(source, "scripts", "tools", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);
 writeFileSync(join(folder, "THIRD_PARTY.md"), parts);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # Any Linux with glibc 2.17 or later, on the machine RONDEL_MACHINE: Zig's Clang, which has the names of every
-# version of glibc, with its C++ library linked in. scripts/package-wheels installs it in build/packages/zig and
+# version of glibc, with its C++ library linked in. scripts/package wheels installs it in build/packages/zig and
 # unpacks the headers (docs/decisions/024-packages.md).
 set(rondel_build "${CMAKE_CURRENT_LIST_DIR}/../../build")
 set(CMAKE_SYSTEM_NAME Linux)

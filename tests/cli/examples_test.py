@@ -26,7 +26,7 @@ TOOL = pathlib.Path(sys.argv[1]).resolve()
 ROOT = pathlib.Path(sys.argv[2]).resolve()
 del sys.argv[1:3]
 ENVIRONMENT = dict(os.environ, LC_ALL="C.UTF-8", PATH=f"{TOOL.parent}:{os.environ['PATH']}")
-# GDAL's library is in a wheel of the environment that scripts/install-python makes.
+# GDAL's library is in a wheel of the environment that scripts/install python makes.
 WHEEL = importlib.util.find_spec("pyogrio")
 if WHEEL is not None:
     LIBRARIES = sorted(pathlib.Path(WHEEL.origin).parents[1].glob("pyogrio.libs/libgdal*"))

@@ -4,7 +4,7 @@
 """Other programs read Rondel's files of meshes (mesh_clients_test.py TOOL [cdo]).
 
 netCDF-C's ncdump reads all five; NCO's ncremap makes conservative weights of two SCRIP files, and ncks judges them.
-With `cdo` instead CDO alone, and returns 77 if it is not installed. scripts/mesh-clients has more.
+With `cdo` instead CDO alone, and returns 77 if it is not installed. scripts/test --mesh-clients has more.
 """
 
 import pathlib

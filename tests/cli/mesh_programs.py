@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Packages of Python read Rondel's files of meshes (mesh_programs.py TOOL); scripts/mesh-clients installs them.
+"""Packages of Python read Rondel's files of meshes (mesh_programs.py TOOL); scripts/test --mesh-clients installs them.
 
 uxarray, VTK, YAC, gpuwm-hex and ugrid-checks. Prints a line for each.
 """

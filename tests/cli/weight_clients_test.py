@@ -144,8 +144,8 @@ def main():
     programs = sys.argv[2:]
     missing = [program for program in programs if not shutil.which(program)]
     if missing:
-        print(f"not installed: {' '.join(missing)}; scripts/install-deps test installs ncks, ncremap and nccopy,\n"
-              "scripts/install-deps cdo the last")
+        print(f"not installed: {' '.join(missing)}; scripts/install test installs ncks, ncremap and nccopy,\n"
+              "scripts/install cdo the last")
         sys.exit(77)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-CHECKER = pathlib.Path(__file__).parents[2] / "scripts" / "check_layers"
+CHECKER = pathlib.Path(__file__).parents[2] / "scripts" / "tools" / "check_layers"
 
 CLEAN = {
     "src/LAYERS": "low\nhigh\n",

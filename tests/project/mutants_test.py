@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "tests" / "mutants"))
 import random_changes  # noqa: E402 (after the line above)
 
 try:
-    import switches  # which wants scripts/packages/mutants.txt
+    import switches  # which wants scripts/tools/packages/mutants.txt
 except ImportError:
     switches = None
 

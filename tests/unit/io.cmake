@@ -19,7 +19,7 @@ rondel_add_test(io_test
 # A program of its own: what a sanitizer of threads needs.
 rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io rondel_test_support)
 
-# What netCDF-C, which judges it, comes with is in scripts/packages/test.txt.
+# What netCDF-C, which judges it, comes with is in scripts/tools/packages/test.txt.
 add_executable(netcdf_large netcdf_large.cpp)
 rondel_test_settings(netcdf_large)
 target_include_directories(netcdf_large PRIVATE ${PROJECT_SOURCE_DIR}/src)
