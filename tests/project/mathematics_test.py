@@ -18,7 +18,7 @@ CODE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
 FORMULA = re.compile(r"\$([^$]*)\$")
 # What code hosts set, too: \operatorname, for one, they refuse.
 MACROS = set("""
-    Bigl Bigr Delta alpha arctan beta bigl bigr cdot circ cos cot delta det dfrac dots eta exp frac
+    Bigl Bigr Delta alpha arccos arctan beta bigl bigr cdot circ cos cot delta det dfrac dots eta exp frac
     gamma ge gg in int lambda lbrace ldots le left lfloor log lvert mathbin mathrm max min ne phi pi
     prod qquad quad rbrace rfloor right rvert setminus sin sqrt sum tan text tfrac theta times to
 """.split())
