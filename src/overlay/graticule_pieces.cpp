@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/eft.h"
 #include "overlay/gathered_rows.h"
 #include "overlay/graticule_walk.h"
 #include "overlay/measure.h"
@@ -31,16 +32,17 @@ struct GridPiece {
 // The part of a parallel, within one column, that is inside of the cell, as the strips north of the
 // parallel tell.
 struct Fill {
-  double width = 0;  // radians
-  double size = 0;   // the sum of the sizes of all widths that were added
-  Point run{};       // the difference of its ends' meridians on the equator
+  double width = 0;           // radians
+  double size = 0;            // the sum of the sizes of all widths that were added
+  Point run{};                // the difference of its ends' meridians on the equator
+  exact::DoubleDouble sum{};  // the width, before it is rounded
 };
 
 // The strips in one row of one column.
 class RowStrips {
  public:
   void add(const Strip& strip) {
-    area_ += strip.area;
+    add_term(strip.area, area_);
     if (strip.pole == 0) {
       has_others_ = true;
     } else if (strip.pole > 0) {
@@ -55,19 +57,20 @@ class RowStrips {
   // northern parallel, which is `above` wide there. `below` is the width that is left at the
   // southern parallel; it is known more accurately than the sum of all widths where that is near 0.
   [[nodiscard]] double area(const Graticule& grid, Index row, double above, double below) const {
-    if (!has_northern_ && !has_southern_) return area_ + above * grid.height(row);
+    const double area = area_.hi + area_.lo;
+    if (!has_northern_ && !has_southern_) return area + above * grid.height(row);
     const SphereHeight south = grid.parallel(row).height();
     const SphereHeight north = grid.parallel(row + 1).height();
     if (has_northern_ != has_southern_ && !has_others_) {
       const SphereHeight pole = {has_northern_ ? 1.0 : -1.0, 0};
-      return area_ + (below * rise(south, pole) - above * rise(north, pole));
+      return area + (below * rise(south, pole) - above * rise(north, pole));
     }
-    return area_ + above * grid.height(row) + northern_ * rise(south, {1, 0}) +
+    return area + above * grid.height(row) + northern_ * rise(south, {1, 0}) +
            southern_ * rise(south, {-1, 0});
   }
 
  private:
-  double area_ = 0;
+  exact::DoubleDouble area_{};
   double northern_ = 0;  // the sum of the widths of strips whose areas begin at the north pole
   // The sum for strips that begin at the south pole.
   double southern_ = 0;
@@ -123,7 +126,7 @@ class GridPieceMaker {
     if (grid_.is_cover()) {
       require_sum(pieces_, area, cells_.lengths()[name], name);
     }
-    drop_rounding(pieces_);
+    drop_rounding(pieces_, area, cells_.lengths()[name]);
     std::ranges::sort(pieces_, {}, &GridPiece::cell);
     return pieces_;
   }
@@ -159,7 +162,6 @@ class GridPieceMaker {
     if (has_pole) fill = filled(column);
     std::size_t end = next;
     while (end < strips_.size() && strips_[end].column == column) ++end;
-    const double summands = static_cast<double>(end - next + 2);
     Index row = has_pole ? grid_.num_rows() - 1 : strips_[next].row;
     for (;; --row) {
       GridPiece piece = row_of(column, row, fill);
@@ -170,16 +172,13 @@ class GridPieceMaker {
         strips.add(strip);
         piece.length += strip.length;
         piece.moment = piece.moment + strip.moment;
-        below.width += strip.width;
+        add_term(strip.width, below.sum);
+        add_term(strip.width_rest, below.sum);
         below.size += std::abs(strip.width);
         below.run = below.run + strip.run;
       }
       const double width_above = fill.width;
-      fill = below;
-      // Each longitude is off by some u, and a sum of n longitudes by n u.
-      const double rounding = predicates::unit_roundoff * (16 + 4 * summands * fill.size);
-      if (std::abs(fill.width) <= rounding) fill = {};
-      if (std::abs(fill.width - grid_.columns()[column].width) <= rounding) fill = filled(column);
+      fill = rounded(below, column, next == end);
       piece.area = strips.area(grid_, row, width_above, fill.width);
       piece.length += fill.size * grid_.parallel(row).cosine;
       if (width_above != 0 && fill.width != 0) piece.length += grid_.height(row);
@@ -192,7 +191,23 @@ class GridPieceMaker {
   // Returns the fill of a parallel that is inside of the cell over the whole width of a column.
   [[nodiscard]] Fill filled(Index column) const {
     const double width = grid_.columns()[column].width;
-    return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};
+    return {
+        width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west, {width, 0}};
+  }
+
+  // Returns the fill with its width rounded to a double, or to nothing or all of the column where
+  // it differs from that by rounding. Arcs that follow each other add up to the difference of two
+  // offsets in twice the precision, so a cell may be as thin as rounding of longitudes. Behind the
+  // last strip of the column only these two widths are possible.
+  [[nodiscard]] Fill rounded(Fill fill, Index column, bool is_last) const {
+    fill.width = fill.sum.hi + fill.sum.lo;
+    constexpr double of_sums = 0x1p-90;
+    constexpr double of_turns = 16 * predicates::unit_roundoff;
+    const double of_last = is_last ? predicates::unit_roundoff * (16 + 4 * fill.size) : 0;
+    if (std::abs(fill.width) <= std::max(of_sums, of_last)) return {};
+    const bool is_filled =
+        std::abs(fill.width - grid_.columns()[column].width) <= std::max(of_turns, of_last);
+    return is_filled ? filled(column) : fill;
   }
 
   // Returns the part of a row that is inside from parallel to parallel. Its sides count where they

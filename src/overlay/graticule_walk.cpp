@@ -12,6 +12,7 @@
 
 #include "exact/argument.h"
 #include "exact/degrees.h"
+#include "exact/eft.h"
 #include "overlay/arc_bulge.h"
 #include "overlay/measure.h"
 #include "predicates/bounds.h"
@@ -150,7 +151,9 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
   const bool is_swapped = key(to.point) < key(from.point);
   const GraticulePlace* west = is_swapped ? &to : &from;
   const GraticulePlace* east = is_swapped ? &from : &to;
-  double turned = turn(*east) - turn(*west);
+  // Offsets in one column are known better than turns.
+  double turned =
+      east->column == west->column ? east->offset - west->offset : turn(*east) - turn(*west);
   if (turned > pi) turned -= 2 * pi;
   if (turned <= -pi) turned += 2 * pi;
   if (turned == 0) return;
@@ -293,7 +296,9 @@ void GraticuleWalk::append_strip(const GraticulePlace& from, const GraticulePlac
                                  const Out& out) const {
   const Graticule::Parallel& parallel = grid_.parallel(row);
   Strip strip{from.column, row};
-  strip.width = out.sign * (to.offset - from.offset);
+  const exact::DoubleDouble width = exact::two_diff(to.offset, from.offset);
+  strip.width = out.sign * width.hi;
+  strip.width_rest = out.sign * width.lo;
   if (strip.width == 0) return;
   strip.length = rough_length(from.point, to.point);
   if (is_polar(from.height(), to.height())) {

@@ -38,7 +38,9 @@ struct Strip {
   Index row = 0;
   double pole = 0;  // the sine of that pole's latitude; 0 if the area is above the parallel
   double area = 0;
-  double width = 0;   // radians
+  double width = 0;  // radians
+  // The rounding error of the width: their sum is the exact difference of two offsets.
+  double width_rest = 0;
   double length = 0;  // approximate length of the part of the arc, radians
   Point run{};        // difference of the points where the ends' meridians meet the equator
   Point moment{};

@@ -106,14 +106,24 @@ constexpr double area_of_rounding(double length) { return 16 * predicates::unit_
 // area.
 [[noreturn]] void refuse_pieces(Index name, double sum, double area);
 
-// Drops the pieces of a cell whose areas are not larger than what rounding of their corners can
-// make. A cell that has no larger piece keeps its largest one.
+// Drops the pieces of a cell, of this area and length of border, whose areas are not larger than
+// what rounding of their corners can make. A cell that is no larger than rounding of its own corners
+// keeps its largest piece. A cell that is little larger, as a sliver whose tip is such a piece, loses
+// at most a thousandth of its area.
 template <class Piece>
-void drop_rounding(std::vector<Piece>& pieces) {
+void drop_rounding(std::vector<Piece>& pieces, double area, double length) {
   const auto is_rounding = [](const Piece& piece) {
     return piece.area <= area_of_rounding(piece.length);
   };
   if (pieces.empty()) return;
+  const double least_share = area / 1024;
+  double dropped = 0;
+  for (const Piece& piece : pieces) dropped += is_rounding(piece) ? std::max(piece.area, 0.0) : 0;
+  if (dropped > least_share && area > area_of_rounding(length)) {
+    const double least = least_share / static_cast<double>(pieces.size());
+    std::erase_if(pieces, [&](const Piece& piece) { return piece.area <= least; });
+    return;
+  }
   if (std::ranges::all_of(pieces, is_rounding)) {
     const Piece largest = *std::ranges::max_element(pieces, {}, &Piece::area);
     pieces.clear();

@@ -58,7 +58,7 @@ class PieceMaker {
       if (!owners_.empty()) join_by_owner();
     }
     require_sum(pieces_, sizes_.areas[name], sizes_.lengths[name], name);
-    drop_rounding(pieces_);
+    drop_rounding(pieces_, sizes_.areas[name], sizes_.lengths[name]);
     std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
     return pieces_;

@@ -18,6 +18,7 @@ rondel_add_test(overlay_test
   overlay_remap_test.cpp
   overlay_rings_test.cpp
   overlay_shapes.cpp
+  overlay_thin_test.cpp
   overlay_touching_test.cpp
   overlay_trial.cpp
   overlay_valid_test.cpp
