@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "exact/degrees.h"
@@ -105,11 +106,14 @@ double bulge_deg(const LonLat& west, const LonLat& east) {
 
 bool is_pole(const LonLat& p) { return std::abs(p.lat_deg) == 90; }
 
-// Returns the latitude of a piece at a longitude.
+// Returns the latitude of a piece at a longitude, within those of its ends in spite of rounding: so
+// latitudes along a side change in one direction.
 double lat_on(const LinePiece& piece, double lon_deg) {
-  return piece.west.lat_deg + (lon_deg - piece.west.lon_deg) /
-                                  (piece.east.lon_deg - piece.west.lon_deg) *
-                                  (piece.east.lat_deg - piece.west.lat_deg);
+  const double lat = piece.west.lat_deg + (lon_deg - piece.west.lon_deg) /
+                                              (piece.east.lon_deg - piece.west.lon_deg) *
+                                              (piece.east.lat_deg - piece.west.lat_deg);
+  return std::clamp(lat, std::min(piece.west.lat_deg, piece.east.lat_deg),
+                    std::max(piece.west.lat_deg, piece.east.lat_deg));
 }
 
 // Returns a number that is at least bulge_deg() and takes less work.
@@ -128,12 +132,12 @@ void find_cuts(const LinePiece& piece, const PlaneCorners& corners, bool are_few
   if (are_few) {
     bool has_any = false;
     corners.visit_near(piece.west, piece.east,
-                       simple_bulge_deg(piece.west, piece.east) + on_side_deg,
+                       {0, simple_bulge_deg(piece.west, piece.east) + on_side_deg},
                        [&](const LonLat&, Index) { has_any = true; });
     if (!has_any) return;
   }
   const double bulge = bulge_deg(piece.west, piece.east) + on_side_deg;
-  corners.visit_near(piece.west, piece.east, bulge, [&](const LonLat& p, Index) {
+  corners.visit_near(piece.west, piece.east, {0, bulge}, [&](const LonLat& p, Index) {
     if (p.lon_deg <= piece.west.lon_deg || p.lon_deg >= piece.east.lon_deg) return;
     const double lat = lat_on(piece, p.lon_deg);
     if (std::abs(p.lat_deg - lat) <= bulge) cuts.push_back({p.lon_deg, lat});
@@ -182,14 +186,16 @@ PlaneCorners corners_at(std::span<const LonLat> positions) {
   return PlaneCorners(std::move(corners));
 }
 
-// Appends the positions of a piece halved `times` times, without the last one.
+// Appends the positions of a piece halved `times` times, without the last one. A part with no
+// longitude between its ends is not halved: corners on one meridian would have no order along the
+// side.
 void append_halved(const LonLat& west, const LonLat& east, unsigned times,
                    std::vector<LonLat>& positions) {
-  if (times == 0) {
+  const LonLat middle = {(west.lon_deg + east.lon_deg) / 2, (west.lat_deg + east.lat_deg) / 2};
+  if (times == 0 || middle.lon_deg <= west.lon_deg || middle.lon_deg >= east.lon_deg) {
     positions.push_back(west);
     return;
   }
-  const LonLat middle = {(west.lon_deg + east.lon_deg) / 2, (west.lat_deg + east.lat_deg) / 2};
   append_halved(west, middle, times - 1, positions);
   append_halved(middle, east, times - 1, positions);
 }
@@ -235,6 +241,10 @@ std::vector<Index> SideDivider::halve(std::span<const std::uint8_t> times) {
     if (times[side] == 0 || west.lon_deg == east.lon_deg) continue;
     const std::size_t first = added.size();
     append_halved(west, east, times[side], added);
+    if (added.size() == first + 1) {
+      added.pop_back();
+      continue;
+    }
     pieces_[k].east = added[first + 1];
     for (std::size_t i = first + 1; i < added.size(); ++i) {
       pieces_.push_back({side, added[i], i + 1 < added.size() ? added[i + 1] : east});
@@ -248,9 +258,15 @@ std::vector<Index> SideDivider::halve(std::span<const std::uint8_t> times) {
 }
 
 DividedSides SideDivider::divided() {
-  std::ranges::sort(pieces_, [](const LinePiece& p, const LinePiece& q) {
-    return p.side != q.side ? p.side < q.side : is_west_of(p.west, q.west);
-  });
+  // A side as steep as rounding of longitudes has several corners on one meridian.
+  const auto along = [&](const LinePiece& piece) {
+    const PlaneSide& side = sides_[piece.side];
+    const bool goes_east = is_west_of(side.from, side.to);
+    const bool goes_north_east = goes_east == (side.from.lat_deg < side.to.lat_deg);
+    return std::tuple(piece.side, piece.west.lon_deg,
+                      goes_north_east ? piece.west.lat_deg : -piece.west.lat_deg);
+  };
+  std::ranges::sort(pieces_, {}, along);
   DividedSides result;
   result.positions.reserve(pieces_.size());
   for (std::size_t first = 0; first < pieces_.size();) {

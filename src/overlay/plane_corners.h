@@ -50,11 +50,12 @@ class PlaneCorners {
   }
 
   // Calls visit(position, owner) for the corners near a line that leads east or along a meridian:
-  // all whose distances in longitude and in latitude are below `margin_deg`, and possibly others.
+  // all whose distances in longitude and in latitude are below these margins, and possibly others.
   // Positions are shifted to the line's own turn of the globe.
   template <class Visit>
-  void visit_near(const LonLat& west, const LonLat& east, double margin_deg,
+  void visit_near(const LonLat& west, const LonLat& east, const LonLat& margins,
                   const Visit& visit) const {
+    const double margin_deg = margins.lat_deg;
     const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
     const std::size_t last = band_of(north + margin_deg);
     for (std::size_t band = band_of(south - margin_deg); band <= last; ++band) {
@@ -73,7 +74,7 @@ class PlaneCorners {
         low = std::max(low, std::min(at_floor, at_ceiling) - 1e-9);
         high = std::min(high, std::max(at_floor, at_ceiling) + 1e-9);
       }
-      visit_band(bands_[band], low - margin_deg, high + margin_deg, visit);
+      visit_band(bands_[band], low - margins.lon_deg, high + margins.lon_deg, visit);
     }
   }
 

@@ -38,7 +38,7 @@ class SideCorners {
     const double up = east.lat_deg - west.lat_deg;
     const double squared = along * along + up * up;
     const double most = on_side_deg * std::sqrt(squared);
-    corners_.visit_near(west, east, on_side_deg, [&](const LonLat& p, Index owner) {
+    corners_.visit_near(west, east, {on_side_deg, on_side_deg}, [&](const LonLat& p, Index owner) {
       const double x = p.lon_deg - west.lon_deg;
       const double y = p.lat_deg - west.lat_deg;
       const double part = (x * along + y * up) / squared;
