@@ -46,6 +46,8 @@ std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneF
     case PlaneFaultKind::outside:
       return second + ", a hole, does not lie inside of its polygon" +
              (first.empty() ? "" : " but in " + first) + at;
+    case PlaneFaultKind::filled:
+      return "the holes of " + second + " leave nothing of it";
     case PlaneFaultKind::no_area:
       break;
   }

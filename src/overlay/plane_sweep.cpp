@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses
-// in their order from south to north, and the state of the region above each side: inside of a
-// polygon, or outside and in a hole or in none.
+// in their order from south to north, and the state of the region above each side: which rings are
+// around it.
 //
-//       \ above: in polygon 0       The state above a side follows from the state below it, which is that above
-//     ---*------------------        the next side to the south, and from the side's ring. A side that does not
-//       / below: outside            fit to the state below is a fault: a shell in another polygon, or a hole
-//                                   outside of its shell.
+//       \ above: in ring 0     The state above a side follows from the state below it, which is that above
+//     ---*------------------   the next side to the south, and from the rings that have the side. Rings
+//       / below: in no ring    around a place that do not fit to each other are a fault: two shells
+//                              without a hole between them, or a hole without its shell.
 //
 // Only corners are events. When the sweep arrives at a corner, the sides on which it lies are
 // divided there, and sides that coincide are merged. So the sides that are left either cross
@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -26,28 +28,31 @@
 namespace rondel::overlay {
 namespace {
 
-// The state of a place: inside of the polygon `number`, or outside, in the hole whose ring is
-// `number`, or in no hole (no_index).
+// The state of a place: the rings around it, in order, and whether it is inside of a polygon, that is
+// in a shell and in none of its holes.
 struct PlaneState {
+  std::vector<Index> rings = {};
   bool is_inside = false;
-  Index number = no_index;
-  friend bool operator==(const PlaneState&, const PlaneState&) = default;
 };
 
 // A side from a corner to one farther east (or north), both by their numbers.
 struct SweptSide {
   Index west;
   Index east;
-  std::vector<Index> rings;  // the rings that have the side, of different polygons
-  PlaneState below{};
-  PlaneState above{};
+  std::vector<Index> rings;  // the rings that have the side, in order
+  Index below = 0;           // the numbers of the states on both sides
+  Index above = 0;
 };
 
 // Sweeps over the rings of one feature.
 class PlaneSweep {
  public:
   explicit PlaneSweep(std::span<const io::LonLatRing> rings)
-      : rings_(rings), has_sides_(rings.size(), false), active_(Southern{this}) {
+      : rings_(rings),
+        has_sides_(rings.size(), false),
+        states_(1),
+        numbers_of_states_{{{}, 0}},
+        active_(Southern{this}) {
     number_corners();
     add_sides();
   }
@@ -92,7 +97,10 @@ class PlaneSweep {
   void add_sides() {
     Index part = no_index;
     for (Index r = 0; r < rings_.size(); ++r) {
-      if (!rings_[r].is_hole || part == no_index) ++part;
+      if (!rings_[r].is_hole || part == no_index) {
+        ++part;
+        first_ring_of_.push_back(r);
+      }
       parts_.push_back(part);
       const std::vector<LonLat>& positions = rings_[r].positions;
       if (positions.empty()) continue;
@@ -103,7 +111,7 @@ class PlaneSweep {
         from = to;
       }
     }
-    around_.assign(part == no_index ? 0 : part + std::size_t{1}, std::nullopt);
+    has_area_.assign(first_ring_of_.size(), false);
   }
 
   // Adds a side that begins at the corner `west`.
@@ -136,7 +144,7 @@ class PlaneSweep {
     std::vector<Index> begun = sides_from(corner);
     auto above = last;
     const auto below = above == active_.begin() ? active_.end() : std::prev(above);
-    PlaneState state = below == active_.end() ? PlaneState{} : sides_[*below].above;
+    Index state = below == active_.end() ? 0 : sides_[*below].above;
     Index south = below == active_.end() ? no_index : *below;
     for (const Index side : begun) {
       sides_[side].below = state;
@@ -159,10 +167,11 @@ class PlaneSweep {
       start(corner, east, sides_[side].rings);
     }
     const SweptSide& done = sides_[side];
-    if (done.below.is_inside == done.above.is_inside) return;
+    const bool is_inside = states_[done.above].is_inside;
+    if (states_[done.below].is_inside == is_inside) return;
     const LonLat& west = corners_[done.west];
     const LonLat& east = corners_[done.east];
-    found_.push_back(done.above.is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
+    found_.push_back(is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
   }
 
   // Returns the sides that begin at a corner, from south to north, each once. Where two coincide,
@@ -192,63 +201,70 @@ class PlaneSweep {
     }
     return kept;
   }
-  // Adds a ring to those of a side. Two rings of one polygon cancel.
-  void add_ring(std::vector<Index>& rings, Index ring) const {
-    const auto same =
-        std::ranges::find_if(rings, [&](Index r) { return parts_[r] == parts_[ring]; });
-    if (same == rings.end()) {
-      rings.push_back(ring);
+  // Adds a ring to those of a side. A side that a ring has twice cancels.
+  static void add_ring(std::vector<Index>& rings, Index ring) {
+    const auto same = std::ranges::lower_bound(rings, ring);
+    if (same == rings.end() || *same != ring) {
+      rings.insert(same, ring);
     } else {
       rings.erase(same);
     }
   }
 
-  // Changes the state by going north across a side. Returns whether the side fits to the state
-  // south of it.
-  bool cross(Index side, PlaneState& state, const LonLat& place) {
-    std::vector<Index> rings = sides_[side].rings;
-    // The rings whose inside the sweep leaves come first.
-    const auto is_left = [&](Index r) {
-      return state == (rings_[r].is_hole ? PlaneState{false, r} : PlaneState{true, parts_[r]}) ||
-             (rings_[r].is_hole && state == PlaneState{true, parts_[r]});
+  // Changes the state by going north across a side. Returns whether the rings around the place there
+  // fit to each other.
+  bool cross(Index side, Index& state, const LonLat& place) {
+    const std::vector<Index>& crossed = sides_[side].rings;
+    std::vector<Index> rings;
+    std::ranges::set_symmetric_difference(states_[state].rings, crossed, std::back_inserter(rings));
+    const auto [known, is_new] =
+        numbers_of_states_.try_emplace(rings, static_cast<Index>(states_.size()));
+    state = known->second;
+    if (!is_new) return true;
+    states_.push_back({std::move(rings), false});
+    return take(states_.back(), crossed, place);
+  }
+
+  // Finds the polygon that a new state is inside of. Returns false, with a fault, if its rings do not
+  // fit to each other.
+  bool take(PlaneState& state, const std::vector<Index>& crossed, const LonLat& place) {
+    const auto refuse = [&](PlaneFaultKind kind, Index first, Index second) {
+      fault_ = PlaneFault{kind, first, second, place};
+      return false;
     };
-    std::stable_partition(rings.begin(), rings.end(), is_left);
-    for (const Index ring : rings) {
-      if (!cross_ring(ring, state, place)) return false;
+    Index shell = no_index;  // of the polygon that has the place inside
+    for (auto ring = state.rings.begin(); ring != state.rings.end();) {
+      const auto end = std::find_if(ring, state.rings.end(),
+                                    [&](Index r) { return parts_[r] != parts_[*ring]; });
+      if (rings_[*ring].is_hole) {
+        return refuse(PlaneFaultKind::outside, other_than(state, *ring), *ring);
+      }
+      if (end - ring > 2) {
+        const bool is_second_new = std::ranges::binary_search(crossed, ring[2]);
+        return refuse(PlaneFaultKind::outside, ring[is_second_new ? 1 : 2],
+                      ring[is_second_new ? 2 : 1]);
+      }
+      if (end - ring == 1) {
+        if (shell != no_index) {
+          const bool is_second_new = std::ranges::binary_search(crossed, *ring);
+          return refuse(PlaneFaultKind::overlap, is_second_new ? shell : *ring,
+                        is_second_new ? *ring : shell);
+        }
+        shell = *ring;
+      }
+      ring = end;
     }
+    state.is_inside = shell != no_index;
+    if (state.is_inside) has_area_[parts_[shell]] = true;
     return true;
   }
-  // Changes the state by crossing a side of one ring. Returns false, with a fault, if the ring does
-  // not fit there.
-  bool cross_ring(Index ring, PlaneState& state, const LonLat& place) {
-    const PlaneState own = {true, parts_[ring]};
-    if (rings_[ring].is_hole) {
-      const PlaneState hole = {false, ring};
-      if (state != own && state != hole) return refuse(PlaneFaultKind::outside, state, ring, place);
-      state = state == own ? hole : own;
-      return true;
+  // Returns a ring of another polygon around the place, or no_index.
+  [[nodiscard]] Index other_than(const PlaneState& state, Index hole) const {
+    Index other = no_index;
+    for (const Index ring : state.rings) {
+      if (parts_[ring] != parts_[hole]) other = ring;
     }
-    if (state == own) {
-      state = *around_[parts_[ring]];
-      return true;
-    }
-    if (state.is_inside) return refuse(PlaneFaultKind::overlap, state, ring, place);
-    if (state.number != no_index && parts_[state.number] == parts_[ring]) {
-      return refuse(PlaneFaultKind::outside, {}, state.number, place);
-    }
-    around_[parts_[ring]] = state;
-    state = own;
-    return true;
-  }
-  // Records a fault of a ring in a region with this state; returns false.
-  bool refuse(PlaneFaultKind kind, const PlaneState& state, Index ring, const LonLat& place) {
-    Index other = state.number;
-    if (state.is_inside) other = first_ring_of(state.number);
-    fault_ = PlaneFault{kind, other, ring, place};
-    return false;
-  }
-  [[nodiscard]] Index first_ring_of(Index part) const {
-    return static_cast<Index>(std::ranges::find(parts_, part) - parts_.begin());
+    return other;
   }
 
   // Records a fault if two neighboring sides, s south of t, cross.
@@ -279,12 +295,20 @@ class PlaneSweep {
       fault_ = PlaneFault{PlaneFaultKind::no_area, r, r,
                           positions.empty() ? LonLat{} : positions.front()};
     }
+    for (std::size_t part = 0; part < has_area_.size() && !fault_; ++part) {
+      if (has_area_[part]) continue;
+      const Index shell = first_ring_of_[part];
+      fault_ = PlaneFault{PlaneFaultKind::filled, shell, shell, rings_[shell].positions.front()};
+    }
   }
 
   std::span<const io::LonLatRing> rings_;
-  std::vector<Index> parts_;                       // for each ring the number of its polygon
-  std::vector<bool> has_sides_;                    // true for each ring that has sides left
-  std::vector<std::optional<PlaneState>> around_;  // for each polygon the state around it
+  std::vector<Index> parts_;          // for each ring the number of its polygon
+  std::vector<bool> has_sides_;       // true for each ring that has sides left
+  std::vector<Index> first_ring_of_;  // for each polygon its shell
+  std::vector<bool> has_area_;        // true for each polygon that has an inside
+  std::vector<PlaneState> states_;    // the first one is outside of all rings
+  std::map<std::vector<Index>, Index> numbers_of_states_;  // by the rings
   std::vector<LonLat> corners_;
   std::vector<SweptSide> sides_;
   std::vector<Index> first_from_;  // for each corner a side that begins there

@@ -33,6 +33,7 @@ enum class PlaneFaultKind : std::uint8_t {
   // first ring.
   outside,
   no_area,  // all sides of the ring cancel
+  filled,   // the holes of the ring, a shell, leave nothing of it
 };
 
 // An invalid place of the rings.
@@ -52,7 +53,8 @@ struct PlaneRegion {
 // Returns the region of the polygons, given as rings: for each polygon its shell, then its holes.
 //
 // 1. A polygon is read by the even-odd rule: sides that occur twice in it cancel, and a ring may
-//    meet itself and other rings in points.
+//    meet itself and other rings in points. A hole may share sides
+//    with its shell or with another hole.
 // 2. Corners that lie on a side, exactly, divide it.
 // 3. Polygons may share sides, which cancel, but no area.
 PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings);

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
+  overlay_flips_test.cpp
   overlay_grid_test.cpp
   overlay_hostile_test.cpp
   overlay_inside_cases_test.cpp
