@@ -122,6 +122,9 @@ class FeatureCells {
     }
     for (const CrossingCells& pair : overlaps) {
       if (pair.first != pair.second) continue;
+      if (options_.edges == PolygonEdges::geodesic) {
+        refuse_geodesic_holes(features_, features[pair.first], quiet());
+      }
       refuse(features[pair.first],
              "the polygon crosses or overlaps itself at " + text_of_place(pair.place));
     }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "exact/vector.h"
@@ -66,14 +67,25 @@ class GeodesicCells {
   }
 
  private:
-  // Throws FileError if all sides of a ring cancel.
+  // Throws FileError if all sides of a ring cancel, or if it is on a line.
   void require_area(std::size_t feature, Index ring, std::size_t first_arc) const {
     const std::span<const KeyedArc> arcs = std::span(arcs_).subspan(first_arc);
-    if (!is_nothing(arcs)) return;
+    if (!is_nothing(arcs) && !is_on_one_line(arcs)) return;
     const std::vector<io::LonLatRing>& rings = features_.rings[feature];
     refuse_feature(features_, feature,
                    ring_name(rings, ring) + " runs to and fro along a line at " +
                        text_of_place(rings[ring].positions.front()));
+  }
+
+  // Returns whether a ring is on one great circle, exactly, and does not go around that.
+  static bool is_on_one_line(std::span<const KeyedArc> arcs) {
+    std::vector<Point> corners;
+    for (const KeyedArc& arc : arcs) {
+      if (orientation(arcs[0].from, arcs[0].to, arc.to) != Sign::zero) return false;
+      corners.push_back(arc.from);
+    }
+    constexpr double sphere = 4 * std::numbers::pi;
+    return std::abs(std::remainder(map::area_on_left(corners), sphere)) < 1;
   }
 
   // Finds the features that are the whole sphere. The sides that are left after cancelling bound a
@@ -189,6 +201,40 @@ class GeodesicCells {
 
 CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution) {
   return GeodesicCells(features, execution)();
+}
+
+void refuse_geodesic_holes(const io::PolygonFeatures& features, std::size_t feature,
+                           const Execution& execution) {
+  // One feature for each ring, as if it was no hole.
+  io::PolygonFeatures alone;
+  const std::vector<io::LonLatRing>& rings = features.rings[feature];
+  for (io::LonLatRing ring : rings) {
+    ring.is_hole = false;
+    alone.rings.push_back({std::move(ring)});
+  }
+  const std::vector<CrossingCells> overlaps =
+      overlapping_cells(geodesic_cells(alone, execution), execution);
+  const auto overlap = [&](Index a, Index b) {
+    return std::ranges::any_of(overlaps, [&](const CrossingCells& pair) {
+      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
+    });
+  };
+  Index shell = 0;
+  for (Index r = 0; r < rings.size(); ++r) {
+    if (!rings[r].is_hole) {
+      shell = r;
+      continue;
+    }
+    const auto refuse = [&](const std::string& where) {
+      refuse_feature(features, feature,
+                     ring_name(rings, r) + ", a hole, does not lie inside of its polygon" + where +
+                         " at " + text_of_place(rings[r].positions.front()));
+    };
+    if (!overlap(shell, r)) refuse("");
+    for (Index other = shell + 1; other < r; ++other) {
+      if (overlap(other, r)) refuse(" but in " + ring_name(rings, other));
+    }
+  }
 }
 
 }  // namespace rondel::overlay

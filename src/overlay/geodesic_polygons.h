@@ -19,4 +19,8 @@ namespace rondel::overlay {
 //    polygon, for parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution);
 
+// Throws FileError if a hole of the feature is outside of its polygon or in another hole.
+void refuse_geodesic_holes(const io::PolygonFeatures& features, std::size_t feature,
+                           const Execution& execution);
+
 }  // namespace rondel::overlay

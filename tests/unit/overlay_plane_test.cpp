@@ -366,6 +366,17 @@ TEST(overlay_plane, geodesic_parts_that_cancel_each_other) {
             "feature 0 (f0): ring 0 of part 0 runs to and fro along a line at 5 5");
   EXPECT_EQ(message({planar_polygon({box, {{12, 12}, {13, 15}, {14, 12}, {13, 15}}})}),
             "feature 0 (f0): ring 1 of part 0 runs to and fro along a line at 12 12");
+  // Over the pole and back, on one great circle; and all of it.
+  EXPECT_EQ(message({planar_polygon({{{0, 80}, {180, 80}, {180, 70}, {0, 70}}})}),
+            "feature 0 (f0): ring 0 of part 0 runs to and fro along a line at 0 80");
+  EXPECT_EQ(message({planar_polygon({{{0, 0}, {90, 0}, {180, 0}, {-90, 0}}})}), "");
+  EXPECT_EQ(
+      message({planar_polygon({box, planar_box(30, 30, 40, 40)})}),
+      "feature 0 (f0): ring 1 of part 0, a hole, does not lie inside of its polygon at 30 30");
+  EXPECT_EQ(
+      message({planar_polygon({box, planar_box(11, 11, 19, 19), planar_box(12, 12, 13, 13)})}),
+      "feature 0 (f0): ring 2 of part 0, a hole, does not lie inside of its polygon but in "
+      "ring 1 of part 0 at 12 12");
 }
 
 }  // namespace
