@@ -4,12 +4,12 @@
 #include "overlay/snapped_sides.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "exact/vector.h"
+#include "overlay/corner_tree.h"
 
 namespace rondel::overlay {
 namespace {
@@ -56,30 +56,29 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides, do
     corners.push_back(side.to);
     ends.push_back(ends_of(side));
   }
-  const auto make_unique = [](auto& values, const auto& key) {
-    std::ranges::sort(values, {}, key);
+  const auto make_unique = [](auto& values) {
+    std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
   };
-  make_unique(corners, [&](Index p) { return std::pair(points_[p].x, p); });
-  make_unique(ends, std::identity());
-  for (const auto& [low, high] : ends) {
+  make_unique(corners);
+  make_unique(ends);
+  const CornerTree tree(points_, std::move(corners));
+  for (const std::pair<Index, Index>& side : ends) {
+    const Index low = side.first;
+    const Index high = side.second;
     const Point& a = points_[low];
     const Point& b = points_[high];
     const Point step = b - a;
     // The arc is nearer to its chord than this.
     const double margin = dot(step, step) / 4 + distance_;
-    const auto x_of = [&](Index p) { return points_[p].x; };
-    const auto is_beside = [margin](double from, double to, double at) {
-      return at < std::min(from, to) - margin || at > std::max(from, to) + margin;
-    };
     if (is_nearly(a, b)) join(low, high);
-    const double end = std::max(a.x, b.x) + margin;
-    for (auto at = std::ranges::lower_bound(corners, std::min(a.x, b.x) - margin, {}, x_of);
-         at != corners.end() && x_of(*at) <= end; ++at) {
-      const Point& c = points_[*at];
-      if (is_beside(a.y, b.y, c.y) || is_beside(a.z, b.z, c.z)) continue;
-      if (*at != low && *at != high) take(low, high, *at);
-    }
+    const Point lowest = {std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin,
+                          std::min(a.z, b.z) - margin};
+    const Point highest = {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin,
+                           std::max(a.z, b.z) + margin};
+    tree.visit(lowest, highest, [&](Index corner) {
+      if (corner != low && corner != high) take(low, high, corner);
+    });
   }
   std::ranges::sort(passed_, {}, [](const PassedCorner& passed) {
     return std::tuple(passed.low, passed.high, passed.part, passed.corner);
