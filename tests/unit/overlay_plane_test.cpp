@@ -14,6 +14,7 @@
 #include "overlay_planar.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
+#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
@@ -237,6 +238,21 @@ TEST(overlay_plane, rings_are_read_even_odd) {
   EXPECT_NEAR(area_of({planar_polygon({planar_box(0, 0, 20, 20)}),
                        planar_polygon({planar_box(20, 5, 30, 10)})}),
               box + area_in_plane(planar_box(20, 5, 30, 10)), 1e-8);
+}
+
+// Long sides that are near to each other, with many corners.
+TEST(overlay_plane, a_comb_has_its_area) {
+  constexpr int num_teeth = 600;
+  RingInPlane comb = {{0, -1}};
+  for (int k = 0; k <= 2 * num_teeth; ++k) {
+    comb.push_back({50.0 * k / (2 * num_teeth), k % 2 == 0 ? 1.0 : 40.0});
+  }
+  comb.push_back({50, -1});
+  const CellRings cells = planar_table({{planar_polygon({comb})}}).cells;
+  const double area = area_in_plane(comb);
+  EXPECT_NEAR(areas(cells)[0], area, 1e-3 * area);
+  EXPECT_NEAR(Partition(cells).areas()[0], area, 1e-3 * area);
+  EXPECT_TRUE(crossing_cells(cells).empty());
 }
 
 TEST(overlay_plane, corners_of_one_neighbor_are_corners_of_both) {
