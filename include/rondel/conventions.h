@@ -114,9 +114,10 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 /// from the two bounds of each cell (n, 2), or are the bounds themselves (n + 1), or, without
 /// bounds, are half way between the coordinates.
 ///
-/// 1. Coordinates and bounds may ascend or descend, and the two bounds of a cell may be in either
-///    order. The lines have the order of the coordinates, even if bounds are given in reverse.
-/// 2. Longitudes may jump by multiples of 360 degrees. If the last longitude is the first one
+/// 1. Coordinates and bounds ascend or descend throughout, and the two bounds of a cell may be in
+///    either order. The lines have the order of the coordinates, even if bounds are given in reverse.
+/// 2. Longitudes may jump by multiples of 360 degrees; unless they ascend or descend as they are,
+///    each is at most 180 degrees from the one before it. If the last longitude is the first one
 ///    again, each of the two gets half of the cell.
 /// 3. Lines that go around the globe up to rounding are closed. Without bounds the first and the
 ///    last cell extend as far beyond their coordinate as before it, or to the pole if that is less
@@ -124,9 +125,10 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 ///
 /// \param values  the coordinates, in degrees
 /// \param bounds  in degrees, or empty
-/// \throws InvalidInput for less than two values without bounds, a number that is not finite (its
-///         index), another number of bounds, cells with a gap between them (the index of the second
-///         one), and a coordinate that is farther from the middle of its cell than three halves of
+/// \throws InvalidInput for less than two values without bounds, a number that is not finite, is out
+///         of order or repeats the one before it (its index), another number of bounds, cells with a
+///         gap between them or that overlap (the index of the second one), longitudes that go around
+///         the globe more than once, and a coordinate that is farther from the middle of its cell than three halves of
 ///         the cell's width (its index)
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Finds the lines between the cells of an axis. Coordinates that decrease are reversed before, and the lines are reversed after.
+#include "io/cf_lines.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "rondel/conventions.h"
 #include "rondel/error.h"
@@ -48,6 +51,44 @@ bool goes_west(const std::vector<double>& values) {
     num_west += std::remainder(values[i] - values[i - 1], 360) < 0 ? 1U : 0U;
   }
   return 2 * num_west > values.size() - 1;
+}
+
+// A place and its number, "latitude 2, -20,".
+std::string numbered(const std::string& name, std::size_t i, double value) {
+  return name + " " + std::to_string(i) + ", " + system::shortest_text(value) + ",";
+}
+
+// The steps from each value to the next one and their direction, 1 or -1. Longitudes that jump by turns go the shorter way around.
+std::pair<std::vector<double>, double> steps_of(std::span<const double> values, bool is_longitude) {
+  std::vector<double> steps;
+  std::size_t num_down = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    steps.push_back(values[i] - values[i - 1]);
+    num_down += steps.back() < 0 ? 1U : 0U;
+  }
+  const std::size_t n = steps.size();
+  const bool is_sorted =
+      std::ranges::all_of(steps, [&](double step) { return num_down == n ? step < 0 : step > 0; });
+  if (!is_longitude) return {steps, 2 * num_down > n ? -1.0 : 1.0};
+  const double sign = goes_west({values.begin(), values.end()}) ? -1 : 1;
+  for (double& step : steps) {
+    // What is sorted may have steps of more than half a turn.
+    const double shorter = std::remainder(step, 360);
+    step = is_sorted && shorter != 0 ? sign : std::abs(shorter) == 180 ? sign * 180 : shorter;
+  }
+  return {steps, sign};
+}
+
+// Longitudes in order, of which the last one may be the first one again.
+void require_one_turn_of_axis(std::span<const double> values, const std::vector<double>& unrolled,
+                              const std::string& name) {
+  const double most = 360 + rounding_share * std::abs(unrolled[1] - unrolled[0]);
+  for (std::size_t i = 1; i < unrolled.size(); ++i) {
+    if (std::abs(unrolled[i] - unrolled[0]) <= most) continue;
+    throw InvalidInput(numbered(name, i, values[i]) + " is more than once around the globe from " +
+                           name + " 0, " + system::shortest_text(values[0]),
+                       i);
+  }
 }
 
 std::vector<double> halves(const std::vector<double>& values) {
@@ -105,6 +146,15 @@ std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_l
   return cells;
 }
 
+[[noreturn]] void refuse_overlap(const std::vector<CellSides>& cells, std::size_t k,
+                                 std::size_t i) {
+  const auto text = [&](std::size_t cell) {
+    return std::to_string(cell) + ", " + system::shortest_text(cells[cell].low) + " to " +
+           system::shortest_text(cells[cell].high);
+  };
+  throw InvalidInput("bounds of cell " + text(i) + ", overlap those of cell " + text(k), i);
+}
+
 // The lines from the sides of cells, in the order of the cells. Throws InvalidInput if neighbors do not share one.
 std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitude) {
   const std::size_t n = cells.size();
@@ -118,7 +168,9 @@ std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitud
     const double begin = is_upward ? cells[i].low : cells[i].high;
     const double end = is_upward ? cells[i].high : cells[i].low;
     const double turns = is_longitude ? std::round((lines.back() - begin) / 360) * 360 : 0;
-    if (!(std::abs(begin + turns - lines.back()) <= rounding_share * std::abs(end - begin))) {
+    const double gap = begin + turns - lines.back();
+    if (!(std::abs(gap) <= rounding_share * std::abs(end - begin))) {
+      if (is_upward == (gap < 0)) refuse_overlap(cells, i - 1, i);
       throw InvalidInput("bounds leave a gap before cell " + std::to_string(i), i);
     }
     lines.push_back(end + turns);
@@ -126,10 +178,23 @@ std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitud
   return lines;
 }
 
+// The bounds of longitudes overlap where their lines go around the globe more than once.
+void require_one_turn_of_bounds(std::span<const double> bounds, const std::vector<double>& lines) {
+  const bool are_lines = bounds.size() == lines.size();
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 2; i < lines.size(); ++i) {
+    if (std::abs(lines[i] - lines[0]) <= 360 + rounding) continue;
+    if (!are_lines) refuse_overlap(sides_of_bounds(bounds, true), 0, i - 1);
+    throw InvalidInput("bounds of longitudes go around the globe more than once", i);
+  }
+}
+
 // Lines that are given may jump by whole turns, and may have the reverse order of the coordinates.
 std::vector<double> lines_as_given(std::span<const double> bounds, std::span<const double> values,
                                    bool is_longitude) {
   std::vector<double> lines(bounds.begin(), bounds.end());
+  const std::string name = is_longitude ? "bound of longitudes" : "bound of latitudes";
+  io::require_order(bounds, is_longitude, name);
   if (is_longitude) unroll(lines, goes_west(lines) ? -1 : 1);
   const bool is_upward = lines.back() > lines.front();
   if (is_upward != (values.back() > values.front())) std::ranges::reverse(lines);
@@ -162,12 +227,27 @@ void end_before_poles(std::vector<double>& lines) {
 
 }  // namespace
 
+void io::require_order(std::span<const double> values, bool is_longitude, const std::string& name) {
+  const auto [steps, sign] = steps_of(values, is_longitude);
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double step = steps[i - 1] * sign;
+    if (step > 0 || std::isnan(step)) continue;
+    const char* const direction =
+        is_longitude ? (sign > 0 ? "east" : "west") : (sign > 0 ? "north" : "south");
+    const std::string why = step == 0 ? " repeats " : std::string(" is not ") + direction + " of ";
+    throw InvalidInput(numbered(name, i, values[i]) + why + numbered(name, i - 1, values[i - 1]) +
+                           " but an axis of cells must increase or decrease throughout",
+                       i);
+  }
+}
+
 std::vector<double> axis_lines(std::span<const double> values, std::span<const double> bounds,
                                bool is_longitude) {
   const system::ArithmeticScope arithmetic;
   const std::string name = is_longitude ? "longitude" : "latitude";
   require_finite_axis(values, name);
   require_finite_axis(bounds, is_longitude ? "bound of longitudes" : "bound of latitudes");
+  io::require_order(values, is_longitude, name);
   std::vector<double> unrolled(values.begin(), values.end());
   if (is_longitude && !values.empty()) unroll(unrolled, goes_west(unrolled) ? -1 : 1);
   std::vector<double> lines;
@@ -186,11 +266,13 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
     if (n < 2) {
       throw InvalidInput("one " + name + " without bounds has no width", 0);
     }
+    if (is_longitude) require_one_turn_of_axis(values, unrolled, name);
     lines = halves(unrolled);
     if (!is_longitude) end_at_poles(lines);
   }
   if (!is_longitude) end_before_poles(lines);
   if (is_longitude && lines.size() > 2) close_circle(lines, unrolled.front(), unrolled.back());
+  if (is_longitude && !bounds.empty()) require_one_turn_of_bounds(bounds, lines);
   return lines;
 }
 

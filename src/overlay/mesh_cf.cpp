@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/cf_lines.h"
 #include "io/cf_reader.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
@@ -172,12 +173,20 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
                              bool is_longitude) {
   const std::vector<double> values =
       io::degrees_of(file, axis, UsualUnits::of_name, {bounds, &other});
+  const auto refuse = [](const MeshVariable& variable, const InvalidInput& error) {
+    throw BadValue("variable " + io::in_quotes(variable.name) + ": " + error.what());
+  };
+  try {
+    io::require_order(values, is_longitude, is_longitude ? "longitude" : "latitude");
+  } catch (const InvalidInput& error) {
+    refuse(axis, error);
+  }
   try {
     return axis_lines(values, bounds_of_axis(file, axis, other, bounds), is_longitude);
   } catch (const InvalidInput& error) {
-    const std::string name = io::in_quotes(bounds == nullptr ? axis.name : bounds->name);
-    throw BadValue("variable " + name + ": " + error.what());
+    refuse(bounds == nullptr ? axis : *bounds, error);
   }
+  return {};
 }
 
 // Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/bad_value.h"
@@ -189,6 +190,72 @@ TEST(conventions, lines_of_latitudes) {
   EXPECT_EQ(lines({5, -5}, {0, 10, -10, 0}), (Doubles{10, 0, -10}));
   // These lines were rounded to single precision as radians.
   EXPECT_EQ(lines({0}, {-90.0000025, 90.0000025}), (Doubles{-90, 90}));
+}
+
+// What axis_lines() says of an axis, and the index.
+std::pair<std::string, std::size_t> refusal_of_axis(const Doubles& values, const Doubles& bounds,
+                                                    bool is_longitude) {
+  try {
+    (void)axis_lines(values, bounds, is_longitude);
+  } catch (const InvalidInput& error) {
+    return {error.what(), error.index()};
+  }
+  return {};
+}
+
+TEST(conventions, axes_of_cells_are_in_order) {
+  const std::string throughout = ", but an axis of cells must increase or decrease throughout";
+  using Refusal = std::pair<std::string, std::size_t>;
+  const auto latitudes = [](const Doubles& values, const Doubles& bounds = {}) {
+    return refusal_of_axis(values, bounds, false);
+  };
+  const auto longitudes = [](const Doubles& values, const Doubles& bounds = {}) {
+    return refusal_of_axis(values, bounds, true);
+  };
+  EXPECT_EQ(latitudes({-50, 10, -10, 50}),
+            Refusal("latitude 2, -10, is not north of latitude 1, 10" + throughout, 2));
+  EXPECT_EQ(latitudes({50, -10, 10, -50}),
+            Refusal("latitude 2, 10, is not south of latitude 1, -10" + throughout, 2));
+  EXPECT_EQ(latitudes({-50, -10, -10, 50}),
+            Refusal("latitude 2, -10, repeats latitude 1, -10" + throughout, 2));
+  EXPECT_EQ(latitudes({7, 7}), Refusal("latitude 1, 7, repeats latitude 0, 7" + throughout, 1));
+  // Also where bounds are in order, or are lines that are not.
+  EXPECT_EQ(latitudes({-30, 10, -10, 30}, {-40, -20, -20, 0, 0, 20, 20, 40}).second, 2U);
+  EXPECT_EQ(
+      latitudes({-10, 0, 10}, {-15, 5, -5, 15}),
+      Refusal("bound of latitudes 2, -5, is not north of bound of latitudes 1, 5" + throughout, 2));
+  EXPECT_EQ(longitudes({0, 100, 50, 150}),
+            Refusal("longitude 2, 50, is not east of longitude 1, 100" + throughout, 2));
+  EXPECT_EQ(longitudes({20, 10, 15}).second, 1U);
+  EXPECT_EQ(longitudes({0, 60, 60, 120}),
+            Refusal("longitude 2, 60, repeats longitude 1, 60" + throughout, 2));
+  EXPECT_EQ(longitudes({350, 355, -5, 0}).second, 2U);
+  EXPECT_EQ(longitudes({0, 360}).second, 1U);
+  EXPECT_EQ(longitudes({10, 0, -10, -5}),
+            Refusal("longitude 3, -5, is not west of longitude 2, -10" + throughout, 3));
+  EXPECT_EQ(longitudes({0, 150, 300, 90}),
+            Refusal("longitude 3, 90, is more than once around the globe from longitude 0, 0", 3));
+  EXPECT_EQ(longitudes({0, 100, 200}, {-50, 50, 40, 150}).second, 2U);
+  // Steps of half a turn and more, and ends that meet, are in order.
+  for (const Doubles& right : {Doubles{-90, 90, -90}, Doubles{0, 200}, Doubles{0, 1, 300},
+                               Doubles{0, 120, 240, 0}, Doubles{170, -170, -150}}) {
+    EXPECT_EQ(longitudes(right), Refusal()) << right[0] << ' ' << right[1];
+  }
+}
+
+TEST(conventions, bounds_that_overlap_say_so) {
+  EXPECT_EQ(refusal_of_axis({-45, 40}, {-90, 0, -10, 90}, false).first,
+            "bounds of cell 1, -10 to 90, overlap those of cell 0, -90 to 0");
+  EXPECT_EQ(refusal_of_axis({45, -40}, {0, 90, -90, 10}, false).first,
+            "bounds of cell 1, -90 to 10, overlap those of cell 0, 0 to 90");
+  EXPECT_EQ(refusal_of_axis({100, 270}, {0, 200, 180, 360}, true).first,
+            "bounds of cell 1, 180 to 360, overlap those of cell 0, 0 to 200");
+  EXPECT_EQ(refusal_of_axis({5, 14}, {0, 10, 8, 20}, true).first,
+            "bounds of cell 1, 8 to 20, overlap those of cell 0, 0 to 10");
+  EXPECT_EQ(refusal_of_axis({5, 16}, {0, 10, 12, 20}, true).first,
+            "bounds leave a gap before cell 1");
+  EXPECT_EQ(refusal_of_axis({60, 180, 300}, {0, 120, 240, 400}, true).first,
+            "bounds of longitudes go around the globe more than once");
 }
 
 TEST(conventions, places_repeat_along_time) {

@@ -438,6 +438,16 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
             }),
             "variable \"lon_bnds\": bounds leave a gap before cell 1");
   EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1, 2}, {-10, 5, 0, 10});
+            }),
+            "variable \"lat\": latitude 2, 0, is not north of latitude 1, 5, but an axis of cells "
+            "must increase or decrease throughout");
+  EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1, 1}, {2, 3}, {0, 1, 1, 2});
+            }),
+            "variable \"lon\": longitude 1, 1, repeats longitude 0, 1, but an axis of cells must "
+            "increase or decrease throughout");
+  EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, NAN}, {2, 3});
             }),
             "variable \"lon\": longitude 1 is not finite");
