@@ -15,7 +15,7 @@
 namespace rondel::cli {
 namespace {
 
-// How far a place in netCDF may be from its source: longitudes of floats are off by up to 8e-6 degrees.
+// How far a place may be from its source: longitudes of floats are off by up to 8e-6 degrees, tables have few digits.
 constexpr double most_apart_deg = 1e-4;
 constexpr double most_apart = most_apart_deg * std::numbers::pi / 180;
 
@@ -26,21 +26,33 @@ bool is_near(const Point& a, const Point& b) {
   return x * x + y * y + z * z <= most_apart * most_apart;
 }
 
-// Values that have places must have those of the weights. Tables must have the very numbers, if the
-// hash of the sources is known.
+// Values that have places must have those of the weights; tables the very numbers, if the file has nothing but their hash.
 void require_places(const ApplyCommandOptions& options, const WeightFile& file,
-                    const std::vector<Point>& places, bool is_exact) {
+                    const std::vector<Point>& places, bool is_table) {
   const std::uint64_t hash = file.weights.sites_hash;
   if (hash != 0 && point_set_hash(places) == hash) return;
-  if (hash == 0 || !is_exact) {
-    const std::vector<LonLat>& sources = file.source.points;
-    const auto is_place = [](const LonLat& place) { return std::abs(place.lat_deg) <= 90; };
-    if (sources.size() != places.size() || !std::ranges::all_of(sources, is_place)) return;
+  const std::vector<LonLat>& sources = file.source.points;
+  const auto is_place = [](const LonLat& place) { return std::abs(place.lat_deg) <= 90; };
+  if (sources.size() == places.size() && std::ranges::all_of(sources, is_place)) {
     // Of a table the points may be anywhere on their rays.
     if (std::ranges::equal(unit_vectors(lonlats(places)), unit_vectors(sources), is_near)) return;
+  } else if (hash == 0 || !is_table) {
+    return;
   }
   throw FileError(options.values_file + ": its points are not the sources of " +
                   options.common.input + ", or not in this order");
+}
+
+// The weights of a file, if apply() takes them.
+WeightFile readable_weights(const CommonOptions& common) {
+  WeightFile file = read_weights(common.source());
+  tell(common.input, file.remarks);
+  try {
+    apply(file.weights, {}, {}, 0);
+  } catch (const InvalidInput& error) {
+    throw FileError(common.input + ": " + error.what());
+  }
+  return file;
 }
 
 bool are_columns_named(const ReadOptions& read) {
@@ -109,7 +121,7 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   const CommonOptions& common = options.common;
   require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   Job job(common);
-  const WeightFile file = read_weights(common.source());
+  const WeightFile file = readable_weights(common);
   const Weights& weights = file.weights;
   if (is_table(options.values_file)) {
     require_places_of_table(options, file);

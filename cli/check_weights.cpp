@@ -88,6 +88,7 @@ ExitStatus run_check_weights(const CheckWeightsOptions& options) {
   const CommonOptions& common = options.common;
   Job job(common);
   const WeightFile file = read_weights(common.source());
+  tell(common.input, file.remarks);
   const WeightReport report = check_weights(file, options.check);
   std::string summary = summary_of(file, report);
   for (const WeightFault& fault : report.faults) summary += "wrong: " + fault.what + '\n';

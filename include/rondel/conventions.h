@@ -128,8 +128,8 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 /// \throws InvalidInput for less than two values without bounds, a number that is not finite, is out
 ///         of order or repeats the one before it (its index), another number of bounds, cells with a
 ///         gap between them or that overlap (the index of the second one), longitudes that go around
-///         the globe more than once, and a coordinate that is farther from the middle of its cell than three halves of
-///         the cell's width (its index)
+///         the globe more than once, and a coordinate that is farther from the middle of its cell
+///         than three halves of the cell's width (its index)
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);
 

@@ -39,6 +39,7 @@ struct WeightFile {
   WeightSide target;
   std::string method;         ///< "sibson", "Conservative remapping" ...
   std::string normalization;  ///< "destarea", "fracarea", "none"; "none" for weights of points
+  std::vector<std::string> remarks;  ///< what read_weights() changed, one line each
 };
 
 /// Writes a file. Equal content gives equal bytes.
@@ -63,6 +64,11 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
 /// format it is. Entries may have any order: they are sorted into rows, and keep the order of the
 /// file within a row. Areas and fractions that are all 0, masks that are all 1, and cells of one
 /// corner are read as empty arrays.
+///
+/// Conservative weights of SCRIP with the normalization "none" are areas: they are divided by the
+/// areas of the targets and get the normalization "destarea", as WeightFile::remarks says. Files of
+/// write_weights() hold means, whatever their normalization is.
+/// \throws FileError also if a target of such weights has no area in the file.
 RONDEL_API WeightFile read_weights(const FileName& file);
 
 /// Returns the longitudes and latitudes of the rays from the origin through points; longitude 0 at

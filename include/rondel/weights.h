@@ -55,7 +55,7 @@ struct ApplyOptions {
 /// \param in  shape (num_fields, num_columns)
 /// \param out  shape (num_fields, num_rows())
 /// \throws InvalidInput if a length is not as described, the weights are not in compressed rows
-///         (first bad position), or `most_missing` is not in [0, 1].
+///         or not finite (first bad position), or `most_missing` is not in [0, 1].
 RONDEL_API void apply(const Weights& weights, std::span<const double> in, std::span<double> out,
                       std::size_t num_fields = 1, const ApplyOptions& options = {},
                       const Execution& execution = {});

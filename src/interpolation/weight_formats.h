@@ -71,6 +71,8 @@ io::NetcdfVariable variable(
 // The attributes that say what nobody else's file does: hashes and the method.
 void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content);
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content);
+// Whether the file says the method as this library writes it.
+bool has_own_method(const io::NetcdfReader& file);
 
 // What a netCDF file says of a side: the names of the variables.
 struct SideNames {

@@ -3,6 +3,7 @@
 
 #include "rondel/weights.h"
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -63,6 +64,21 @@ void require_rows(const Weights& weights) {
   }
 }
 
+void require_finite_weights(const Weights& weights) {
+  for (std::size_t k = 0; k < weights.values.size(); ++k) {
+    if (std::isfinite(weights.values[k])) continue;
+    throw InvalidInput(
+        "weight " + std::to_string(k) + " is " + system::shortest_text(weights.values[k]), k);
+  }
+}
+
+bool are_finite(const Weights& weights, std::size_t row) {
+  for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
+    if (!std::isfinite(weights.values[k])) return false;
+  }
+  return true;
+}
+
 // The sum over a row of which some values may be missing, or in which it goes beyond the largest number and comes back.
 double sum_of_present(const Weights& weights, std::size_t row, const double* in,
                       const ApplyOptions& options) {
@@ -92,8 +108,10 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
   return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
 }
 
-void apply_rows(const Weights& weights, std::size_t begin, std::size_t end, const double* in,
+// False if a weight is not finite, of which no sum is.
+bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end, const double* in,
                 double* out, const ApplyOptions& options) {
+  bool is_right = true;
   const std::size_t num_entries = weights.columns.size();
   for (std::size_t r = begin; r < end; ++r) {
     std::uint64_t k = weights.offsets[r];
@@ -108,8 +126,13 @@ void apply_rows(const Weights& weights, std::size_t begin, std::size_t end, cons
       if (ahead < num_entries) system::prefetch(&in[weights.columns[ahead]]);
       sum += weights.values[k] * in[weights.columns[k]];
     }
-    out[r] = std::isfinite(sum) ? sum : sum_of_present(weights, r, in, options);
+    if (!std::isfinite(sum)) {
+      is_right = is_right && are_finite(weights, r);
+      sum = sum_of_present(weights, r, in, options);
+    }
+    out[r] = sum;
   }
+  return is_right;
 }
 
 }  // namespace
@@ -131,14 +154,19 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
     throw InvalidInput("most_missing is " + system::shortest_text(options.most_missing) +
                        ", not in [0, 1]");
   }
+  if (num_fields == 0) require_finite_weights(weights);
+  std::atomic<bool> are_right = true;
   // All fields of some rows, as long as these rows are in the cache.
   system::parallel_for(execution.threads, weights.num_rows(), rows_per_piece,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t f = 0; f < num_fields; ++f) {
-                           apply_rows(weights, begin, end, in.data() + f * weights.num_columns,
-                                      out.data() + f * weights.num_rows(), options);
+                           if (!apply_rows(weights, begin, end, in.data() + f * weights.num_columns,
+                                           out.data() + f * weights.num_rows(), options)) {
+                             are_right = false;
+                           }
                          }
                        });
+  if (!are_right) require_finite_weights(weights);
 }
 
 }  // namespace rondel

@@ -159,6 +159,10 @@ void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content) {
   add_table(out, target_table_name, content.target);
 }
 
+bool has_own_method(const io::NetcdfReader& file) {
+  return !io::netcdf_text(file.attributes(), method_name).empty();
+}
+
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   content.weights.sites_hash = hash_of(file, source_hash_name);
   content.weights.targets_hash = hash_of(file, target_hash_name);

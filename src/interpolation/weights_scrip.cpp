@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Weights as SCRIP wrote them (Jones 1999), one weight a link: what CDO reads.
+#include <cmath>
 #include <string>
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
 #include "io/cf_reader.h"
+#include "system/shortest_text.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -27,6 +29,35 @@ std::string known_method(const std::string& method) {
   }
   return method == "conservative" ? "Conservative remapping"
                                   : "Distance weighted avg of nearest neighbors";
+}
+
+// SCRIP's weights of the normalization "none" are the areas of the pieces (Jones, SCRIP Users' Guide 1.5, sections 2.2.3 and 3).
+void divide_by_areas(const io::NetcdfReader& file, WeightFile& content) {
+  const bool is_conservative = content.method.find("onserv") != std::string::npos;
+  if (!is_conservative || content.normalization != "none" || has_own_method(file)) return;
+  const std::string area = names_of("dst").area;
+  const std::vector<double>& areas = content.target.areas;
+  Weights& weights = content.weights;
+  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
+    if (weights.offsets[r] == weights.offsets[r + 1]) continue;
+    const double divisor = areas.empty() ? 0 : areas[r];
+    if (!(divisor > 0 && std::isfinite(divisor))) {
+      throw io::BadValue("the normalization is \"none\", so remap_matrix has areas, but " +
+                         (areas.empty()
+                              ? "there are no areas of targets, " + area + ","
+                              : "the area of target " + std::to_string(r) + " in " + area + " is " +
+                                    system::shortest_text(divisor) + ",") +
+                         " to divide them by");
+    }
+    for (std::uint64_t k = weights.offsets[r]; k < weights.offsets[r + 1]; ++k) {
+      weights.values[k] /= divisor;
+    }
+  }
+  content.normalization = "destarea";
+  content.remarks.push_back(
+      "the normalization is \"none\": its weights, which are areas, are divided by those of the "
+      "targets, " +
+      area);
 }
 
 }  // namespace
@@ -93,6 +124,7 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
                                     file.integers(file.require("src_address")),
                                     io::meant_numbers(file, matrix), num_targets, num_sources);
   read_own_attributes(file, content);
+  divide_by_areas(file, content);
   return content;
 }
 

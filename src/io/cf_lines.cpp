@@ -59,7 +59,8 @@ std::string numbered(const std::string& name, std::size_t i, double value) {
 }
 
 // The steps from each value to the next one and their direction, 1 or -1. Longitudes that jump by turns go the shorter way around.
-std::pair<std::vector<double>, double> steps_of(std::span<const double> values, bool is_longitude) {
+std::pair<std::vector<double>, double> steps_along_axis(std::span<const double> values,
+                                                        bool is_longitude) {
   std::vector<double> steps;
   std::size_t num_down = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -228,7 +229,7 @@ void end_before_poles(std::vector<double>& lines) {
 }  // namespace
 
 void io::require_order(std::span<const double> values, bool is_longitude, const std::string& name) {
-  const auto [steps, sign] = steps_of(values, is_longitude);
+  const auto [steps, sign] = steps_along_axis(values, is_longitude);
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double step = steps[i - 1] * sign;
     if (step > 0 || std::isnan(step)) continue;

@@ -121,6 +121,70 @@ class Meaning(unittest.TestCase):
         for name in ("histogram", "table"):
             self.run_tool("apply", "w.nc", f"grid.nc:{name}", "-o", "n.csv", status=1)
 
+    def test_weights_that_are_not_finite_are_refused(self):
+        self.grid()
+        for bad in (np.inf, np.nan):
+            self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+            with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
+                weights["S"][1] = bad
+            said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
+            self.assertEqual(said, f"rondel: w.nc: weight 1 is {bad}\n")
+            self.assertFalse(list(self.folder.glob("n.*")))
+
+    def test_areas_of_scrip_are_divided_by_those_of_targets(self):
+        self.grid()
+        self.run_tool("remap", "grid.nc", "grid:60", "--format", "scrip", "-o", "w.nc")
+        self.run_tool("apply", "w.nc", "grid.nc", "-o", "right.csv")
+        with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
+            weights.delncattr("rondel_method")
+            weights.normalization = "none"
+            rows = weights["dst_address"][:] - 1
+            weights["remap_matrix"][:, 0] *= weights["dst_grid_area"][:][rows]
+        said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "o.csv")
+        self.assertIn('w.nc: the normalization is "none": its weights, which are areas,', said)
+        right, found = (
+            np.loadtxt(self.folder / name, delimiter=",", skiprows=1)
+            for name in ("right.csv", "o.csv")
+        )
+        np.testing.assert_allclose(found, right, rtol=1e-14)
+        self.assertIn("divided by those of the targets", self.run_tool("check-weights", "w.nc"))
+        with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
+            weights["dst_grid_area"][:] = 0
+        said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
+        self.assertIn("there are no areas of targets, dst_grid_area, to divide them by", said)
+
+    def test_axes_of_cells_are_in_order(self):
+        for name, lon, lat, reason in (
+            ("lat", LON, LAT[[0, 2, 1, 3]], "latitude 2, -60, is not north of latitude 1, -40,"),
+            ("lat", LON, LAT[[0, 1, 1, 3]], "latitude 2, -60, repeats latitude 1, -60,"),
+            ("lon", LON[[0, 2, 1, 3]], LAT, "longitude 2, -150, is not east of longitude 1, -130,"),
+            ("lon", LON[[0, 1, 1, 3]], LAT, "longitude 2, -150, repeats longitude 1, -150,"),
+        ):
+            data = self.new("wrong.nc")
+            add_axes(data, lon, lat)
+            add(data, "v", ("lat", "lon"), np.ones((len(lat), len(lon))))
+            data.close()
+            for sides in (("wrong.nc", "grid:60"), ("grid:60", "wrong.nc")):
+                with self.subTest(f"{reason} {sides}"):
+                    said = self.run_tool("remap", *sides, "-o", "n.nc", status=1)
+                    self.assertIn(f'wrong.nc: variable "{name}": {reason}', said)
+                    self.assertFalse(list(self.folder.glob("n.*")))
+
+    def test_tables_may_be_off_by_what_they_round(self):
+        text = "lon,lat,v\n" + "".join(
+            f"{30 * i + 0.123456789},{10 * (i % 5) + 0.987654321},{i}\n" for i in range(12)
+        )
+        (self.folder / "s.csv").write_text(text)
+        self.run_tool("interpolate", "s.csv", "--to", "to.csv", "--weights", "w.nc")
+        self.run_tool("apply", "w.nc", "s.csv", "--value", "v", "-o", "right.csv")
+        rounded = text.replace("123456789", "12346").replace("987654321", "98765")
+        (self.folder / "rounded.csv").write_text(rounded)
+        self.run_tool("apply", "w.nc", "rounded.csv", "--value", "v", "-o", "o.csv")
+        self.assertEqual(self.table("o.csv"), self.table("right.csv"))
+        (self.folder / "far.csv").write_text(text.replace("123456789", "1237"))
+        said = self.run_tool("apply", "w.nc", "far.csv", "--value", "v", "-o", "n.csv", status=1)
+        self.assertIn("far.csv: its points are not the sources of w.nc", said)
+
     def test_fill_is_said_and_counted(self):
         self.grid()
         self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")

@@ -131,8 +131,18 @@ void test(std::string_view bytes) {
     const WeightFile file = read_weights(path);
     const std::vector<double> in(file.weights.num_columns < 1000 ? file.weights.num_columns : 0);
     std::vector<double> out(file.weights.num_rows());
-    if (in.size() == file.weights.num_columns) apply(file.weights, in, out);
+    const bool are_finite =
+        std::ranges::all_of(file.weights.values, [](double value) { return std::isfinite(value); });
+    try {
+      if (in.size() == file.weights.num_columns) {
+        apply(file.weights, in, out);
+        require(are_finite, "weights that are no numbers are refused");
+      }
+    } catch (const InvalidInput&) {
+      require(!are_finite, "weights of a file are applied");
+    }
     if (file.weights.num_columns < 100'000) test_faults(file);
+    if (!are_finite) return;
     const std::string again = folder.file("again.nc");
     if (file.weights.num_columns == 0 || file.weights.num_rows() == 0) return;
     write_weights(again, file);

@@ -65,6 +65,24 @@ TEST(interpolation_weights, infinite_values_are_values) {
   EXPECT_EQ(applied({infinity, 0, 0, 0})[2], infinity);
 }
 
+TEST(interpolation_weights, that_are_not_finite_are_refused) {
+  for (const double bad : {infinity, -infinity, nan}) {
+    const Weights weights = {
+        .offsets = {0, 2, 3}, .columns = {0, 1, 1}, .values = {0.5, 0.5, bad}, .num_columns = 2};
+    std::vector<double> out(4);
+    for (const std::size_t num_fields : {0U, 1U, 2U}) {
+      const std::vector<double> in(2 * num_fields, 0.0);
+      try {
+        apply(weights, in, std::span(out).first(2 * num_fields), num_fields);
+        FAIL() << bad;
+      } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.index(), 2U);
+        EXPECT_EQ(std::string(error.what()).substr(0, 12), "weight 2 is ");
+      }
+    }
+  }
+}
+
 TEST(interpolation_weights, sums_beyond_the_largest_number_come_back) {
   const Weights steep = {
       .offsets = {0, 3}, .columns = {0, 1, 2}, .values = {3, -2.5, 0.5}, .num_columns = 3};

@@ -287,6 +287,69 @@ TEST(weight_files, of_scrip_with_gradients_are_refused) {
       << message_with(3);
 }
 
+// Conservative weights as SCRIP has them, whose values are areas of pieces.
+struct ScripAreas {
+  std::string normalization = "none";
+  std::string method = "Conservative remapping";
+  std::vector<double> areas = {0.5, 0.25, 0.125};  // none: no variable
+};
+
+WeightFile read_areas(const TemporaryDirectory& directory, const ScripAreas& wanted) {
+  MeshWriter file;
+  if (!wanted.normalization.empty()) file.add_attribute("normalization", wanted.normalization);
+  file.add_attribute("map_method", wanted.method);
+  file.add("src_grid_area", {{"src_grid_size", 2}}, {0.375, 0.25});
+  file.add("dst_grid_frac", {{"dst_grid_size", 3}}, {0, 0, 0});
+  if (!wanted.areas.empty()) file.add("dst_grid_area", {{"dst_grid_size", 3}}, wanted.areas);
+  file.add_whole("src_address", {{"num_links", 3}}, {1, 2, 2});
+  file.add_whole("dst_address", {{"num_links", 3}}, {1, 1, 2});
+  file.add("remap_matrix", {{"num_links", 3}, {"num_wgts", 1}}, {0.375, 0.125, 0.125});
+  file.write(directory.file("w.nc"));
+  return read_weights(directory.file("w.nc"));
+}
+
+TEST(weight_files, of_scrip_that_are_areas_are_divided_by_those_of_targets) {
+  const TemporaryDirectory directory;
+  const std::vector<double> as_written = {0.375, 0.125, 0.125};
+  const WeightFile divided = read_areas(directory, {});
+  EXPECT_EQ(divided.weights.values, (std::vector<double>{0.75, 0.25, 0.5}));
+  EXPECT_EQ(divided.normalization, "destarea");
+  ASSERT_EQ(divided.remarks.size(), 1U);
+  EXPECT_NE(divided.remarks[0].find("dst_grid_area"), std::string::npos);
+  EXPECT_TRUE(check_weights(divided).faults.empty());
+  // What is a mean already stays: other normalizations and methods, and none at all.
+  for (const ScripAreas& other :
+       {ScripAreas{.normalization = "destarea"}, ScripAreas{.normalization = "fracarea"},
+        ScripAreas{.normalization = ""}, ScripAreas{.method = "Bilinear remapping"}}) {
+    const WeightFile read = read_areas(directory, other);
+    EXPECT_EQ(read.weights.values, as_written) << other.normalization << other.method;
+    EXPECT_EQ(read.normalization, other.normalization);
+    EXPECT_TRUE(read.remarks.empty());
+  }
+  // A target without entries needs no area.
+  EXPECT_EQ(read_areas(directory, {.areas = {0.5, 0.25, 0}}).weights.values[2], 0.5);
+  EXPECT_NE(message_of([&] {
+              (void)read_areas(directory, {.areas = {0.5, 0, 1}});
+            }).find("the area of target 1 in dst_grid_area is 0, to divide them by"),
+            std::string::npos);
+  for (const std::vector<double>& missing : {std::vector<double>{}, std::vector<double>(3, 0.0)}) {
+    EXPECT_NE(message_of([&] {
+                (void)read_areas(directory, {.areas = missing});
+              }).find("there are no areas of targets, dst_grid_area, to divide them by"),
+              std::string::npos);
+  }
+}
+
+TEST(weight_files, of_scrip_with_a_method_of_this_library_are_means) {
+  const TemporaryDirectory directory;
+  WeightFile content = example();
+  content.method = "conservative";
+  write_weights(FileName(directory.file("w.nc"), "scrip"), content);
+  const WeightFile read = read_weights(directory.file("w.nc"));
+  EXPECT_EQ(read.weights.values, content.weights.values);
+  EXPECT_TRUE(read.remarks.empty());
+}
+
 // Packed weights are meant unpacked, and coordinates without units are in those of the others.
 TEST(weight_files, have_the_numbers_that_their_attributes_mean) {
   const TemporaryDirectory directory;

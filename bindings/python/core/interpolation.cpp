@@ -104,6 +104,13 @@ void add_weights(nb::module_& module) {
       .def_ro("num_columns", &Weights::num_columns)
       .def_ro("sites_hash", &Weights::sites_hash)
       .def_ro("targets_hash", &Weights::targets_hash)
+      .def(
+          "know_places",  // of weights that nobody has yet
+          [](Weights& self, std::uint64_t sites, std::uint64_t targets) {
+            if (self.sites_hash == 0) self.sites_hash = sites;
+            if (self.targets_hash == 0) self.targets_hash = targets;
+          },
+          nb::arg("sites_hash"), nb::arg("targets_hash"))
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
            nb::arg("most_missing"), nb::arg("threads"));
 }

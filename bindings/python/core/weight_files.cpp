@@ -46,6 +46,13 @@ WeightSide side_of(const SideIn& in) {
   return side;
 }
 
+// The mask, empty where all take part, the centers in degrees, and the corners of each, those of a cell one after the other.
+nb::tuple side_out(WeightSide& side) {
+  return nb::make_tuple(to_array<std::int32_t>(std::move(side.mask)),
+                        to_array<double>(std::move(side.points)),
+                        to_array<double>(std::move(side.corners)));
+}
+
 }  // namespace
 
 void add_weight_files(nb::module_& module) {
@@ -59,7 +66,8 @@ void add_weight_files(nb::module_& module) {
                                    .source = side_of(source),
                                    .target = side_of(target),
                                    .method = method,
-                                   .normalization = normalization};
+                                   .normalization = normalization,
+                                   .remarks = {}};
           write_weights({path, format}, content);
           return 0;
         });
@@ -68,16 +76,18 @@ void add_weight_files(nb::module_& module) {
       nb::arg("method"), nb::arg("normalization"));
   module.def(
       "read_weights",
-      [](const std::string& path) { return unlocked([&] { return read_weights(path).weights; }); },
+      [](const std::string& path) {
+        WeightFile file = unlocked([&] { return read_weights(path); });
+        return std::tuple(std::move(file.weights), std::move(file.remarks));
+      },
       nb::arg("path"));
-  // The weights, the method and its normalization, and the masks of sources and targets, empty where all take part.
+  // The weights, the method and its normalization, what the reader remarks, and what the file says of sources and targets.
   module.def(
       "read_weight_file",
       [](const std::string& path) {
         WeightFile file = unlocked([&] { return read_weights(path); });
-        return std::tuple(std::move(file.weights), file.method, file.normalization,
-                          to_array<std::int32_t>(std::move(file.source.mask)),
-                          to_array<std::int32_t>(std::move(file.target.mask)));
+        return std::tuple(std::move(file.weights), file.method, file.normalization, file.remarks,
+                          side_out(file.source), side_out(file.target));
       },
       nb::arg("path"));
 }

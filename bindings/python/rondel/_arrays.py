@@ -35,7 +35,7 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         raise TypeError(f"{name} must be real numbers, not geometries{hint}")
     array = np.asarray(values)
     if array.dtype.kind not in "biufO":
-        raise TypeError(f"{name} must be real numbers, not {_in_words(array)}")
+        raise TypeError(f"{name} must be real numbers, not {in_words(array)}")
     try:
         return np.require(array, np.float64, ["C", "A"])
     except (TypeError, ValueError) as error:
@@ -68,13 +68,15 @@ def as_mask(values: Any, name: str) -> BoolArray:
                 raise TypeError(f"{name} must be numbers or booleans, not {type(value).__name__}")
         array = array.astype(np.float64)
     if array.dtype.kind not in "biuf":
-        raise TypeError(f"{name} must be numbers or booleans, not {_in_words(array)}")
+        raise TypeError(f"{name} must be numbers or booleans, not {in_words(array)}")
     if array.dtype.kind == "f":
         missing = missing | np.isnan(array)
     return (array != 0) & ~missing
 
 
-def _in_words(array: npt.NDArray[Any]) -> str:
+def in_words(array: npt.NDArray[Any]) -> str:
+    if array.dtype.kind == "O" and any(isinstance(value, str) for value in array.flat):
+        return "text"
     words = {"U": "text", "S": "bytes", "T": "text", "c": "complex numbers", "M": "times"}
     return words.get(array.dtype.kind, str(array.dtype))
 
@@ -249,16 +251,26 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
 
 
 def unmasked(values: Any) -> Any:
-    """The same, where numbers are masked as float64 with NaN there."""
+    """The same; where numbers are masked, None or pandas' NA as float64 with NaN there."""
     if isinstance(values, (list, tuple)) and any(map(np.ma.isMaskedArray, values)):
         values = np.ma.stack(values)
-    if not np.ma.isMaskedArray(values):
+    if np.ma.isMaskedArray(values):
+        return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
+    array = np.asarray(values)
+    if array.dtype.kind != "O":
+        # Arrays of pandas have a mask also where they miss nothing.
+        return array if np.ma.is_masked(values) else values
+    missing = np.array(np.frompyfunc(is_missing, 1, 1)(array), bool)
+    if any(isinstance(value, str) for value in array.flat):
         return values
-    return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
+    try:
+        return np.where(missing, np.nan, array).astype(np.float64)
+    except (TypeError, ValueError):
+        return values
 
 
 def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
-    """Values of shape (..., n) as float64; what is masked is NaN."""
+    """Values of shape (..., n) as float64; what is masked or missing is NaN."""
     array = as_floats(unmasked(values), name)
     if array.ndim == 0 or array.shape[-1] != num_sites:
         shape = array.shape

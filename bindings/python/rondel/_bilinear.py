@@ -90,11 +90,18 @@ def _axis(values: ArrayLike, name: str, period: float | None = None) -> FloatArr
     missing = np.flatnonzero(~np.isfinite(axis))
     if axis.ndim == 1 and missing.size:
         raise ValueError(f"{name}[{missing[0]}] is {axis[missing[0]]}: an axis has no gaps")
+    given = axis
     if period is not None:
         axis = np.unwrap(axis, period=period)
     steps = np.diff(axis)
-    if axis.ndim != 1 or len(axis) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):
-        raise ValueError(f"{name} must be an axis: two numbers or more, increasing or decreasing")
+    rule = f"{name} must be an axis: two numbers or more, increasing or decreasing"
+    if axis.ndim != 1 or len(axis) < 2:
+        raise ValueError(rule)
+    sign = -1 if 2 * np.count_nonzero(steps < 0) > len(steps) else 1
+    wrong = np.flatnonzero(~(sign * steps > 0))
+    if len(wrong):
+        i = int(wrong[0]) + 1
+        raise ValueError(f"{rule}; {name}[{i}] is {given[i]:g} after {given[i - 1]:g}")
     return axis
 
 

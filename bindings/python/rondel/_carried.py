@@ -10,7 +10,8 @@ import numpy as np
 import xarray
 
 from ._coordinates import lies_elsewhere, missing_marker
-from ._places import Places, warn_caller
+from ._errors import warn_caller
+from ._places import Places
 from ._weights import Weights
 
 

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import inspect
+import warnings
+
 __all__ = ["DistributedError", "InvalidInput"]
 
 
@@ -42,3 +45,11 @@ class DistributedError(RuntimeError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+def warn_caller(text: str) -> None:
+    """Warns in the name of the line that called this package."""
+    frame, level = inspect.currentframe(), 1
+    while frame is not None and frame.f_globals.get("__package__") == __package__:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, UserWarning, stacklevel=level)

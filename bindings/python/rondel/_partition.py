@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
+from ._errors import InvalidInput
 from ._partition_files import FileCells, Sides, are_arcs
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
@@ -122,16 +123,19 @@ class Partition(FileCells, Described):
             Degrees, increasing or decreasing but for whole turns; two or more. Where the last is
             the first one again, each of both has half of the cell.
         lat : array_like, shape (nlat,)
-            Degrees. The first and the last cell end at a pole that is less than a cell away.
+            Degrees, increasing or decreasing. The first and the last cell end at a pole that is
+            less than a cell away.
         sides, threads
             As in `lonlat_grid`.
 
+        Raises
+        ------
+        InvalidInput
+            If a coordinate is out of order or repeats the one before it.
+
         """
         axes = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        lines = [
-            _core.axis_lines(axis, np.zeros(0), is_longitude)
-            for axis, is_longitude in zip(axes, (True, False), strict=True)
-        ]
+        lines = axis_lines("lon", axes[0], None, True), axis_lines("lat", axes[1], None, False)
         made = cls.lonlat_grid(*lines, sides=sides, threads=threads)
         made._axes = axes
         return made
@@ -269,6 +273,11 @@ class Partition(FileCells, Described):
         """
         return self._partition.rings()[4]
 
+    def with_places(self, pairs: FloatArray) -> Partition:
+        """The same cells, whose coordinates are those, shape (n, 2), in files of weights."""
+        self._file_centers = pairs
+        return self
+
     def _degrees(self) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2): from a grid's axes, the file, or the centers."""
         if self._file_centers is not None:
@@ -286,6 +295,17 @@ class Partition(FileCells, Described):
         if masked:
             facts.append(("mask", f"{masked:,} masked"))
         return facts
+
+
+def axis_lines(
+    name: str, axis: FloatArray, bounds: FloatArray | None, is_longitude: bool
+) -> FloatArray:
+    """The lines between the cells along an axis; errors begin with its name."""
+    sides = np.zeros(0) if bounds is None else np.ascontiguousarray(bounds).reshape(-1)
+    try:
+        return _core.axis_lines(np.ascontiguousarray(axis, np.float64), sides, is_longitude)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name!r}: {error}", error.index) from None
 
 
 def _as_lines(values: ArrayLike, name: str) -> FloatArray:

@@ -4,27 +4,23 @@
 
 from __future__ import annotations
 
-import inspect
-import warnings
 from collections.abc import Hashable, Mapping
 from typing import Any
 
 import numpy as np
 import xarray
 
-from . import _core
-from ._arrays import as_mask, lonlat, point_set_hash, unit_vectors, unmasked
+from ._arrays import as_mask, in_words, lonlat, point_set_hash, unit_vectors, unmasked
 from ._coordinates import MARKS, Coordinates
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
+from ._errors import warn_caller
 from ._geometries import in_degrees
-from ._partition import Partition
+from ._partition import Partition, axis_lines
 from ._types import BoolArray, FloatArray
-from ._weight_files import Side
+from ._weight_files import MOST_APART, Side
 from ._weights import Weights
 
 # The names of columns that tables usually have.
-# How far a coordinate may be from the same in another file: float32 is off by up to 8e-6 degrees.
-_MOST_APART = 1e-4
 _COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude")}
 
 
@@ -71,6 +67,9 @@ class Places:
         self.dims = south.dims
         self.shape = south.shape
         self.lon, self.lat = west.values, south.values
+        for name, values in zip(self.coordinates, (self.lat, self.lon), strict=True):
+            if values.dtype.kind not in "biuf":
+                raise TypeError(f"{name!r} must be numbers, not {in_words(values)}")
         located = np.isfinite(self.lon) & np.isfinite(self.lat)
         self._located = None if located.all() else located.reshape(-1)
         if self._located is not None:
@@ -88,7 +87,7 @@ class Places:
                 continue
             away = np.asarray(known[name].values, np.float64) - np.asarray(own.values, np.float64)
             away -= 360 * np.round(away / 360)
-            if not np.all((np.abs(away) <= _MOST_APART) | np.isnan(away)):
+            if not np.all((np.abs(away) <= MOST_APART) | np.isnan(away)):
                 raise ValueError(
                     f"the coordinate {name!r} of the data is not that of the source, or in another "
                     "order"
@@ -113,6 +112,11 @@ class Places:
             return self.lon, self.lat
         located = self._located.reshape(self.shape)
         return np.where(located, self.lon, 0), np.where(located, self.lat, 0)
+
+    def pairs(self) -> FloatArray:
+        """Longitudes and latitudes, shape (n, 2), as `degrees`."""
+        pairs = np.stack(self.degrees(), axis=-1).reshape(-1, 2)
+        return np.ascontiguousarray(pairs, np.float64)
 
     @property
     def are_axes(self) -> bool:
@@ -141,10 +145,9 @@ class Places:
 
     def side(self) -> Side:
         """What a file of weights says of the places."""
-        lon, lat = self.degrees()
         mask = self.mask()
         return Side(
-            np.column_stack([lon.reshape(-1), lat.reshape(-1)]).astype(np.float64),
+            self.pairs(),
             shape=self.shape,
             mask=None if mask is None or mask.all() else mask.astype(np.int32),
         )
@@ -188,17 +191,15 @@ class Places:
             warn_caller(remark)
         lon, lat = self._found.bounds()
         if self.are_axes:
+            names = self._found.lon_name, self._found.lat_name
             lines = [
-                _core.axis_lines(
-                    np.ascontiguousarray(axis, np.float64),
-                    np.zeros(0) if bounds is None else np.ascontiguousarray(bounds).reshape(-1),
-                    is_longitude,
-                )
-                for axis, bounds, is_longitude in zip(
-                    self.axes, (lon, lat), (True, False), strict=True
+                axis_lines(name, axis, bounds, is_longitude)
+                for name, axis, bounds, is_longitude in zip(
+                    names, self.axes, (lon, lat), (True, False), strict=True
                 )
             ]
-            return Partition.lonlat_grid(*lines, threads=threads), self.mask()
+            made = Partition.lonlat_grid(*lines, threads=threads)
+            return made.with_places(self.pairs()), self.mask()
         if lon is None or lat is None:
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
@@ -206,7 +207,8 @@ class Places:
             )
         if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, self.shape), _four(lat, self.shape)
-        return _cells_of_corners(lon, lat, self.mask(), threads)
+        made, mask = _cells_of_corners(lon, lat, self.mask(), threads)
+        return made.with_places(self.pairs()), mask
 
 
 def _paired(lon: Any, lat: Any) -> xarray.Dataset:
@@ -283,14 +285,6 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
     source = np.where(ends, last[:, None], column)
     rows = np.arange(len(lon))[:, None]
     return lon[rows, source], lat[rows, source], missing[rows, source]
-
-
-def warn_caller(text: str) -> None:
-    """Warns in the name of the line that called this package."""
-    frame, level = inspect.currentframe(), 1
-    while frame is not None and frame.f_globals.get("__package__") == __package__:
-        frame, level = frame.f_back, level + 1
-    warnings.warn(text, UserWarning, stacklevel=level)
 
 
 def _centers(partition: Partition) -> xarray.Dataset:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
+from ._arrays import point_set_hash
 from ._bilinear import bilinear_weights
 from ._geo import Path
 from ._remap import Remap, remap
@@ -75,7 +76,8 @@ class Regridder(Described):
         Whether targets without a value are NaN, or else 0.
     weights : path-like or Weights, optional
         Those of `to_netcdf` of a former one, with the same grids, masks and method; others are
-        refused where the file or the entries say so.
+        refused where the file or the entries say so: the places of both sides, and with
+        conservative methods the corners of the cells, may be 1e-4 degrees off.
     overlap : {'error', 'first', 'share'}, optional
         What conservative methods do where cells of one grid overlap; as in `remap`.
     filename : path-like, optional
@@ -164,6 +166,9 @@ class Regridder(Described):
             made = reused(weights, method, self._source, self._target, threads)
         if extrap_method is not None:
             made = _filled(made, self._source, self._target)
+        if weights is None:
+            hashes = [point_set_hash(side.points()) for side in (self._source, self._target)]
+            made._weights.know_places(*hashes)
         self.weights = made
 
     @property
@@ -246,8 +251,8 @@ class Regridder(Described):
         Parameters
         ----------
         path : path-like, optional
-            Ends in .nc; by default `filename`. The file appears when it is complete, and replaces
-            the one that is there.
+            Ends in .nc or .nc4; by default `filename`. The file appears when it is complete, and
+            replaces the one that is there.
 
         """
         path = self.filename if path is None else path

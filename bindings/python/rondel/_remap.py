@@ -66,7 +66,8 @@ class Remap(Described):
         Parameters
         ----------
         path : path-like
-            The file appears when it is complete, and replaces the one that is there.
+            Ends in .nc or .nc4 (netCDF-4), .cdf or .ncf. The file appears when it is complete,
+            and replaces the one that is there.
         format : {'esmf', 'scrip'}, optional
             netCDF with the names of ESMF, or with those of SCRIP, which CDO reads.
 

@@ -6,13 +6,16 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 
 from . import _core
+from ._arrays import lonlat, point_set_hash
+from ._errors import warn_caller
 from ._geo import Path
-from ._types import BoolArray, IntArray
+from ._types import BoolArray, FloatArray, IntArray
+from ._weight_files import MOST_APART
 from ._weights import Weights
 
 if TYPE_CHECKING:
@@ -24,14 +27,20 @@ def reused(
 ) -> Weights:
     """The weights, or those of a file, if they fit."""
     text, norm = "", ""
-    of_file: list[IntArray] = [np.zeros(0, np.int32)] * 2
+    of_file = [_FileSide()] * 2
     name = "the weights"
     if isinstance(weights, Weights):
         made = weights
     else:
         name = os.fspath(weights)
-        found, text, norm, *of_file = _core.read_weight_file(name)
+        found, text, norm, remarks, *sides = _core.read_weight_file(name)
+        for remark in remarks:
+            warn_caller(f"{name}: {remark}")
+        of_file = [_FileSide(*side) for side in sides]
         made = Weights._of(found)
+        bad = np.flatnonzero(~np.isfinite(made.data))
+        if len(bad):
+            raise ValueError(f"{name}: weight {bad[0]} is {made.data[bad[0]]}")
     shape = (target.lon.size, source.lon.size)
     if made.shape != shape:
         raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
@@ -42,25 +51,90 @@ def reused(
             "read_weights() reads them as those of any method"
         )
     masks = source.mask(), target.mask()
-    # Weights of masked points have the hash of the points that are left.
-    if all(mask is None for mask in masks) and not made.is_of(
-        source.points() if made.sites_hash else None,
-        target.points() if made.targets_hash else None,
-    ):
-        raise ValueError("the weights are of other places, or of these in another order")
+    hashes = made.sites_hash, made.targets_hash
+    for k, (places, what) in enumerate(((source, "source"), (target, "target"))):
+        # A hash of masked points in an old file is that of the points that are left.
+        is_told = isinstance(weights, Weights) or (masks[0] is None and masks[1] is None)
+        is_all = is_told and hashes[k] != 0 and not len(of_file[k].centers)
+        if is_all and point_set_hash(places.points()) != hashes[k]:
+            _refuse_places(name, "")
+        _require_places(places, of_file[k], "conserv" in method, name, what, threads)
     used = np.zeros(shape[1], bool), np.diff(made.indptr) > 0
     used[0][made.indices] = True
     for k, (places, what) in enumerate(((source, "sources"), (target, "targets"))):
         mask = masks[k]
         if mask is not None:
             _require_none(used[k] & ~mask, name, f"have entries of {what} that the mask leaves out")
-        if len(of_file[k]):
-            left_out = of_file[k] == 0
+        if len(of_file[k].mask):
+            left_out = of_file[k].mask == 0
             if np.any(left_out if mask is None else left_out & mask) and "conserv" in method:
                 mask = places.cells(threads)[1]  # also without cells whose corners are missing
             left_out = left_out if mask is None else left_out & mask
             _require_none(left_out, name, f"are of another mask, without {what} that take part")
     return made
+
+
+class _FileSide(NamedTuple):
+    """What a file says of sources or targets: an empty array is not there."""
+
+    mask: IntArray = np.zeros(0, np.int32)
+    centers: FloatArray = np.zeros((0, 2))
+    corners: FloatArray = np.zeros((0, 2))
+
+
+def _refuse_places(name: str, where: str) -> NoReturn:
+    owner = "the weights" if name == "the weights" else f"{name}: the weights"
+    raise ValueError(f"{owner} are of other places, or of these in another order{where}")
+
+
+def _require_places(
+    places: Places, side: _FileSide, are_cells: bool, name: str, what: str, threads: int | None
+) -> None:
+    """Refuses centers, and corners of cells, that are not those of the file."""
+    mask = places.mask()
+    used = np.ones(places.lon.size, bool) if mask is None else mask
+    own = places.pairs()
+    if are_cells and len(side.centers) + len(side.corners):
+        cells, cell_mask = places.cells(threads)
+        used = used if cell_mask is None else cell_mask
+        own = cells._degrees()
+    if len(side.centers):
+        apart = used & ~_are_near(own, side.centers)
+        if apart.any() and are_cells:
+            # Files of former versions have the centers of mass.
+            masses = lonlat(cells.centers)
+            apart = apart if (used & ~_are_near(masses, side.centers)).any() else used & False
+        if apart.any():
+            first = int(np.flatnonzero(apart)[0])
+            here, there = own[first].tolist(), side.centers[first].tolist()
+            _refuse_places(name, f": {what} {first} is at {here} here, at {there} there")
+    if are_cells and len(side.corners):
+        corners = cells._partition.weight_corners() if cells._has_corners else np.zeros((0, 2))
+        if len(corners):
+            shape = places.lon.size, -1, 2
+            apart = used & ~_have_the_same(corners.reshape(shape), side.corners.reshape(shape))
+            if apart.any():
+                first = int(np.flatnonzero(apart)[0])
+                _refuse_places(name, f": {what} {first} has other corners")
+
+
+def _are_near(a: FloatArray, b: FloatArray) -> BoolArray:
+    """Whether places are the same, in degrees, but for what files lose."""
+    east = np.abs(np.remainder(a[..., 0] - b[..., 0] + 180, 360) - 180)
+    north = np.abs(a[..., 1] - b[..., 1])
+    near: BoolArray = (east * np.cos(np.radians(a[..., 1])) <= MOST_APART) & (north <= MOST_APART)
+    return near
+
+
+def _have_the_same(a: FloatArray, b: FloatArray) -> BoolArray:
+    """Whether cells, shapes (n, k, 2) and (n, m, 2), have the same corners, wherever they begin."""
+    near_a, near_b = np.zeros(a.shape[:2], bool), np.zeros(b.shape[:2], bool)
+    for i in range(a.shape[1]):
+        for j in range(b.shape[1]):
+            near = _are_near(a[:, i], b[:, j])
+            near_a[:, i] |= near
+            near_b[:, j] |= near
+    return near_a.all(axis=1) & near_b.all(axis=1)
 
 
 def _require_none(wrong: BoolArray, name: str, what: str) -> None:

@@ -18,6 +18,10 @@ from ._errors import InvalidInput
 from ._geo import Path
 from ._types import ArrayLike, FloatArray, IntArray
 
+# How far a place may be from the same in a file, in degrees: float32 is off by up to 8e-6.
+MOST_APART = 1e-4
+_ENDINGS = (".nc", ".nc4", ".cdf", ".ncf")
+
 
 def weights_to_netcdf(
     self: Any,
@@ -35,7 +39,8 @@ def weights_to_netcdf(
     Parameters
     ----------
     path : path-like
-        The file appears when it is complete, and replaces the one that is there.
+        Ends in .nc or .nc4 (netCDF-4), .cdf or .ncf. The file appears when it is complete, and
+        replaces the one that is there.
     format : {'esmf', 'scrip'}, optional
         netCDF with the names of ESMF (`row`, `col`, `S`), or with those of SCRIP, which CDO reads.
     sites : array_like, shape (n, 3), optional
@@ -52,7 +57,7 @@ def weights_to_netcdf(
     Raises
     ------
     ValueError
-        If the points are not those of the weights, or an area is negative.
+        If the points are not those of the weights, an area is negative, or the ending is another.
     OSError
         If the file cannot be written; then nothing is left of it.
 
@@ -97,6 +102,10 @@ def write_weights(
 ) -> None:
     if format not in ("esmf", "scrip"):
         raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
+    name = os.fspath(path)
+    if not name.lower().endswith(_ENDINGS):
+        hint = "; Weights.save() writes .npz" if name.lower().endswith(".npz") else ""
+        raise ValueError(f"{name}: netCDF is written to {' '.join(_ENDINGS)}{hint}")
 
     def made(side: Side) -> Any:
         grid = list(side.shape) if len(side.shape) > 1 else []
@@ -106,7 +115,6 @@ def write_weights(
         return side.degrees, *numbers, grid, mask, corners, side.columns
 
     sides = made(source), made(target)
-    name = os.fspath(path)
     _core.write_weights(name, format, weights._weights, *sides, method, normalization)
 
 

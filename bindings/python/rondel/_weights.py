@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_fields, as_floats, as_threads, point_set_hash, require_unmasked
+from ._errors import warn_caller
 from ._geo import Path
 from ._repr import Described, count
 from ._tables import _replaced
@@ -42,7 +43,7 @@ class Weights(Described):
     Raises
     ------
     InvalidInput
-        If they are no matrix in compressed rows.
+        If they are no matrix in compressed rows, or not finite.
 
     Examples
     --------
@@ -172,6 +173,11 @@ class Weights(Described):
         -------
         ndarray of float64, shape (..., m)
 
+        Raises
+        ------
+        InvalidInput
+            If a weight is infinite or NaN, with its index in `data`.
+
         """
         rows, columns = self.shape
         fields = as_fields(values, columns)
@@ -299,5 +305,15 @@ def read_weights(path: Path) -> Weights:
     OSError
         If the file cannot be read, or holds no weights.
 
+    Warns
+    -----
+    UserWarning
+        Where conservative weights of SCRIP are areas (normalization 'none'): they are divided by
+        those of the targets.
+
     """
-    return Weights._of(_core.read_weights(os.fspath(path)))
+    name = os.fspath(path)
+    weights, remarks = _core.read_weights(name)
+    for remark in remarks:
+        warn_caller(f"{name}: {remark}")
+    return Weights._of(weights)
