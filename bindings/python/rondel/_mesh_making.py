@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_points, as_threads, frozen
+from ._errors import warn_caller
 from ._geometries import Edges
 from ._mesh_parts import Lines, fixed_points
 from ._types import ArrayLike, FloatArray, IntArray, Progress
@@ -186,6 +187,12 @@ def partition(
     ValueError
         If the tolerance is not positive and finite.
 
+    Warns
+    -----
+    UserWarning
+        If the cells have other areas, because there are none of these areas ('infeasible') or the
+        steps did not suffice ('iterations').
+
     Examples
     --------
     >>> import numpy as np
@@ -208,6 +215,11 @@ def partition(
     poles, weights, found, end, steps, largest_error, reason = _core.make_area_partition(
         sites, targets, float(tolerance), as_threads(threads)
     )
+    if end not in ("converged", "rounded"):
+        warn_caller(
+            f"partition() ended as {end!r}, with areas off by up to {largest_error:.3g}"
+            + (f": {reason}" if reason else "")
+        )
     return Partition(
         frozen(poles), frozen(weights), frozen(found), end, steps, largest_error, reason
     )

@@ -15,11 +15,15 @@ from typing import Any
 import xarray
 
 from ._carried import carried
+from ._errors import warn_caller
 from ._interpolation import Method
 from ._places import Places
 from ._weights import Weights
 
 __all__ = ["RondelAccessor"]
+
+
+_OF_CALLS = {"threads", "progress"}  # options that change no result
 
 
 def __dir__() -> list[str]:
@@ -60,7 +64,7 @@ class RondelAccessor:
     def interpolate(
         self,
         target: Any,
-        method: Method = "sibson",
+        method: Method | None = None,
         *,
         grid: bool = False,
         lon: Hashable | None = None,
@@ -79,13 +83,15 @@ class RondelAccessor:
             or as axes; or a tuple (lon, lat) in degrees, whose arrays are pairs, broadcast against
             each other as in `rondel.interpolate`; two of different lengths are axes.
         method : str, optional
+            As in `SphericalDelaunay.weights`, by default 'sibson'.
         grid : bool, optional
             Whether the two arrays of a tuple are the axes of a grid: a value for each longitude
             with each latitude.
         lon, lat : str, optional
             The names of the longitudes and latitudes of the source, if they are not found.
         weights : Weights, optional
-            Those of a former call of `weights`, with the same source and target places.
+            Those of a former call of `weights`, with the same source and target places. Method and
+            options are then theirs; others are without effect, which a warning tells.
         skipna : bool, optional
         most_missing : float, optional
             As in `Weights.apply`.
@@ -109,10 +115,18 @@ class RondelAccessor:
         """
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)
         if weights is None:
-            weights = source.weights_to(wanted, method, **options)
+            weights = source.weights_to(wanted, method or "sibson", **options)
+        elif not isinstance(weights, Weights):
+            raise TypeError(
+                f"weights must be Weights, not {type(weights).__name__}; rondel.read_weights() "
+                "reads those of a file"
+            )
         elif not _fits(weights, source, wanted):
             raise ValueError("the weights are of other places")
-
+        else:
+            idle = sorted({*options, *(() if method is None else ("method",))} - _OF_CALLS)
+            if idle:
+                warn_caller(f"weights are given, so these change nothing: {', '.join(idle)}")
         return carried(
             self._data, weights, source, wanted, skipna=skipna, most_missing=most_missing
         )

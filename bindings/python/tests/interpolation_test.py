@@ -320,6 +320,24 @@ def test_a_slope_across_a_track_is_zero_or_missing():
         tri.gradient(field, undetermined="none")
 
 
+def test_what_pandas_misses_is_missing():
+    pandas = pytest.importorskip("pandas")
+    values = np.arange(200.0)
+    expected = TRI.interpolate(np.where(values % 9 == 0, np.nan, values), TARGETS)
+    assert np.isnan(expected).any()
+    for kind in ("Int64", "Float64", "object"):
+        series = pandas.Series(values, dtype=kind)
+        series[values % 9 == 0] = pandas.NA
+        for given in (series, series.array, series.to_list()):
+            assert np.array_equal(TRI.interpolate(given, TARGETS), expected, equal_nan=True)
+        whole = pandas.Series(values, dtype=kind)
+        assert np.array_equal(
+            TRI.interpolate(whole.array, TARGETS), TRI.interpolate(values, TARGETS), equal_nan=True
+        )
+    with pytest.raises(TypeError, match="values must be real numbers"):
+        TRI.interpolate(pandas.Series(["1", "x"] * 100), TARGETS)
+
+
 def test_negative_areas_are_not_written(tmp_path):
     weights = TRI.weights(TARGETS)
     for name, count in (("site_areas", len(SITES)), ("target_areas", len(TARGETS))):

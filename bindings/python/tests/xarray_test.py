@@ -98,6 +98,31 @@ def test_weights_are_kept(tmp_path):
             other.rondel.interpolate(GRID, weights=weights)
     with pytest.raises(ValueError, match="weights are of other places"):
         ds.rondel.interpolate((AXES[0] + 1, AXES[1]), grid=True, weights=weights)
+    with pytest.raises(TypeError, match=r"must be Weights, not str; rondel.read_weights\(\) reads"):
+        ds.rondel.interpolate(GRID, weights="weights.npz")
+
+
+def test_methods_beside_weights_are_told():
+    ds = unstructured()
+    weights = ds.rondel.weights(GRID, "linear")
+    with pytest.warns(UserWarning, match="so these change nothing: method, outside$"):
+        found = ds.rondel.interpolate(GRID, "cubic", weights=weights, outside="nearest", threads=1)
+    assert found.identical(ds.rondel.interpolate(GRID, "linear"))
+    assert ds.rondel.interpolate(GRID).identical(ds.rondel.interpolate(GRID, "sibson"))
+
+
+def test_texts_are_no_places():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame({"lon": ["10E", "20E"], "lat": [1.0, 2]})
+    with pytest.raises(TypeError, match="'lon' must be numbers, not text"):
+        unstructured().rondel.interpolate(table)
+    with pytest.raises(TypeError, match="'lat' must be numbers, not text"):
+        rondel.Regridder({"lon": [1, 2], "lat": ["a", "b"]}, GRID, "linear")
+    table["lon"] = pandas.array([10, None], "Int64")
+    with pytest.warns(UserWarning, match="1 of 2 places have no longitude or latitude"):
+        found = unstructured().rondel.interpolate(table, "nearest").height.values
+    assert np.isfinite(found[0])
+    assert np.isnan(found[1])
 
 
 def test_missing_values():
