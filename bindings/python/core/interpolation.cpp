@@ -105,7 +105,7 @@ void add_weights(nb::module_& module) {
       .def_ro("sites_hash", &Weights::sites_hash)
       .def_ro("targets_hash", &Weights::targets_hash)
       .def(
-          "know_places",  // of weights that nobody has yet
+          "know_places",  // for weights that were just made
           [](Weights& self, std::uint64_t sites, std::uint64_t targets) {
             if (self.sites_hash == 0) self.sites_hash = sites;
             if (self.targets_hash == 0) self.targets_hash = targets;

@@ -46,7 +46,7 @@ WeightSide side_of(const SideIn& in) {
   return side;
 }
 
-// The mask, empty where all take part, the centers in degrees, and the corners of each, those of a cell one after the other.
+// Returns the mask, empty if all take part, the centers in degrees, and the corners, those of a cell one after the other.
 nb::tuple side_out(WeightSide& side) {
   return nb::make_tuple(to_array<std::int32_t>(std::move(side.mask)),
                         to_array<double>(std::move(side.points)),
@@ -81,7 +81,7 @@ void add_weight_files(nb::module_& module) {
         return std::tuple(std::move(file.weights), std::move(file.remarks));
       },
       nb::arg("path"));
-  // The weights, the method and its normalization, what the reader remarks, and what the file says of sources and targets.
+  // Returns the weights, the method, its normalization, what the reader remarks, and the sides of sources and targets.
   module.def(
       "read_weight_file",
       [](const std::string& path) {

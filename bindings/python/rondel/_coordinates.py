@@ -100,6 +100,11 @@ class Coordinates:
         named = {header[0]: dict(header[4]).get("bounds") for header in _headers(self._data)}
         return {name for name in (*self._bounds, *named.values()) if name is not None}
 
+    @property
+    def have_bounds(self) -> bool:
+        """Whether both have bounds."""
+        return None not in self._bounds
+
     def bounds(self) -> list[FloatArray | None]:
         """Bounds of longitudes and of latitudes in degrees; the dimensions of places come first."""
         made: list[FloatArray | None] = []

@@ -181,6 +181,11 @@ class Places:
             targets_hash=point_set_hash(target.points()),
         )
 
+    @property
+    def have_cells(self) -> bool:
+        """Whether there are cells around the places: bounds, axes, or a partition."""
+        return self.are_axes or self._partition is not None or self._found.have_bounds
+
     def cells(self, threads: int | None) -> tuple[Partition, BoolArray | None]:
         """The cells around the places, by their bounds or, of a grid, half way between them; and
         which of them take part.

@@ -93,26 +93,29 @@ def _require_places(
     """Refuses centers, and corners of cells, that are not those of the file."""
     mask = places.mask()
     used = np.ones(places.lon.size, bool) if mask is None else mask
-    own = places.pairs()
-    if are_cells and len(side.centers) + len(side.corners):
+    own, cells = places.pairs(), None
+    if are_cells and places.have_cells and len(side.centers) + len(side.corners):
         cells, cell_mask = places.cells(threads)
         used = used if cell_mask is None else cell_mask
         own = cells._degrees()
     if len(side.centers):
-        apart = used & ~_are_near(own, side.centers)
-        if apart.any() and are_cells:
+        located = used & np.isfinite(side.centers).all(axis=1)  # empty cells have no center
+        apart = located & ~_are_near(own, side.centers)
+        if apart.any() and cells is not None:
             # Files of former versions have the centers of mass.
             masses = lonlat(cells.centers)
-            apart = apart if (used & ~_are_near(masses, side.centers)).any() else used & False
+            apart = apart if (located & ~_are_near(masses, side.centers)).any() else used & False
         if apart.any():
             first = int(np.flatnonzero(apart)[0])
             here, there = own[first].tolist(), side.centers[first].tolist()
             _refuse_places(name, f": {what} {first} is at {here} here, at {there} there")
-    if are_cells and len(side.corners):
+    if cells is not None and len(side.corners):
         corners = cells._partition.weight_corners() if cells._has_corners else np.zeros((0, 2))
         if len(corners):
             shape = places.lon.size, -1, 2
-            apart = used & ~_have_the_same(corners.reshape(shape), side.corners.reshape(shape))
+            others = side.corners.reshape(shape)
+            apart = used & ~_have_the_same(corners.reshape(shape), others)
+            apart &= np.isfinite(others).all(axis=(1, 2))
             if apart.any():
                 first = int(np.flatnonzero(apart)[0])
                 _refuse_places(name, f": {what} {first} has other corners")

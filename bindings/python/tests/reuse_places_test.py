@@ -161,8 +161,26 @@ def test_curved_cells_have_their_coordinates(tmp_path):
         assert np.array_equal(file.yc_a.values, lat.ravel() + 1)
     again = rondel.Regridder(curved, TARGET, "conservative", weights=tmp_path / "w.nc")
     assert np.array_equal(again(FIELD), made(FIELD), equal_nan=True)
-    with pytest.raises(ValueError, match=OTHER_PLACES):
-        rondel.Regridder({**curved, "lat": lat}, TARGET, "conservative", weights=tmp_path / "w.nc")
+    centers = {"lon": lon + 2, "lat": lat + 1}  # which are enough, as in xESMF
+    again = rondel.Regridder(centers, TARGET, "conservative", weights=tmp_path / "w.nc")
+    assert np.array_equal(again(FIELD), made(FIELD), equal_nan=True)
+    for other in ({**curved, "lat": lat}, {**centers, "lat": lat}):
+        with pytest.raises(ValueError, match=OTHER_PLACES):
+            rondel.Regridder(other, TARGET, "conservative", weights=tmp_path / "w.nc")
+
+
+def test_empty_cells_need_no_center(tmp_path):
+    lon = np.array([[0.0, 90, 90, 0], [10, 10, 10, 10], [90, 180, 180, 90]])
+    cells = rondel.Partition.corners(lon, np.array([[0.0, 0, 50, 50]] * 3))
+    made = rondel.Regridder(SOURCE, cells, "conservative")
+    made.to_netcdf(tmp_path / "w.nc")
+
+    def without(data):
+        data["xc_b"][1] = data["yc_b"][1] = np.nan
+
+    changed(tmp_path / "w.nc", without)
+    again = rondel.Regridder(SOURCE, cells, "conservative", weights=tmp_path / "w.nc")
+    assert np.array_equal(again(FIELD), made(FIELD), equal_nan=True)
 
 
 def test_files_of_the_tool_are_taken(tmp_path):
