@@ -34,7 +34,7 @@ void require_places(const ApplyCommandOptions& options, const WeightFile& file,
   const std::vector<LonLat>& sources = file.source.points;
   const auto is_place = [](const LonLat& place) { return std::abs(place.lat_deg) <= 90; };
   if (sources.size() == places.size() && std::ranges::all_of(sources, is_place)) {
-    // Of a table the points may be anywhere on their rays.
+    // The points of a table may be anywhere on their rays.
     if (std::ranges::equal(unit_vectors(lonlats(places)), unit_vectors(sources), is_near)) return;
   } else if (hash == 0 || !is_table) {
     return;
