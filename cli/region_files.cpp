@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -107,6 +108,27 @@ int field_type(const Column& column) {
   return field_integer;
 }
 
+// The names of the fields: as in GeoJSON, a name that is taken gets underscores. GeoPackage takes upper and lower case for
+// one, and has columns of its own.
+std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
+  const bool is_sqlite = format.ending == std::string_view("gpkg");
+  const auto known_as = [&](std::string name) {
+    if (is_sqlite) {
+      for (char& c : name) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    }
+    return name;
+  };
+  std::set<std::string> taken = {"area"};
+  if (is_sqlite) taken.insert({"fid", "geom"});
+  std::vector<std::string> names;
+  for (const Column& column : columns) {
+    std::string name = column.name;
+    while (!taken.insert(known_as(name)).second) name += '_';
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 // A dataset in GDAL's memory. What fails is told with the path of the file that it becomes.
 class GdalFile {
  public:
@@ -131,7 +153,8 @@ class GdalFile {
                     "'; in Python, Regions.to_geopandas().to_parquet() writes such files");
   }
 
-  void make_layer(const std::string& layer_name, std::span<const Column> columns) {
+  void make_layer(const std::string& layer_name, std::span<const Column> columns,
+                  std::span<const std::string> names) {
     GdalHandle const reference = gdal_.new_reference(nullptr);
     gdal_.set_well_known_reference(reference, "WGS84");
     gdal_.set_axis_mapping(reference, traditional_axes);
@@ -140,9 +163,9 @@ class GdalFile {
     gdal_.destroy_reference(reference);
     require(layer_ != nullptr);
     add_field("area", field_real);
-    for (const Column& column : columns) {
-      types_.push_back(field_type(column));
-      add_field(column.name.c_str(), types_.back());
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      types_.push_back(field_type(columns[k]));
+      add_field(names[k].c_str(), types_.back());
     }
     gdal_.start_transaction(dataset_, 0);  // faster, where there are any
   }
@@ -217,7 +240,7 @@ void write_regions_by_gdal(const std::string& path, const std::string& format,
   const std::vector<double> found = areas(cells);
   GdalFile file(path, *format_of(format));
   const std::string stem = std::filesystem::path(path).stem().string();
-  file.make_layer(path == "-" ? "cells" : stem, columns);
+  file.make_layer(path == "-" ? "cells" : stem, columns, field_names(columns, *format_of(format)));
   for (std::size_t p = 0; p < regions.owners.size();) {
     const std::size_t first = p;
     const Index owner = regions.owners[p];

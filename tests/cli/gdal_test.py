@@ -61,6 +61,16 @@ class FilesOfGdal(unittest.TestCase):
                 self.assertTrue(all(p.equals_exact(q, 0) for p, q in zip(ours.geoms, parts)))
                 self.assertEqual(len(ours.geoms), len(parts))
 
+    def test_names_that_are_taken_get_underscores(self):
+        (self.folder / "s.csv").write_text("lon,lat,site,site_,area,Area,fid,geom,Name,name\n"
+                                           "0,0,a,b,c,d,1.5,e,f,g\n90,10,h,i,j,k,2.5,l,m,n\n")
+        for name, own in (("s.geojson", "Area fid geom Name name"), ("s.fgb", "Area fid geom Name name"),
+                          ("s.gpkg", "Area__ fid_ geom_ Name name_")):
+            found = self.written(name, "s.csv").set_index("site").sort_index()
+            self.assertEqual("".join(found[["site_", "site__", "area_"]].loc[0]), "abc", name)
+            self.assertEqual([*found[own.split()].loc[1]], ["k", 2.5, "l", "m", "n"], name)
+            self.assertAlmostEqual(found["area"].sum(), 4 * np.pi, 12)
+
     def test_are_the_same_bytes_again(self):
         for name in ("cells.gpkg", "cells.fgb"):
             self.written(name, DATA / "stations.csv")
