@@ -156,8 +156,7 @@ std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const 
 // The area of a band tells on which side of its lines it is where these do not, by its points as they were before they were
 // merged.
 map::BorderKnowledge border_by_area(std::span<const map::UnitVectors> rings) {
-  double area = 0;
-  for (const map::UnitVectors ring : rings) area += map::area_on_left(ring);
+  const double area = map::areas_on_left(rings);
   return area < 0 || area > 2 * std::numbers::pi ? map::BorderKnowledge::seems_inside
                                                  : map::BorderKnowledge::seems_outside;
 }

@@ -66,8 +66,7 @@ class RingsOfCell {
 };
 
 double area_of(std::span<const map::UnitVectors> rings) {
-  double area = 0;
-  for (const map::UnitVectors ring : rings) area += map::area_on_left(ring);
+  const double area = map::areas_on_left(rings);
   return area < 0 ? area + 4 * std::numbers::pi : area;
 }
 

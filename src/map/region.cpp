@@ -140,8 +140,7 @@ class RegionDrawing {
 
   // Returns the area of the region, from 0 to 4 pi. The rings determine it up to multiples of 4 pi.
   [[nodiscard]] double area_on_sphere() const {
-    double area = 0;
-    for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
+    const double area = areas_on_left(rings_);
     return area - 2 * hemisphere * std::floor(area / (2 * hemisphere));
   }
 

@@ -9,6 +9,7 @@
 
 #include <span>
 
+#include "exact/eft.h"
 #include "rondel/export.h"
 #include "rondel/types.h"
 
@@ -19,6 +20,15 @@ namespace rondel::map {
 // right however thin the ring is. For a large ring they are at its center of mass, or at another
 // point whose antipode is no corner.
 RONDEL_API double area_on_left(std::span<const Point> ring);
+
+// Returns the sum of area_on_left() of all rings of a region, which is its area but for a multiple of 4 pi. It is taken in
+// twice the precision, as rings may cancel each other.
+template <class Rings>
+[[nodiscard]] double areas_on_left(const Rings& rings) {
+  exact::DoubleDouble sum{};
+  for (const auto& ring : rings) add_term(area_on_left(ring), sum);
+  return sum.hi + sum.lo;
+}
 
 // True if area_on_left() is less than 0. If all triangles turn the same way, no angle is computed.
 RONDEL_API bool is_clockwise(std::span<const Point> ring);
