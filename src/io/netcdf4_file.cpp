@@ -90,8 +90,11 @@ class Netcdf4Header {
     int num_attributes = 0;
     std::vector<int> dimensions(netcdf_most_dimensions);
     if (library_.variable(group, number, name.data(), &type, &rank, dimensions.data(),
-                          &num_attributes) != 0 ||
-        type <= 0 || type > netcdf_string_type) {
+                          &num_attributes) != 0) {
+      return;
+    }
+    if (type <= 0 || type > netcdf_string_type) {
+      header_.passed_over.push_back(prefix + name.data());
       return;
     }
     NetcdfReader::Variable variable;

@@ -21,6 +21,7 @@ struct NetcdfHeader {
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfAttribute> attributes;
   std::vector<NetcdfReader::Variable> variables;  // types, dimensions, attributes, offset
+  std::vector<std::string> passed_over;  // names of variables of types that are not read
 };
 
 // Throws BadValue.

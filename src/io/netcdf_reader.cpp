@@ -85,6 +85,7 @@ void NetcdfReader::take(NetcdfHeader&& header) {
   dimensions_ = std::move(header.dimensions);
   attributes_ = std::move(header.attributes);
   variables_ = std::move(header.variables);
+  passed_over_ = std::move(header.passed_over);
 }
 
 void NetcdfReader::parse(std::string_view head) {
@@ -155,6 +156,10 @@ const NetcdfReader::Variable* NetcdfReader::find(std::string_view name) const {
 
 const NetcdfReader::Variable& NetcdfReader::require(std::string_view name) const {
   if (const Variable* const variable = find(name)) return *variable;
+  if (std::ranges::find(passed_over_, name) != passed_over_.end()) {
+    throw BadValue("variable " + in_quotes(name) +
+                   " has a type that the file defines itself, which is not read");
+  }
   throw BadValue("no variable " + in_quotes(name));
 }
 

@@ -34,7 +34,7 @@ RONDEL_API bool is_netcdf(std::string_view head);
 // 1. Variables of a group are called "group/name", and come after those of the file itself, as do dimensions.
 // 2. A variable of strings is of the type text. Its values are not read.
 // 3. An attribute of several strings is a text with spaces between them.
-// 4. Variables and attributes of types that the file defines itself are left out.
+// 4. Variables and attributes of types that the file defines itself are left out; require() tells so of such a variable.
 class RONDEL_API NetcdfReader {
  public:
   struct Variable : NetcdfVariable {
@@ -63,7 +63,7 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
   // Null if there is none.
   [[nodiscard]] const Variable* find(std::string_view name) const;
-  // Throws BadValue if there is none.
+  // Throws BadValue if there is none, or none of a type that is read.
   [[nodiscard]] const Variable& require(std::string_view name) const;
 
   // All values as doubles. Throws BadValue if they are a text.
@@ -97,6 +97,7 @@ class RONDEL_API NetcdfReader {
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<Variable> variables_;
+  std::vector<std::string> passed_over_;
   std::uint64_t record_size_ = 0;
 };
 

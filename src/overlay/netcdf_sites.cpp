@@ -31,8 +31,7 @@ std::string variable_of(const io::NetcdfReader& reader, const std::string& name)
                               (name[length] == '[' || name[length] == '_');
     if (is_beginning && length > longest.size()) longest = variable.name;
   }
-  if (longest.empty()) throw io::BadValue("no variable " + io::in_quotes(name));
-  return longest;
+  return longest.empty() ? reader.require(name).name : longest;
 }
 
 // The variable of the first column that is asked for. `is_one_of_several` is true if the name picks
