@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -53,6 +54,34 @@ WeightFile readable_weights(const CommonOptions& common) {
     throw FileError(common.input + ": " + error.what());
   }
   return file;
+}
+
+// The places of the weights' sources; none if some are not known.
+std::span<const LonLat> places_of_sources(const WeightFile& file) {
+  const std::vector<LonLat>& sources = file.source.points;
+  const bool are_known = std::ranges::all_of(sources, [](const LonLat& place) {
+    return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
+  });
+  return are_known ? std::span<const LonLat>(sources) : std::span<const LonLat>();
+}
+
+// The fields at the sources. Where all are elsewhere, the message is about the weights.
+std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const WeightFile& file,
+                                       const FileName& values_file,
+                                       const std::vector<std::string>& names) {
+  const auto open = [&](const WantedPlaces& places) {
+    return std::make_unique<FieldFile>(values_file, names, file.weights.num_columns,
+                                       options.common.read, file.source.shape, places);
+  };
+  try {
+    return open({places_of_sources(file), most_apart_deg});
+  } catch (const FileError&) {
+    const auto elsewhere = open({});
+    if (!elsewhere->fields().points.empty()) {
+      require_places(options, file, elsewhere->fields().points, false);
+    }
+    throw;
+  }
 }
 
 bool are_columns_named(const ReadOptions& read) {
@@ -132,7 +161,8 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   const auto [values_file, variable] = netcdf_part(options.values_file);
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
-  const FieldFile in(values_file, names, weights.num_columns, common.read, file.source.shape);
+  const auto opened = open_fields(options, file, values_file, names);
+  const FieldFile& in = *opened;
   tell(options.values_file, in.fields().remarks);
   if (!in.fields().points.empty()) require_places(options, file, in.fields().points, false);
   const AppliedCounts counts = apply_all(job, options, file, in);

@@ -32,7 +32,7 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
 // A field of a netCDF file at the sites: of a variable that has one, or of one of several.
 std::vector<double> netcdf_values(const SiteTable& table, const std::string& name,
                                   const std::string& option) {
-  const FieldFile file(table.name, {&name, 1}, table.sites.size());
+  const FieldFile file(table.name, {&name, 1}, table.sites.size(), {}, {}, {table.positions, 1e-9});
   const FieldSet& fields = file.fields();
   const FieldArray& array = fields.arrays.front();
   if (array.num_fields() != 1) {

@@ -20,6 +20,9 @@
 namespace rondel::cli {
 namespace {
 
+// The sites and the fields are read from one file.
+constexpr double same_places_deg = 1e-9;
+
 struct InterpolateCounts {
   std::size_t sites = 0;
   std::size_t targets = 0;
@@ -127,7 +130,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   const auto [file, variable] = netcdf_part(options.common.source());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
-  const FieldFile in(file, names, table.sites.size());
+  const FieldFile in(file, names, table.sites.size(), {}, {}, {table.positions, same_places_deg});
   FieldSet out;
   out.num_points = targets.table.sites.size();
   out.arrays = in.fields().arrays;

@@ -48,8 +48,9 @@ struct CoordinatePair {
   std::size_t lat = none;
   std::size_t lon_bounds = none;
   std::size_t lat_bounds = none;
-  bool are_axes = false;  ///< true if both have one dimension; the places are then all pairs
-  bool is_used = false;   ///< true if another variable has all of their dimensions
+  bool are_axes = false;   ///< true if both have one dimension; the places are then all pairs
+  bool is_used = false;    ///< true if another variable has all of their dimensions
+  bool is_listed = false;  ///< true if an attribute `coordinates` lists both
   /// How much the variables say of themselves; of two pairs the one with the higher rank comes
   /// first.
   int rank = 0;
@@ -69,12 +70,14 @@ struct CoordinateQuery {
 /// 1. Longitudes have the standard_name `longitude`, units such as `degrees_east` (CF 4.1, 4.2), or
 ///    the _CoordinateAxisType `Lon`; or else one of the names that models use (`lon`, `nav_lon`,
 ///    `TLONG`, `XLONG`, `clon` ...), unless units or standard_name contradict it. Latitudes
-///    likewise.
+///    likewise. A variable with the standard_name of a rotated pole or a projection
+///    (`grid_longitude`, `projection_x_coordinate` ...) is neither, whatever its units are.
 /// 2. The two variables of a pair have the same dimensions, or one dimension each. Bounds are no
 ///    coordinates.
 /// 3. A pair listed by an attribute `coordinates` comes before others (axes with the dimensions of
 ///    such a pair only seem to be degrees); then come pairs with bounds, then axes, then pairs
-///    whose dimensions other variables have.
+///    whose dimensions other variables have, and last those that are not crossed, as ULONG and TLAT
+///    are where there are TLONG and ULAT.
 /// 4. The bounds are the variables that the attribute `bounds` names. Without that attribute they
 ///    are NAME_bnds, NAME_bounds, NAME_b, NAME_vertices, NAME_corners or corner_NAME, if both
 ///    coordinates have such variables.
@@ -85,6 +88,26 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
     std::span<const VariableHeader> variables, const CoordinateQuery& query = {},
     std::vector<std::string>* remarks = nullptr);
 
+/// Finds the pairs of coordinates that one variable may be at, the best first: the pairs that it is
+/// a part of itself; or else those that its own attribute `coordinates` lists; or else all pairs
+/// whose dimensions it has.
+/// \param variable  the index of the variable
+/// \throws InvalidInput if there is no such variable
+RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHeader> variables,
+                                                      std::size_t variable);
+
+/// Tells which variables describe a mesh or a grid and are no fields: numbers of neighbors and
+/// corners, coordinates of corners, edges and centers, and masks. It knows MPAS, ICON, UGRID (what a
+/// `mesh_topology` names, and `cf_role`), SCRIP, ESMF, OASIS, Exodus, and pairs of NEMO such as
+/// `glamu` and `gphiu`. Areas and measures of quality are fields.
+/// \returns true or false for each variable
+RONDEL_API std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables);
+
+/// Tells whether the attributes of a file say that its mesh is in a plane, so that its longitudes
+/// and latitudes mean nothing: `on_a_sphere = NO` of MPAS.
+/// \param texts  the global attributes that are texts
+RONDEL_API bool is_planar(std::span<const std::pair<std::string, std::string>> texts);
+
 /// Returns the number of degrees in a unit of a coordinate, by its attribute `units`. A variable
 /// without units gets those of variables for the same places: bounds have the units of their
 /// coordinate (CF 7.1), and latitudes those of the longitudes. Otherwise the convention decides:
@@ -94,7 +117,8 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
 ///                   decides. The first relative is of the same kind, such as the coordinate that
 ///                   bounds belong to; the units of the others are used without their direction
 ///                   (east, west, north, south). Null entries are ignored
-/// \throws InvalidInput if the units are neither degrees nor radians
+/// \throws InvalidInput if the units are neither degrees nor radians, or the standard_name is that
+///         of a rotated pole or a projection
 RONDEL_API double degrees_per_unit(const VariableHeader& variable,
                                    std::span<const VariableHeader* const> relatives = {});
 

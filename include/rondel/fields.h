@@ -58,6 +58,9 @@ struct FieldSet {
   double fill = std::numeric_limits<double>::quiet_NaN();
   /// Sentences that say which variables of netCDF were left out, and why.
   std::vector<std::string> remarks;
+  /// A sentence about other grids of the file, if neither a name nor places say which one is meant;
+  /// else empty.
+  std::string remark_on_grids;
   std::vector<std::uint64_t> lines;  ///< for a table the line of each point, from 1 on; else empty
 };
 
@@ -74,9 +77,11 @@ struct FieldSet {
 /// gives to it.
 ///
 /// In netCDF the dimensions of the points are those of their longitudes and latitudes
-/// (rondel/conventions.h), in any order and anywhere among the others. If the file has no
-/// longitudes and latitudes, they are the dimension of the length n, or consecutive dimensions
-/// whose product is n. The attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`,
+/// (rondel/conventions.h), in any order and anywhere among the others. Each variable is at the
+/// places that its dimensions and its own attribute `coordinates` name. All variables that are read
+/// are at the places of the first one; others are left out, or an error if they are named. If the
+/// file has no longitudes and latitudes, the points are along the dimension of the length n, or
+/// consecutive dimensions whose product is n; it is an error if several fit. The attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`,
 /// `valid_range`, `_Unsigned`, `scale_factor` and `add_offset` turn the numbers of the file into
 /// values.
 ///
@@ -89,14 +94,23 @@ RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::strin
                                 std::uint64_t num_points, const ReadOptions& options = {},
                                 std::span<const std::uint64_t> shape = {});
 
+/// Where the points are at which fields are read.
+struct WantedPlaces {
+  /// A place for each point; NaN fits any place. If empty, the places are not known.
+  std::span<const LonLat> positions;
+  double most_apart_deg = 1e-4;  ///< how far the coordinates of the file may be from them
+};
+
 /// A file of fields whose values are read in slices, so that it may be larger than the memory if it
 /// is netCDF. Files of other formats are read whole.
 class FieldFile {
  public:
-  /// Opens a file; the parameters are those of read_fields().
+  /// Opens a file; the parameters are those of read_fields(), and
+  /// \param places  where the points are: variables of netCDF at other places are left out, or an
+  ///                error if they are named
   RONDEL_API FieldFile(const FileName& file, std::span<const std::string> names,
                        std::uint64_t num_points, const ReadOptions& options = {},
-                       std::span<const std::uint64_t> shape = {});
+                       std::span<const std::uint64_t> shape = {}, const WantedPlaces& places = {});
   RONDEL_API ~FieldFile();
   FieldFile(const FieldFile&) = delete;
   FieldFile& operator=(const FieldFile&) = delete;

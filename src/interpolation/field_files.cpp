@@ -68,10 +68,10 @@ struct FieldFile::OpenFields {
 
 FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
                      std::uint64_t num_points, const ReadOptions& options,
-                     std::span<const std::uint64_t> shape)
+                     std::span<const std::uint64_t> shape, const WantedPlaces& places)
     : content_(std::make_unique<OpenFields>(file.path)) {
   OpenFields& content = *content_;
-  const interpolation::FieldsToRead wanted{names, num_points, options, shape};
+  const interpolation::FieldsToRead wanted{names, num_points, options, shape, places};
   if (is_netcdf_file(file, content.bytes)) {
     io::in_file(content.bytes.name(), [&] {
       content.netcdf.emplace(content.bytes);

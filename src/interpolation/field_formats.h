@@ -21,6 +21,7 @@ struct FieldsToRead {
   std::uint64_t num_points;
   const ReadOptions& options;
   std::span<const std::uint64_t> shape;  // of the points' grid; empty: not known
+  WantedPlaces places = {};
 };
 // Each reads the content of a file. Throws BadValue.
 FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);

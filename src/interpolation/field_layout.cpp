@@ -6,62 +6,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/bad_value.h"
+#include "interpolation/field_lengths.h"
 #include "io/cf_names.h"
 #include "io/cf_reader.h"
+#include "io/number.h"
 
 namespace rondel::interpolation {
 namespace {
 
 using LayoutVariable = io::NetcdfReader::Variable;
 
-// The products of the last lengths, without those of 1.
-std::vector<std::uint64_t> products(std::span<const std::uint64_t> lengths) {
-  std::vector<std::uint64_t> result = {1};
-  for (std::size_t k = lengths.size(); k-- > 0;) {
-    if (lengths[k] != 1) result.push_back(result.back() * lengths[k]);
-  }
-  return result;
-}
-
-// Whether arrays of these lengths hold the same values in the same order, one perhaps with dimensions made one.
-bool agree(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
-  const std::vector<std::uint64_t> of_a = products(a);
-  const std::vector<std::uint64_t> of_b = products(b);
-  return std::ranges::includes(of_a, of_b) || std::ranges::includes(of_b, of_a);
-}
-
-// Reverses the dimensions where the lengths of the grid say so. False if they are others.
-bool fit(std::span<const std::uint64_t> wanted, const LayoutVariable& variable,
-         std::vector<std::size_t>& points) {
-  if (wanted.size() < 2) return true;
-  std::vector<std::uint64_t> lengths;
-  lengths.reserve(points.size());
-  for (const std::size_t d : points) lengths.push_back(variable.shape[d]);
-  if (agree(lengths, wanted)) return true;
-  std::ranges::reverse(lengths);
-  std::ranges::reverse(points);
-  return agree(lengths, wanted);
-}
-
 bool has_no_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
-}
-
-// The dimensions that are longer than 1.
-std::set<std::size_t> long_ones(std::span<const std::size_t> dimensions,
-                                std::span<const std::uint64_t> lengths) {
-  std::set<std::size_t> result;
-  for (std::size_t k = 0; k < dimensions.size(); ++k) {
-    if (lengths[k] > 1) result.insert(dimensions[k]);
-  }
-  return result;
-}
-
-void take_rest(const LayoutVariable& variable, FieldDimensions& layout) {
-  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
-    if (std::ranges::count(layout.points, d) == 0) layout.leading.push_back(d);
-  }
 }
 
 }  // namespace
@@ -72,12 +28,22 @@ std::vector<std::size_t> FieldDimensions::order() const {
   return all;
 }
 
-FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, std::uint64_t num_points,
-                                           std::span<const std::uint64_t> shape)
+FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                                           std::span<const LayoutVariable* const> variables)
     : file_(file),
-      num_points_(num_points),
-      shape_(shape.begin(), shape.end()),
-      headers_(io::headers_of(file)) {}
+      num_points_(wanted.num_points),
+      shape_(wanted.shape.begin(), wanted.shape.end()),
+      wanted_(wanted.places),
+      headers_(io::headers_of(file)),
+      parts_of_grids_(parts_of_grids(headers_)) {
+  if (wanted_.positions.size() != num_points_) wanted_.positions = {};
+  std::vector<const LayoutVariable*> fields(variables.begin(), variables.end());
+  if (wanted.names.empty()) {
+    std::erase_if(fields, [&](const LayoutVariable* field) { return is_auxiliary(*field); });
+  }
+  choose_places(fields);
+  choose_dimension_of_cells(fields);
+}
 
 const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
     const CoordinatePair& pair) {
@@ -109,46 +75,28 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   return known_.back();
 }
 
-std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
-    const LayoutVariable& variable) {
-  std::optional<FieldDimensions> layout;
-  int rank = 0;
-  for (const CoordinatePair& pair : find_coordinates(headers_, {{}, {}, variable.name})) {
-    if (layout && pair.rank < rank) break;
-    const LayoutVariable& lon = file_.variables()[pair.lon];
-    const std::uint64_t most =
-        pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
-    if (most < num_points_) continue;
-    const KnownPlaces& known = places_of_pair(pair);
-    const bool fits = known.places.size() == num_points_ || known.num_known == num_points_;
-    if (num_points_ != 0 && !fits) continue;
-    if (layout) {
-      if (layout->kept.empty()) layout->places.clear();  // said more than once
-      break;
-    }
-    FieldDimensions found;
-    for (const std::size_t dimension : known.dimensions) {
-      const auto at = std::ranges::find(variable.dimensions, dimension);
-      found.points.push_back(static_cast<std::size_t>(at - variable.dimensions.begin()));
-    }
-    const std::vector<std::size_t> before = found.points;
-    if (!fit(shape_, variable, found.points)) continue;
-    found.places = known.places;
-    if (found.points != before) {
-      std::vector<std::size_t> numbers(known.places.size());
-      const std::size_t row = known.shape.back();
-      const std::size_t num_rows = numbers.size() / row;
-      // Only two dimensions can fit in reverse, but for others of length 1.
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        found.places[i] = known.places[i % num_rows * row + i / num_rows];
-      }
-    }
-    leave_out_missing(known, found);
-    take_rest(variable, found);
-    layout = std::move(found);
-    rank = pair.rank;
+// Empty `points` if the lengths are not those of the grid.
+FieldDimensions FieldDimensionFinder::layout_along(const LayoutVariable& variable,
+                                                   const KnownPlaces& known) const {
+  FieldDimensions found;
+  for (const std::size_t dimension : known.dimensions) {
+    const auto at = std::ranges::find(variable.dimensions, dimension);
+    found.points.push_back(static_cast<std::size_t>(at - variable.dimensions.begin()));
   }
-  return layout;
+  const std::vector<std::size_t> before = found.points;
+  if (!fit_lengths(shape_, variable, found.points)) return {};
+  found.places = known.places;
+  if (found.points != before) {
+    const std::size_t row = known.shape.back();
+    const std::size_t num_rows = known.places.size() / row;
+    // Only two dimensions can fit in reverse, but for others of length 1.
+    for (std::size_t i = 0; i < known.places.size(); ++i) {
+      found.places[i] = known.places[i % num_rows * row + i / num_rows];
+    }
+  }
+  leave_out_missing(known, found);
+  take_other_dimensions(variable, found);
+  return found;
 }
 
 void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
@@ -164,87 +112,95 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
   layout.places = std::move(places);
 }
 
-std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(const LayoutVariable& variable) {
-  FieldDimensions layout;
-  layout.points = run_of_points(variable);
-  const std::vector<std::size_t> before = layout.points;
-  if (layout.points.empty() || !fit(shape_, variable, layout.points)) return std::nullopt;
-  if (!may_be_of_places(variable, layout.points)) return std::nullopt;
-  layout.is_reversed = layout.points != before;
-  take_rest(variable, layout);
-  return layout;
-}
-
-const std::vector<FieldDimensionFinder::DimensionSet>& FieldDimensionFinder::sets_of_places() {
-  if (sets_of_places_) return *sets_of_places_;
-  sets_of_places_.emplace();
-  for (const CoordinatePair& pair : find_coordinates(headers_, {})) {
+std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidates(
+    const LayoutVariable& variable) {
+  std::vector<PossiblePlaces> found;
+  int rank = 0;
+  why_not_.clear();
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  for (const CoordinatePair& pair : coordinates_of(headers_, index)) {
+    if (!found.empty() && pair.rank < rank) break;
     const LayoutVariable& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
-    if (!pair.is_used || most < num_points_) continue;
-    try {
-      const KnownPlaces& known = places_of_pair(pair);
-      if (known.places.size() != num_points_ && known.num_known != num_points_) continue;
-      sets_of_places_->push_back(long_ones(known.dimensions, known.shape));
-    } catch (const io::BadValue&) {
-      continue;  // coordinates that are no places
+    const KnownPlaces* const known = most < num_points_ ? nullptr : &places_of_pair(pair);
+    const bool fits = num_points_ == 0 ||
+                      (known != nullptr &&
+                       (known->places.size() == num_points_ || known->num_known == num_points_));
+    if (!fits) {
+      if (why_not_.empty() && pair.is_used) {
+        why_not_ = "is at " + names_of(pair.lon, pair.lat) + ", which are not " +
+                   std::to_string(num_points_) + " places";
+        other_pairs_.push_back(names_of(pair.lon, pair.lat));
+      }
+      continue;
     }
+    FieldDimensions layout = layout_along(variable, *known);
+    if (layout.points.empty()) continue;
+    const bool is_known = std::ranges::any_of(found, [&](const PossiblePlaces& other) {
+      return other.layout.points == layout.points &&
+             are_one_place(other.lon, pair.lon, other.layout.places, layout.places);
+    });
+    if (!is_known) found.push_back({pair.lon, pair.lat, std::move(layout)});
+    rank = pair.rank;
   }
-  return *sets_of_places_;
+  if (!found.empty()) why_not_.clear();
+  return found;
 }
 
-// Where the file has longitudes and latitudes of the points, values on other dimensions of the same lengths are elsewhere.
-bool FieldDimensionFinder::may_be_of_places(const LayoutVariable& variable,
-                                            std::span<const std::size_t> points) {
-  const std::vector<DimensionSet>& sets = sets_of_places();
-  if (sets.empty()) return true;
-  std::vector<std::size_t> dimensions;
-  std::vector<std::uint64_t> lengths;
-  for (const std::size_t d : points) {
-    dimensions.push_back(variable.dimensions[d]);
-    lengths.push_back(variable.shape[d]);
-  }
-  return std::ranges::count(sets, long_ones(dimensions, lengths)) != 0;
-}
-
-// The candidates are tried in this order: the dimension that is called cells; dimensions as long as those of the grid; the last ones; a
-// single one; others that follow each other.
-std::vector<std::size_t> FieldDimensionFinder::run_of_points(const LayoutVariable& variable) const {
-  const std::span<const std::uint64_t> shape = variable.shape;
-  const std::size_t rank = shape.size();
-  std::vector<std::size_t> best;
-  int rank_of_best = 0;
-  for (std::size_t begin = 0; begin < rank; ++begin) {
-    std::uint64_t product = 1;
-    for (std::size_t end = begin + 1; end <= rank; ++end) {
-      if (__builtin_mul_overflow(product, shape[end - 1], &product)) break;
-      if (product != num_points_) continue;
-      const bool is_single = end == begin + 1;
-      const std::string& name = file_.dimensions()[variable.dimensions[begin]].name;
-      const int preference = is_single && io::is_name_of_cells(name)                         ? 5
-                             : std::ranges::equal(shape.subspan(begin, end - begin), shape_) ? 4
-                             : end == rank                                                   ? 3
-                             : is_single                                                     ? 2
-                                                                                             : 1;
-      if (preference < rank_of_best) continue;
-      rank_of_best = preference;
-      best.clear();
-      for (std::size_t d = begin; d < end; ++d) best.push_back(d);
-      break;
+std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
+    const LayoutVariable& variable) {
+  std::vector<PossiblePlaces> found = candidates(variable);
+  other_places_.clear();
+  if (found.empty()) return std::nullopt;
+  if (anchor_) {
+    for (PossiblePlaces& candidate : found) {
+      if (!is_at_anchor(candidate)) continue;
+      if (found.size() > 1) {
+        candidate.layout.remark = "variable " + io::in_quotes(variable.name) + " may be at " +
+                                  text_of_choice(found) + "; it is read at " +
+                                  names_of(candidate.lon, candidate.lat);
+      }
+      return std::move(candidate.layout);
     }
+    other_places_ = names_of(found.front().lon, found.front().lat);
+    other_pairs_.push_back(other_places_);
+    why_not_ = "is at " + other_places_;
+    if (anchor_->lon == CoordinatePair::none) {
+      why_not_ += ", which are not the places that are wanted";
+    } else {
+      why_not_ += ", and not at " + names_of_places();
+      if (anchor_->variable != variable.name) {
+        why_not_ += " as " + io::in_quotes(anchor_->variable);
+      }
+    }
+    return std::nullopt;
   }
-  return best;
+  if (found.size() == 1) return std::move(found.front().layout);
+  const bool have_one_layout = std::ranges::all_of(found, [&](const PossiblePlaces& other) {
+    return other.layout.points == found.front().layout.points;
+  });
+  if (num_points_ == 0 || !have_one_layout) {
+    throw io::BadValue("variable " + io::in_quotes(variable.name) + " may be at " +
+                       text_of_choice(found) + "; FILE.nc:" + headers_[found.back().lon].name +
+                       ", the name of a coordinate, says where");
+  }
+  // Only the order of the values is needed, which is known.
+  if (found.front().layout.kept.empty()) found.front().layout.places.clear();
+  return std::move(found.front().layout);
 }
 
 std::optional<FieldDimensions> FieldDimensionFinder::layout(const LayoutVariable& variable) {
+  why_not_.clear();
+  other_places_.clear();
   if (variable.type == io::NetcdfType::text) return std::nullopt;
   std::optional<FieldDimensions> found = by_coordinates(variable);
   if (num_points_ == 0) {
     if (!found || found->places.empty()) return std::nullopt;
     num_points_ = found->places.size();
   }
-  return found ? found : by_lengths(variable);
+  if (found || !why_not_.empty()) return found;
+  return by_lengths(variable);
 }
 
 bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
@@ -255,7 +211,7 @@ bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
   const bool is_called_so =
       name.find("lon") != std::string::npos || name.find("lat") != std::string::npos;
   if (is_called_so && degrees_per_unit(header.text("units"))) return true;
-  if (io::is_connectivity(header)) return true;
+  if (parts_of_grids_[index]) return true;
   if (io::coordinate_evidence(header, io::CoordinateKind::lon) > 0 ||
       io::coordinate_evidence(header, io::CoordinateKind::lat) > 0) {
     return true;

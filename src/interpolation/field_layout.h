@@ -4,21 +4,27 @@
 // Finds the dimensions of a variable that are those of the points.
 //
 // 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude, longitude of axes, and else in that of
-//    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon).
-// 2. Else it is the dimension with as many entries as there are points, wherever it stands, or dimensions that follow each other and
+//    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon). A variable with an attribute `coordinates` has
+//    the places that this names, and no others.
+// 2. All fields are at the same places: those that are wanted, or else those of the first variable of which they are known for sure.
+// 3. Else it is the dimension with as many entries as there are points, wherever it stands, or dimensions that follow each other and
 //    multiply to that. Not so where the file has longitudes and latitudes of as many points: then the variable is no field at them.
-// 3. Where the lengths of the points' grid are known and those of the dimensions are the same in reverse, the order is reversed; where
+//    All fields have the same dimensions; where several fit, nothing says which, and that is an error.
+// 4. Where the lengths of the points' grid are known and those of the dimensions are the same in reverse, the order is reversed; where
 //    they are others, the variable is no field at the points.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "interpolation/field_formats.h"
+#include "io/bad_value.h"
 #include "io/netcdf_reader.h"
 #include "rondel/conventions.h"
 #include "rondel/types.h"
@@ -34,21 +40,39 @@ struct FieldDimensions {
   std::vector<std::size_t>
       kept;  // which of all have a place, if others are left out; `places` are theirs
   bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
+  std::string remark;        // a sentence on a choice that was made; else empty
 
   // All dimensions, in the order of the values of a FieldArray.
   [[nodiscard]] std::vector<std::size_t> order() const;
 };
 
+// Variables have their points along different dimensions, and nothing says which are meant.
+class SeveralReadings : public io::BadValue {
+ public:
+  using io::BadValue::BadValue;
+};
+
 class FieldDimensionFinder {
  public:
-  // `num_points`: 0 for those of the first variable whose places the file says. `shape`: the lengths of the points' grid; empty: not known.
-  FieldDimensionFinder(const io::NetcdfReader& file, std::uint64_t num_points,
-                       std::span<const std::uint64_t> shape);
+  using FileVariable = io::NetcdfReader::Variable;
 
-  // Nothing if the variable is no field at the points.
-  [[nodiscard]] std::optional<FieldDimensions> layout(const io::NetcdfReader::Variable& variable);
-  // Whether the variable is a coordinate, bounds, or the numbers of neighbors: no field, unless it is named.
-  [[nodiscard]] bool is_auxiliary(const io::NetcdfReader::Variable& variable) const;
+  // The number of points is 0 for those of the first variable whose places the file says. `variables`: those that are read, which decide
+  // what the places are.
+  FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                       std::span<const FileVariable* const> variables);
+
+  // Nothing if the variable is no field at the points. Throws BadValue if it may be one in several ways.
+  [[nodiscard]] std::optional<FieldDimensions> layout(const FileVariable& variable);
+  // Says where the variable is for which layout() gave nothing, if that is known: "at lon_u and lat, ...".
+  [[nodiscard]] const std::string& why_not() const { return why_not_; }
+  // The coordinates of that variable, if it has as many places as there are points: "lon_u and lat"; else empty.
+  [[nodiscard]] const std::string& other_places() const { return other_places_; }
+  // The coordinates of the points, "lon and lat"; empty if the file has none.
+  [[nodiscard]] std::string names_of_places() const;
+  // A sentence on the other grids that variables have for which a layout was asked; empty if there are none.
+  [[nodiscard]] std::string remark_on_grids() const;
+  // Whether the variable is a coordinate, bounds, or a part of a mesh or grid: no field, unless it is named.
+  [[nodiscard]] bool is_auxiliary(const FileVariable& variable) const;
 
  private:
   struct KnownPlaces {
@@ -59,26 +83,66 @@ class FieldDimensionFinder {
     std::vector<LonLat> places;
     std::size_t num_known;  // of those that are not missing
   };
+  struct PossiblePlaces {
+    std::size_t lon;
+    std::size_t lat;
+    FieldDimensions layout;
+  };
+  // The places of all fields.
+  struct Anchor {
+    std::size_t lon = CoordinatePair::none;  // none: the file has no such coordinates
+    std::size_t lat = CoordinatePair::none;
+    std::string variable;  // that has them
+    std::vector<LonLat> places;
+  };
+  using DimensionSet = std::set<std::size_t>;
+  struct SetsOfPlaces {
+    std::vector<DimensionSet>
+        same;  // dimensions of longitudes and latitudes that are those of the points
+    std::vector<DimensionSet> other;  // of as many others
+  };
+
   const KnownPlaces& places_of_pair(const CoordinatePair& pair);
   void leave_out_missing(const KnownPlaces& known, FieldDimensions& layout) const;
-  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(
-      const io::NetcdfReader::Variable& variable);
-  [[nodiscard]] std::optional<FieldDimensions> by_lengths(
-      const io::NetcdfReader::Variable& variable);
-  using DimensionSet = std::set<std::size_t>;
-  // The dimensions of the longitudes and latitudes in the file of as many points, a set for each pair.
-  const std::vector<DimensionSet>& sets_of_places();
-  [[nodiscard]] bool may_be_of_places(const io::NetcdfReader::Variable& variable,
+  [[nodiscard]] FieldDimensions layout_along(const FileVariable& variable,
+                                             const KnownPlaces& known) const;
+  // What the variable's coordinates say, if these have as many places as there are points: different places of the same rank.
+  [[nodiscard]] std::vector<PossiblePlaces> candidates(const FileVariable& variable);
+  [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, std::span<const LonLat> a,
+                                   std::span<const LonLat> b) const;
+  [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
+  void choose_places(std::span<const FileVariable* const> variables);
+  void name_wanted_places();
+  bool choose_wanted(const FileVariable& variable);
+  void choose_dimension_of_cells(std::span<const FileVariable* const> variables);
+  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const FileVariable& variable);
+  [[nodiscard]] std::optional<FieldDimensions> by_lengths(const FileVariable& variable);
+  [[nodiscard]] std::string names_of(std::size_t lon, std::size_t lat) const;
+  [[nodiscard]] std::string text_of_choice(const std::vector<PossiblePlaces>& found) const;
+  const SetsOfPlaces& sets_of_places();
+  [[nodiscard]] bool may_be_of_places(const FileVariable& variable,
                                       std::span<const std::size_t> points);
-  [[nodiscard]] std::vector<std::size_t> run_of_points(
-      const io::NetcdfReader::Variable& variable) const;
+  [[nodiscard]] bool has_same_dimensions(const FileVariable& variable,
+                                         std::span<const std::size_t> points);
+  [[nodiscard]] std::vector<std::size_t> run_of_points(const FileVariable& variable) const;
+  [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
 
   const io::NetcdfReader& file_;
   std::uint64_t num_points_;
   std::vector<std::uint64_t> shape_;
+  WantedPlaces wanted_;
   std::vector<VariableHeader> headers_;
-  std::vector<KnownPlaces> known_;
-  std::optional<std::vector<DimensionSet>> sets_of_places_;
+  std::vector<bool> parts_of_grids_;
+  std::deque<KnownPlaces> known_;
+  std::optional<SetsOfPlaces> sets_of_places_;
+  std::optional<Anchor> anchor_;
+  std::vector<std::string> other_pairs_;  // that variables have which are not at the anchor
+  // Dimensions that are longer than 1, of the first variable whose points were found by lengths, and that variable.
+  std::optional<DimensionSet> dimensions_of_points_;
+  std::string first_by_lengths_;
+  bool are_along_cells_ = false;  // that dimension is called so
+  std::string why_not_;
+  std::string other_places_;
 };
 
 }  // namespace rondel::interpolation

@@ -5,12 +5,11 @@
 #include "interpolation/field_slices.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 
+#include "interpolation/field_choice.h"
 #include "io/bad_value.h"
 #include "io/cf_names.h"
 #include "io/cf_reader.h"
@@ -70,7 +69,7 @@ void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places
 }
 
 [[noreturn]] void refuse_shape(const io::NetcdfReader& file, const SlicedNetcdf& variable,
-                               const FieldsToRead& wanted) {
+                               const FieldsToRead& wanted, std::size_t num_points) {
   std::string lengths;
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
     lengths += (d == 0 ? "" : ", ") + file.dimensions()[variable.dimensions[d]].name + " " +
@@ -81,52 +80,26 @@ void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places
     grid += (grid.empty() ? " on a grid of " : " x ") + std::to_string(length);
   }
   throw io::BadValue("no dimensions of variable " + io::in_quotes(variable.name) + " (" + lengths +
-                     ") have the " + std::to_string(wanted.num_points) + " points" + grid);
-}
-
-// "[3, 1]" means the field at places 3 and 1 along the dimensions; negative places count from the end.
-std::size_t number_of_field(const FieldArray& several, std::string_view places) {
-  std::string meant = several.name;
-  meant += places;
-  std::string lengths;
-  for (std::size_t d = 0; d < several.shape.size(); ++d) {
-    lengths +=
-        (d == 0 ? "" : ", ") + several.dimensions[d] + " " + std::to_string(several.shape[d]);
-  }
-  const io::BadValue bad(io::in_quotes(meant) + " is no field of variable " +
-                         io::in_quotes(several.name) + ", which has those of " + lengths);
-  std::size_t number = 0;
-  for (const std::uint64_t& length : several.shape) {
-    places.remove_prefix(1);  // a bracket or a comma
-    places.remove_prefix(std::min(places.find_first_not_of(' '), places.size()));
-    std::int64_t place = 0;
-    const char* const end = places.data() + places.size();
-    const auto [after, error] = std::from_chars(places.data(), end, place);
-    if (place < 0) place += static_cast<std::int64_t>(length);
-    if (error != std::errc() || after == end || place < 0 ||
-        static_cast<std::uint64_t>(place) >= length) {
-      throw bad;
-    }
-    number = number * static_cast<std::size_t>(length) + static_cast<std::size_t>(place);
-    places.remove_prefix(static_cast<std::size_t>(after - places.data()));
-    const bool is_last = &length == &several.shape.back();
-    if (is_last ? places != "]" : !places.starts_with(',')) throw bad;
-  }
-  return number;
+                     ") have the " + std::to_string(num_points) + " points" + grid);
 }
 
 }  // namespace
 
 FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
                          std::size_t most_of_block)
-    : file_(file), most_of_block_(most_of_block), layouts_(file, wanted.num_points, wanted.shape) {
+    : file_(file),
+      most_of_block_(most_of_block),
+      layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
   for (const std::string& name : wanted.names) {
     const SlicedNetcdf* const variable = file.find(name);
     if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
-    if (fields_.num_points != 0) refuse_shape(file, file.require(name), wanted);
-    throw io::BadValue("no longitudes and latitudes of variable " +
-                       io::in_quotes(file.require(name).name) +
+    const SlicedNetcdf& named = file.require(name);
+    if (!layouts_.why_not().empty()) {
+      throw io::BadValue("variable " + io::in_quotes(name) + " " + layouts_.why_not());
+    }
+    if (fields_.num_points != 0) refuse_shape(file, named, wanted, fields_.num_points);
+    throw io::BadValue("no longitudes and latitudes of variable " + io::in_quotes(named.name) +
                        io::remark_on_units(io::headers_of(file)));
   }
   if (wanted.names.empty()) add_all();
@@ -139,6 +112,8 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
                                                 : std::to_string(fields_.num_points) + " points") +
                        why);
   }
+  const bool are_chosen = !wanted.names.empty() || !wanted.places.positions.empty();
+  if (!are_chosen) fields_.remark_on_grids = layouts_.remark_on_grids();
 }
 
 bool FieldSlices::add(const SlicedNetcdf& variable) {
@@ -151,16 +126,7 @@ bool FieldSlices::add(const SlicedNetcdf& variable) {
 
 // "tas[3]" means field 3 of variable tas, "tas_2001-07-15" the field that has this name where each is a column.
 bool FieldSlices::add_one_of_several(const std::string& name) {
-  std::vector<const SlicedNetcdf*> beginnings;
-  for (const SlicedNetcdf& variable : file_.variables()) {
-    const std::size_t length = variable.name.size();
-    const bool is_beginning = length < name.size() && name.starts_with(variable.name) &&
-                              (name[length] == '[' || name[length] == '_');
-    if (is_beginning) beginnings.push_back(&variable);
-  }
-  std::ranges::sort(beginnings, std::ranges::greater(),
-                    [](const SlicedNetcdf* variable) { return variable->name.size(); });
-  for (const SlicedNetcdf* const variable : beginnings) {
+  for (const SlicedNetcdf* const variable : meant_variables(file_, name)) {
     std::optional<FieldDimensions> layout = layouts_.layout(*variable);
     if (!layout || layout->leading.empty()) continue;
     std::vector<FieldArray> axes;
@@ -189,6 +155,7 @@ void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions 
   file_.require_room(variable);
   io::ValueRules rules(variable);
   if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
+  if (!layout.remark.empty()) fields_.remarks.push_back(layout.remark);
   if (layout.is_reversed) {
     fields_.remarks.push_back("variable " + io::in_quotes(variable.name) +
                               " has the lengths of the grid in reverse, and is taken so");
@@ -215,23 +182,37 @@ void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions 
 
 // All variables that are fields; of others those are told that are no coordinates.
 void FieldSlices::add_all() {
-  std::string left_out;
-  std::size_t number = 0;
-  constexpr std::size_t most = 5;
+  NameList without_points;
+  NameList elsewhere;
+  std::vector<std::string> refused;
   for (const SlicedNetcdf& variable : file_.variables()) {
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
       if (add(variable)) continue;
+    } catch (const SeveralReadings&) {
+      throw;
     } catch (const io::BadValue& bad) {
-      fields_.remarks.emplace_back(std::string(bad.what()) + "; it is left out");
+      if (std::ranges::count(refused, bad.what()) == 0) refused.emplace_back(bad.what());
       continue;
     }
-    if (++number <= most) left_out += (left_out.empty() ? "" : ", ") + variable.name;
+    if (layouts_.other_places().empty()) {
+      without_points.add(variable.name);
+    } else {
+      elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
+    }
   }
-  if (number > most) left_out += " and " + std::to_string(number - most) + " more";
-  if (number > 0) {
-    fields_.remarks.push_back("left out, as they have no values at the points: " + left_out);
+  for (const std::string& why : refused) {
+    fields_.remarks.push_back(why + (fields_.arrays.empty() ? "" : "; it is left out"));
   }
+  if (!without_points.text().empty()) {
+    fields_.remarks.push_back("left out, as they have no values at the points: " +
+                              without_points.text());
+  }
+  if (elsewhere.text().empty()) return;
+  const std::string names = layouts_.names_of_places();
+  fields_.remarks.push_back("left out, as they are at other places than " +
+                            (names.empty() ? "those that are wanted" : names) + ": " +
+                            elsewhere.text());
 }
 
 // The coordinates along the dimensions that are not those of the points, but for those that are known.

@@ -18,12 +18,13 @@ using io::CoordinateKind;
 constexpr std::size_t none = CoordinatePair::none;
 
 // The rank of a pair is a sum of these.
-constexpr int rank_of_listed = 32;
-constexpr int rank_of_attributes = 16;
-constexpr int rank_of_bounds = 8;
-constexpr int rank_of_axes = 4;
-constexpr int rank_of_used = 2;
-constexpr int rank_of_standard_names = 1;
+constexpr int rank_of_listed = 64;
+constexpr int rank_of_attributes = 32;
+constexpr int rank_of_bounds = 16;
+constexpr int rank_of_axes = 8;
+constexpr int rank_of_used = 4;
+constexpr int rank_of_standard_names = 2;
+constexpr int rank_of_uncrossed = 1;
 
 struct DirectionMarks {
   std::string_view standard_name;
@@ -86,6 +87,9 @@ class CoordinateSearch {
         found.push_back(pair_of(lon, lat, std::min(lon_evidence, lat_evidence)));
       }
     }
+    for (CoordinatePair& pair : found) {
+      if (!is_crossed(pair, found)) pair.rank += rank_of_uncrossed;
+    }
     std::ranges::stable_sort(found, std::ranges::greater(), &CoordinatePair::rank);
     return found;
   }
@@ -103,6 +107,22 @@ class CoordinateSearch {
   }
 
  private:
+  [[nodiscard]] bool are_partners(const CoordinatePair& pair) const {
+    return io::are_partners(variables_[pair.lon].name, variables_[pair.lat].name);
+  }
+
+  // Whether both have a partner, and not each other: ULONG and TLAT, where there are TLONG and ULAT.
+  [[nodiscard]] bool is_crossed(const CoordinatePair& pair,
+                                const std::vector<CoordinatePair>& all) const {
+    if (are_partners(pair)) return false;
+    const auto has = [&](std::size_t CoordinatePair::*kind) {
+      return std::ranges::any_of(all, [&](const CoordinatePair& other) {
+        return other.*kind == pair.*kind && are_partners(other);
+      });
+    };
+    return has(&CoordinatePair::lon) && has(&CoordinatePair::lat);
+  }
+
   [[nodiscard]] std::size_t find(std::string_view name) const {
     const auto at = std::ranges::find(variables_, name, &VariableHeader::name);
     return at == variables_.end() ? none : static_cast<std::size_t>(at - variables_.begin());
@@ -172,7 +192,8 @@ class CoordinateSearch {
     pair.are_axes = are_axes(lon, lat);
     pair.lon_bounds = bounds_of(lon);
     pair.lat_bounds = bounds_of(lat);
-    if (is_listed(lon, lat)) pair.rank += rank_of_listed;
+    pair.is_listed = is_listed(lon, lat);
+    if (pair.is_listed) pair.rank += rank_of_listed;
     if (known_by >= 2) pair.rank += rank_of_attributes;
     if (known_by == 3) pair.rank += rank_of_standard_names;
     if (pair.lon_bounds != none && pair.lat_bounds != none) pair.rank += rank_of_bounds;
@@ -210,7 +231,7 @@ class CoordinateSearch {
 namespace io {
 
 int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind) {
-  if (!variable.is_number || variable.shape.empty()) return 0;
+  if (!variable.is_number || variable.shape.empty() || is_rotated_or_projected(variable)) return 0;
   const DirectionMarks& marks = marks_of(kind);
   const std::string standard_name = variable.text("standard_name");
   if (standard_name == marks.standard_name) return 3;
@@ -226,6 +247,7 @@ int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind) {
 std::string remark_on_units(std::span<const VariableHeader> variables) {
   std::string remark;
   for (const VariableHeader& variable : variables) {
+    if (is_rotated_or_projected(variable)) remark += "; " + remark_on_rotation(variable);
     const std::string units = variable.text("units");
     const bool is_called_so = is_known_name(variable.name, CoordinateKind::lon) ||
                               is_known_name(variable.name, CoordinateKind::lat);
@@ -249,6 +271,24 @@ std::vector<CoordinatePair> find_coordinates(std::span<const VariableHeader> var
   const CoordinateSearch search(variables, query, remarks);
   std::vector<CoordinatePair> pairs = search.pairs();
   for (const CoordinatePair& pair : pairs) search.remark_missing_bounds(pair);
+  return pairs;
+}
+
+std::vector<CoordinatePair> coordinates_of(std::span<const VariableHeader> variables,
+                                           std::size_t variable) {
+  if (variable >= variables.size()) {
+    throw InvalidInput("there is no variable " + std::to_string(variable), variable);
+  }
+  std::vector<CoordinatePair> pairs =
+      find_coordinates(variables, {{}, {}, variables[variable].name});
+  const auto is_part = [&](const CoordinatePair& pair) {
+    return pair.lon == variable || pair.lat == variable;
+  };
+  if (std::ranges::any_of(pairs, is_part)) {
+    std::erase_if(pairs, [&](const CoordinatePair& pair) { return !is_part(pair); });
+  } else if (std::ranges::any_of(pairs, &CoordinatePair::is_listed)) {
+    std::erase_if(pairs, [](const CoordinatePair& pair) { return !pair.is_listed; });
+  }
   return pairs;
 }
 

@@ -53,6 +53,35 @@ bool is_in_radians(std::string_view name) {
   return std::ranges::find(names_in_radians, name) != names_in_radians.end();
 }
 
+bool is_rotated_or_projected(const VariableHeader& variable) {
+  constexpr std::array<std::string_view, 6> names = {"grid_longitude",
+                                                     "grid_latitude",
+                                                     "projection_x_coordinate",
+                                                     "projection_y_coordinate",
+                                                     "projection_x_angular_coordinate",
+                                                     "projection_y_angular_coordinate"};
+  return std::ranges::find(names, variable.text("standard_name")) != names.end();
+}
+
+std::string remark_on_rotation(const VariableHeader& variable) {
+  return "'" + variable.name + "' has the standard_name '" + variable.text("standard_name") +
+         "': coordinates of a rotated pole or a projection are no longitudes and latitudes";
+}
+
+bool are_partners(std::string_view lon, std::string_view lat) {
+  constexpr std::array<KnownNames, 4> words = {KnownNames{"longitude", "latitude"},
+                                               KnownNames{"glam", "gphi"},
+                                               KnownNames{"long", "lat"}, KnownNames{"lon", "lat"}};
+  const std::string of_lon = lower_case(lon);
+  for (const KnownNames& word : words) {
+    const std::size_t at = of_lon.find(word.lon);
+    if (at == std::string::npos) continue;
+    std::string other = of_lon;
+    return lower_case(lat) == other.replace(at, word.lon.size(), word.lat);
+  }
+  return false;
+}
+
 bool is_connectivity(const VariableHeader& variable) {
   const std::string_view name = variable.name;
   const bool is_of_mpas = name.ends_with("OnCell") || name.ends_with("OnVertex") ||

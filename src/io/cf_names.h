@@ -23,7 +23,14 @@ enum class CoordinateKind { lon, lat };
 bool is_known_name(std::string_view name, CoordinateKind kind);
 // Whether a variable holds longitudes, or latitudes. 0: no, 1: by its name, 2: by its units, 3: by its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
-// A sentence for each variable that is called as longitudes or latitudes are, and whose units are no degrees; each begins with "; ".
+// Whether the standard_name says that these are coordinates of a rotated pole or of a map projection, whatever their units are (CF 5.6).
+RONDEL_API bool is_rotated_or_projected(const VariableHeader& variable);
+// Says so in a sentence without a full stop.
+std::string remark_on_rotation(const VariableHeader& variable);
+// Whether the names differ only in that one is of longitudes and the other one of latitudes: ULONG and ULAT, glamu and gphiu.
+bool are_partners(std::string_view lon, std::string_view lat);
+// A sentence for each variable that is called as longitudes or latitudes are, and whose units are no degrees, and for each that is
+// rotated or projected; each begins with "; ".
 RONDEL_API std::string remark_on_units(std::span<const VariableHeader> variables);
 // Whether MPAS or ICON, whose coordinates are radians, has a variable of this name.
 bool is_in_radians(std::string_view name);

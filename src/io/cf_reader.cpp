@@ -45,6 +45,14 @@ std::vector<double> meant_numbers(const NetcdfReader& file,
   return values;
 }
 
+void require_sphere(const NetcdfReader& file) {
+  const std::pair<std::string, std::string> on_a_sphere = {
+      "on_a_sphere", netcdf_text(file.attributes(), "on_a_sphere")};
+  if (is_planar({&on_a_sphere, 1})) {
+    throw BadValue("the mesh is in the plane: on_a_sphere is NO");
+  }
+}
+
 namespace {
 
 double degrees_per_unit_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
@@ -61,7 +69,8 @@ double degrees_per_unit_of(const NetcdfReader& file, const NetcdfReader::Variabl
     known.back() = &headers.emplace_back(header_of(file, *relative));
     has_units = has_units || !without_blanks(headers.back().text("units")).empty();
   }
-  if (has_units || usual == UsualUnits::of_name) return degrees_per_unit(own, known);
+  const bool is_usual = !has_units && !is_rotated_or_projected(own);
+  if (!is_usual || usual == UsualUnits::of_name) return degrees_per_unit(own, known);
   return usual == UsualUnits::radians ? 180 / std::numbers::pi : 1;
 }
 
@@ -70,6 +79,7 @@ double degrees_per_unit_of(const NetcdfReader& file, const NetcdfReader::Variabl
 std::vector<double> degrees_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
                                UsualUnits usual,
                                std::initializer_list<const NetcdfReader::Variable*> relatives) {
+  require_sphere(file);
   double factor = 1;
   try {
     factor = degrees_per_unit_of(file, variable, usual, relatives);

@@ -26,6 +26,9 @@ RONDEL_API VariableHeader header_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
+// Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing. degrees_of() does so, too.
+RONDEL_API void require_sphere(const NetcdfReader& file);
+
 // The units of a coordinate that has none and is related to no variable with units.
 enum class UsualUnits { of_name, degrees, radians };
 // Coordinates in degrees; missing ones NaN. A variable without units has those of the first of its relatives that has some; null is

@@ -100,6 +100,9 @@ std::optional<double> degrees_per_unit(std::string_view units) {
 
 double degrees_per_unit(const VariableHeader& variable,
                         std::span<const VariableHeader* const> relatives) {
+  if (io::is_rotated_or_projected(variable)) {
+    throw InvalidInput(io::remark_on_rotation(variable), 0);
+  }
   const std::string units = variable.text("units");
   if (const std::optional<double> degrees = degrees_per_unit(units)) return *degrees;
   if (!io::without_blanks(units).empty()) {

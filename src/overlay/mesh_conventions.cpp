@@ -209,9 +209,7 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
 std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const vertices = file.find("verticesOnCell");
   if (vertices == nullptr || !is_meant(file, name, *vertices)) return std::nullopt;
-  if (io::netcdf_text(file.attributes(), "on_a_sphere").starts_with("NO")) {
-    throw BadValue("the mesh is in the plane: on_a_sphere is NO");
-  }
+  io::require_sphere(file);
   MeshContent mesh;
   mesh.convention = "MPAS";
   const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};

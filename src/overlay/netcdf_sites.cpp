@@ -133,8 +133,10 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
   const std::size_t num_centers = sites.table.positions.size();
   if (num_centers == 0 || keep_columns || named.is_one_of_several) {
     try {
-      const FieldFile fields(file, names, num_centers);
+      const FieldFile fields(file, names, num_centers, {}, {}, {sites.table.positions, 1e-9});
       if (num_centers == 0) {
+        const std::string& remark = fields.fields().remark_on_grids;
+        if (!remark.empty()) sites.remarks.push_back(remark);
         sites.table.positions = fields.fields().positions;
         sites.shape = fields.fields().shape;
         if (const std::size_t number = fields.fields().num_without_place; number > 0) {

@@ -48,8 +48,25 @@ std::vector<VariableHeader> headers_from(ByteSource& source) {
   return headers;
 }
 
+void test_variables(const std::vector<VariableHeader>& headers) {
+  const std::vector<bool> is_part = parts_of_grids(headers);
+  require(is_part.size() == headers.size(), "each variable has an answer");
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    const std::vector<CoordinatePair> pairs = coordinates_of(headers, i);
+    const auto is_listed = [](const CoordinatePair& pair) { return pair.is_listed; };
+    const auto has_it = [i](const CoordinatePair& pair) { return pair.lon == i || pair.lat == i; };
+    require(std::ranges::none_of(pairs, has_it) || std::ranges::all_of(pairs, has_it),
+            "a coordinate is at places that it is a part of");
+    require(std::ranges::none_of(pairs, is_listed) || std::ranges::all_of(pairs, is_listed) ||
+                std::ranges::all_of(pairs, has_it),
+            "the attribute coordinates has the last word");
+    (void)is_planar(headers[i].texts);
+  }
+}
+
 void test_coordinates(ByteSource& source) {
   const std::vector<VariableHeader> headers = headers_from(source);
+  test_variables(headers);
   std::vector<std::string> remarks;
   int rank = 1 << 20;
   for (const CoordinatePair& pair : find_coordinates(headers, {}, &remarks)) {

@@ -22,4 +22,4 @@ rondel_add_test(interpolation_slopes_test
   interpolation_tracks_test.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)
 
-rondel_add_test(weight_files_test field_names_test.cpp field_slices_test.cpp weight_check_test.cpp weight_files_test.cpp LIBS rondel_remap)
+rondel_add_test(weight_files_test field_names_test.cpp field_places_test.cpp field_slices_test.cpp weight_check_test.cpp weight_files_test.cpp LIBS rondel_remap)

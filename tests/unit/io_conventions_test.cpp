@@ -372,5 +372,39 @@ TEST(conventions, dimensions_in_another_order) {
   }
 }
 
+TEST(conventions, of_one_variable_are_those_of_its_own_attribute) {
+  VariableHeader own = header("temp", {"y", "x"});
+  own.texts.emplace_back("coordinates", "TLONG TLAT");
+  const std::vector<VariableHeader> headers = {
+      header("TLONG", {"y", "x"}, {{"units", "degrees_east"}}),
+      header("TLAT", {"y", "x"}, {{"units", "degrees_north"}}),
+      header("ULONG", {"y", "x"}, {{"units", "degrees_east"}}),
+      header("ULAT", {"y", "x"}, {{"units", "degrees_north"}}),
+      own,
+      header("depth", {"y", "x"})};
+  const auto lons_of = [&](std::size_t variable) {
+    std::vector<std::size_t> lons;
+    for (const CoordinatePair& pair : coordinates_of(headers, variable)) lons.push_back(pair.lon);
+    return lons;
+  };
+  EXPECT_EQ(lons_of(4), std::vector<std::size_t>{0});
+  EXPECT_EQ(lons_of(2).front(), 2U);
+  // Crossed pairs, as ULONG and TLAT, are behind the others.
+  const std::vector<CoordinatePair> of_depth = coordinates_of(headers, 5);
+  ASSERT_EQ(of_depth.size(), 4U);
+  EXPECT_EQ(of_depth[0].lat, of_depth[0].lon + 1);
+  EXPECT_EQ(of_depth[1].lat, of_depth[1].lon + 1);
+  EXPECT_GT(of_depth[1].rank, of_depth[2].rank);
+  EXPECT_THROW((void)coordinates_of(headers, 6), InvalidInput);
+}
+
+TEST(conventions, rotated_coordinates_have_no_unit) {
+  VariableHeader rotated = header("rlon", {"rlon"}, {{"units", "degrees_east"}});
+  rotated.texts.emplace_back("standard_name", "grid_longitude");
+  EXPECT_THROW((void)degrees_per_unit(rotated), InvalidInput);
+  EXPECT_TRUE(is_planar(Texts{{"title", ""}, {"on_a_sphere", "NO      "}}));
+  EXPECT_FALSE(is_planar(Texts{{"on_a_sphere", "YES"}}));
+}
+
 }  // namespace
 }  // namespace rondel::test

@@ -571,9 +571,11 @@ std::vector<Point> places_of(std::initializer_list<const char*> names,
     }
     out.add_variable({"t", io::NetcdfType::float64, {0, 1}, {}});
     out.begin();
+    float first = 0;  // another one for a third variable
     for (const auto& of : dimensions) {
+      if (&of - dimensions.data() == 2) first = 5;
       for (std::size_t k = 0; k < (of.size() == 2 ? 4 : 2); ++k) {
-        out.write(std::span<const float>(std::array{30 * static_cast<float>(k)}));
+        out.write(std::span<const float>(std::array{first + 30 * static_cast<float>(k)}));
       }
     }
     out.write(std::span<const double>(std::array<double, 4>{}));

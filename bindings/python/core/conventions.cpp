@@ -95,6 +95,26 @@ void add_conventions(nb::module_& module) {
       },
       nb::arg("headers"), nb::arg("lon"), nb::arg("lat"), nb::arg("values"));
   module.def(
+      "coordinates_of",
+      [](const std::vector<HeaderIn>& in, std::size_t variable) {
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;
+        for (const CoordinatePair& pair : coordinates_of(headers_of(in), variable)) {
+          pairs.emplace_back(pair.lon, pair.lat);
+        }
+        return pairs;
+      },
+      nb::arg("headers"), nb::arg("variable"));
+  module.def(
+      "parts_of_grids",
+      [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
+      nb::arg("headers"));
+  module.def(
+      "is_planar",
+      [](const std::vector<std::pair<std::string, std::string>>& texts) {
+        return is_planar(texts);
+      },
+      nb::arg("texts"));
+  module.def(
       "repeated_dimensions",
       [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
          const NumbersIn& lon, const NumbersIn& lat) {

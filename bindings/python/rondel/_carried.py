@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._coordinates import lies_elsewhere, missing_marker
+from ._coordinates import lies_elsewhere, missing_marker, parts_of_grids
 from ._errors import warn_caller
 from ._places import Places
 from ._weights import Weights
+
+_AWAY = "as their longitudes and latitudes are not those of the source"
 
 
 def carried(
@@ -70,10 +72,14 @@ def carried(
         raise ValueError(
             f"the data have no dimension {' and no '.join(lost)}, which the source has"
         )
-    own_names = source.own_names
+    own_names = source.own_names | parts_of_grids(data)
     fields = {name: data[name] for name in data.data_vars if str(name) not in own_names}
-    _tell_of_others(fields, source)
-    taken = {name: moved(array) for name, array in fields.items() if _is_field(array, source)}
+    _tell_of_others(data, fields, source)
+    taken = {
+        name: moved(array)
+        for name, array in fields.items()
+        if _is_field(array, source) and not source.is_away(data, name)
+    }
     rest = data.drop_vars([name for name in own_names if name in data.variables])
     rest = rest.drop_dims(source.dims)
     whole = _without_other_places(rest, data, wanted)
@@ -87,12 +93,17 @@ def _is_field(array: xarray.DataArray, source: Places) -> bool:
     return set(source.dims) <= set(array.dims) and array.dtype.kind in "biuf"
 
 
-def _tell_of_others(fields: dict[Any, xarray.DataArray], source: Places) -> None:
+def _tell_of_others(
+    data: xarray.Dataset, fields: dict[Any, xarray.DataArray], source: Places
+) -> None:
     """Warns of variables that depend on place and cannot be carried."""
     dims = set(source.dims)
     names = ", ".join(map(str, source.dims))
     texts = [str(n) for n, a in fields.items() if dims <= set(a.dims) and not _is_field(a, source)]
     parts = [str(n) for n, a in fields.items() if dims & set(a.dims) and not dims <= set(a.dims)]
+    away = [str(n) for n, a in fields.items() if _is_field(a, source) and source.is_away(data, n)]
+    if away:
+        warn_caller(f"left out, {_AWAY}: {', '.join(away)}")
     if texts:
         warn_caller(f"left out, as they are no real numbers: {', '.join(texts)}")
     if parts:
@@ -133,11 +144,11 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
         if set(others) & set(array.dims) and str(name) not in away
     ]
     for names, why in (
-        (away, "their longitudes and latitudes are not those of the source"),
-        (taken, f"the targets have another dimension {' or '.join(map(str, others))}"),
+        (away, _AWAY),
+        (taken, f"as the targets have another dimension {' or '.join(map(str, others))}"),
     ):
         if names:
-            warn_caller(f"left out, as {why}: {', '.join(names)}")
+            warn_caller(f"left out, {why}: {', '.join(names)}")
     return rest.drop_vars([*away, *taken]).drop_dims(others)
 
 

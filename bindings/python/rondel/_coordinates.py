@@ -45,6 +45,12 @@ class Coordinates:
 
     def __init__(self, data: Any, lon: Hashable | None, lat: Hashable | None) -> None:
         headers = _headers(data)
+        texts = [(str(key), text) for key, text in data.attrs.items() if isinstance(text, str)]
+        if lon is None and lat is None and _core.is_planar(texts):
+            raise ValueError(
+                "the mesh is in the plane: on_a_sphere is NO; lon=NAME and lat=NAME name true "
+                "longitudes and latitudes, if there are any"
+            )
         for kind, name in (("lon", lon), ("lat", lat)):
             if name is not None and str(name) not in [header[0] for header in headers]:
                 raise ValueError(f"there is no variable {name!r} ({kind}=)")
@@ -94,6 +100,19 @@ class Coordinates:
         first = {dim: 0 for dim, is_same in zip(self.lon.dims, repeated, strict=True) if is_same}
         self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
 
+    def is_same(self, other: Coordinates) -> bool:
+        """Whether the other ones are of the same places, but for the rounding of float32."""
+        for own, its, turn in ((self.lon, other.lon, 360), (self.lat, other.lat, np.inf)):
+            if own.dims != its.dims or own.shape != its.shape:
+                return False
+            away = np.asarray(its.values, np.float64) - np.asarray(own.values, np.float64)
+            if np.isfinite(turn):
+                away -= turn * np.round(away / turn)
+            is_single = own.dtype.itemsize < 8 or its.dtype.itemsize < 8
+            if not np.all((np.abs(away) <= (1e-4 if is_single else 1e-9)) | np.isnan(away)):
+                return False
+        return True
+
     @property
     def bounds_names(self) -> set[str]:
         """Variables that are bounds of these coordinates, or that any attribute calls so."""
@@ -123,6 +142,31 @@ class Coordinates:
         return made
 
 
+def parts_of_grids(data: xarray.Dataset) -> set[str]:
+    """The variables that describe a mesh or grid, as the numbers of neighbors: no fields."""
+    headers = _headers(data)
+    parts = _core.parts_of_grids(headers)
+    return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
+
+
+def is_away(data: xarray.Dataset, name: str, found: Coordinates) -> bool:
+    """Whether the variable, by its dimensions and its attribute `coordinates`, is elsewhere."""
+    headers = _headers(data)
+    names = [header[0] for header in headers]
+    pairs = [
+        (names[lon], names[lat]) for lon, lat in _core.coordinates_of(headers, names.index(name))
+    ]
+    if not pairs or (found.lon_name, found.lat_name) in pairs:
+        return False
+    for lon, lat in pairs:
+        try:
+            if found.is_same(Coordinates(data, lon, lat)):
+                return False
+        except ValueError:
+            continue  # no longitudes and latitudes
+    return True
+
+
 def lies_elsewhere(data: xarray.Dataset, name: str) -> bool:
     """Whether the Dataset has longitudes and latitudes of this variable."""
     pairs, _ = _core.find_coordinates(_headers(data), "", "", name)
@@ -136,8 +180,8 @@ def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashab
     for kind, other in (("lon", "lat"), ("lat", "lon")):
         standard_name, units = MARKS[kind]
         is_there = any(
-            standard_name in dict(header[4]).get("standard_name", "")
-            or units in dict(header[4]).get("units", "")
+            standard_name == dict(header[4]).get("standard_name", standard_name)
+            and ("standard_name" in dict(header[4]) or units in dict(header[4]).get("units", ""))
             for header in headers
         )
         if not is_there and (lon if kind == "lon" else lat) is None:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 
 from ._arrays import as_mask, in_words, lonlat, point_set_hash, unit_vectors, unmasked
-from ._coordinates import MARKS, Coordinates
+from ._coordinates import MARKS, Coordinates, is_away
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
@@ -92,6 +92,10 @@ class Places:
                     f"the coordinate {name!r} of the data is not that of the source, or in another "
                     "order"
                 )
+
+    def is_away(self, data: xarray.Dataset, name: Hashable) -> bool:
+        """Whether a variable with the dimensions of the places has others."""
+        return is_away(data, str(name), self._found)
 
     @property
     def own_names(self) -> set[str]:

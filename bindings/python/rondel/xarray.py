@@ -103,14 +103,16 @@ class RondelAccessor:
         Dataset or DataArray
             As the source: numbers are interpolated, in their type if it is a floating one, and
             booleans as 0 and 1; what does not depend on place stays; other variables of the
-            places, such as texts, are left out with a warning that names them. Arrays of Dask stay
-            lazy.
+            places, such as texts, and those whose attribute `coordinates` names other places are
+            left out with a warning that names them. What describes a mesh, as the numbers of
+            neighbors, is left out. Arrays of Dask stay lazy.
 
         Raises
         ------
         ValueError
-            If longitudes or latitudes are not found, the weights are of other places, or data and
-            target share a dimension, such as the time of a track: rename the target's.
+            If longitudes or latitudes are not found, or are those of a rotated pole, a projection
+            or a mesh in the plane (``on_a_sphere = NO``), the weights are of other places, or
+            data and target share a dimension, such as the time of a track: rename the target's.
 
         """
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)

@@ -146,3 +146,85 @@ def test_arrays_of_no_time():
     regridder = rondel.Regridder({"lon": LON, "lat": LAT}, TARGET, "bilinear")
     assert regridder(np.zeros((0, 12, 24))).shape == (0, 3)
     assert regridder(np.zeros((2, 0, 12, 24))).shape == (2, 0, 3)
+
+
+def pop():
+    """Two kinds of points along the same dimensions; each variable says which are its own."""
+    lon, lat = np.meshgrid(np.arange(0.0, 360, 30), np.arange(-75.0, 76, 30))
+    grid = ("y", "x")
+    return xarray.Dataset(
+        {
+            "temp": (grid, np.cos(np.radians(lon)), {"coordinates": "TLONG TLAT"}),
+            "wind": (grid, np.cos(np.radians(lon + 15)), {"coordinates": "ULONG ULAT"}),
+            "depth": (grid, np.ones_like(lon)),
+        },
+        {
+            name: (grid, values, {"units": units})
+            for name, values, units in (
+                ("TLONG", lon, "degrees_east"),
+                ("TLAT", lat, "degrees_north"),
+                ("ULONG", lon + 15, "degrees_east"),
+                ("ULAT", lat + 10, "degrees_north"),
+            )
+        },
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "names", "away"), [("T", ["temp", "depth"], "wind"), ("U", ["wind", "depth"], "temp")]
+)
+def test_variables_are_at_the_places_that_their_own_attribute_names(kind, names, away):
+    data = pop()
+    lon, lat = f"{kind}LONG", f"{kind}LAT"
+    target = (data[lon].values, data[lat].values)
+    with pytest.warns(UserWarning, match=f"are not those of the source: {away}$"):
+        found = data.rondel.interpolate(target, lon=lon, lat=lat, method="nearest")
+    assert list(found.data_vars) == names
+    np.testing.assert_array_equal(found[names[0]].values, data[names[0]].values)
+
+
+def test_the_same_places_under_other_names_are_no_other_places():
+    data = pop()
+    data["wind"].attrs["coordinates"] = "ULONG ULAT"
+    data["ULONG"], data["ULAT"] = data["TLONG"] + 360, data["TLAT"]
+    data["ULONG"].attrs["units"], data["ULAT"].attrs["units"] = "degrees_east", "degrees_north"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = data.rondel.interpolate(TARGET, lon="TLONG", lat="TLAT")
+    assert list(found.data_vars) == ["temp", "wind", "depth"]
+
+
+def test_what_describes_a_mesh_is_no_field():
+    rng = np.random.default_rng(5)
+    lon, lat = rng.uniform(0, 6, 12), rng.uniform(-1.5, 1.5, 12)
+    data = xarray.Dataset(
+        {
+            "lonCell": ("nCells", lon),
+            "latCell": ("nCells", lat),
+            "xCell": ("nCells", np.cos(lon)),
+            "nEdgesOnCell": ("nCells", np.full(12, 6)),
+            "verticesOnCell": (("nCells", "maxEdges"), np.ones((12, 6), int)),
+            "cellsOnEdge": (("nEdges", "TWO"), np.ones((5, 2), int)),
+            "areaCell": ("nCells", np.ones(12)),
+            "t": ("nCells", np.ones(12)),
+        }
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = data.rondel.interpolate(TARGET)
+    assert list(found.data_vars) == ["areaCell", "t"]
+    data.attrs["on_a_sphere"] = "NO              "
+    with pytest.raises(ValueError, match="in the plane: on_a_sphere is NO"):
+        data.rondel.interpolate(TARGET)
+    found = data.rondel.interpolate(TARGET, lon="lonCell", lat="latCell")
+    assert "t" in found
+
+
+def test_rotated_coordinates_are_no_places():
+    data = dataset()
+    data["lon"].attrs.update(standard_name="grid_longitude", units="degrees_east")
+    data["lat"].attrs.update(standard_name="grid_latitude", units="degrees_north")
+    with pytest.raises(ValueError, match="no coordinate has the"):
+        data.rondel.interpolate(TARGET)
+    with pytest.raises(ValueError, match="rotated pole or a projection"):
+        data.rondel.interpolate(TARGET, lon="lon", lat="lat")

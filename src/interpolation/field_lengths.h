@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Dimensions of variables by their lengths.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "interpolation/field_layout.h"
+#include "io/netcdf_reader.h"
+
+namespace rondel::interpolation {
+
+// Reverses the dimensions where the lengths of the grid say so. False if they are others.
+bool fit_lengths(std::span<const std::uint64_t> wanted, const io::NetcdfReader::Variable& variable,
+                 std::vector<std::size_t>& points);
+// Makes the dimensions that are not those of the points the leading ones.
+void take_other_dimensions(const io::NetcdfReader::Variable& variable, FieldDimensions& layout);
+
+}  // namespace rondel::interpolation
