@@ -2,23 +2,47 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <numbers>
 
+#include "column_values.h"
 #include "query_job.h"
+#include "rondel/mesh_files.h"
 
 namespace rondel::cli {
 namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-std::vector<const Column*> find_columns(const QueryOptions& options, const SiteTable& table) {
-  std::vector<const Column*> found;
+Column numeric_column(const std::string& name, const std::vector<double>& values) {
+  Column column;
+  column.name = name;
+  column.is_numeric = true;
+  for (const double value : values) {
+    std::array<char, 32> text{};
+    if (!std::isnan(value)) {
+      column.text.append(text.data(),
+                         std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+    }
+    column.ends.push_back(column.text.size());
+  }
+  return column;
+}
+
+// The columns that are named. In netCDF one may be one of the several fields of a variable.
+std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& table) {
+  std::vector<Column> found;
   for (const std::string& name : options.columns) {
     const auto at = std::ranges::find(table.columns, name, &Column::name);
-    if (at == table.columns.end()) {
+    if (at != table.columns.end()) {
+      found.push_back(*at);
+    } else if (is_netcdf_file(table.name)) {
+      found.push_back(numeric_column(name, column_values(table, name, "--column")));
+    } else {
       throw FileError(table.name + ": no column '" + name + "' for --column");
     }
-    found.push_back(&*at);
   }
   return found;
 }
@@ -43,17 +67,17 @@ SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
   return lists;
 }
 
-std::string table_of(const QueryJob& job, const QueryOptions& options, const SiteLists& lists) {
+std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
+                     const SiteLists& lists) {
   const char separator = job.separator();
-  const auto columns = find_columns(options, job.sites());
   std::string text = "query";
   text += separator;
   text += "site";
   text += separator;
   text += "distance_deg";
-  for (const Column* column : columns) {
+  for (const Column& column : columns) {
     text += separator;
-    append_field(text, column->name, separator);
+    append_field(text, column.name, separator);
   }
   text += '\n';
   for (std::size_t i = 0; i < job.queries().size(); ++i) {
@@ -64,9 +88,9 @@ std::string table_of(const QueryJob& job, const QueryOptions& options, const Sit
       append(text, std::uint64_t{site});
       text += separator;
       append_distance(text, job.locator().distance(job.queries()[i], site) * degrees_per_radian);
-      for (const Column* column : columns) {
+      for (const Column& column : columns) {
         text += separator;
-        append_field(text, cell(*column, site), separator);
+        append_field(text, cell(column, site), separator);
       }
       text += '\n';
     }
@@ -99,12 +123,12 @@ ExitStatus run_nearest(const QueryOptions& options) {
     throw UsageError("--output: .npy holds one row of sites a query, without --within or --column");
   }
   job.prepare();
-  find_columns(options, job.sites());
+  const std::vector<Column> columns = find_columns(options, job.sites());
   const SiteLists lists = find_sites(job, options);
   if (job.is_npy()) {
     write_npy(job, options, lists);
   } else {
-    job.write_text(table_of(job, options, lists));
+    job.write_text(table_of(job, columns, lists));
   }
   job.report({{"found", lists.sites.size()}});
   return done;

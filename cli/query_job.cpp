@@ -52,7 +52,8 @@ QueryJob::QueryJob(const QueryOptions& options)
 void QueryJob::prepare() {
   ReadOptions read = options_.common.read;
   read.keep_columns = !options_.columns.empty();
-  sites_ = job_.read(options_.common.source(), read);
+  // Columns of netCDF are at the sites, so that the first one says which of several grids is meant.
+  sites_ = job_.read(options_.common.source(), read, options_.columns);
   queries_ = job_.read({options_.queries, options_.query_format}, query_options(options_));
   triangulation_ = job_.triangulate(sites_);
   job_.time(Stage::locator, [this] { locator_.emplace(triangulation_); });

@@ -9,8 +9,10 @@
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/cf_names.h"
+#include "io/cf_reader.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -50,14 +52,8 @@ std::vector<Point> places_of_cells(const CellTable& table) {
   return places;
 }
 
-// A variable of netCDF, which may be a field on its last dimension, or on its last two.
-struct NamedField {
-  std::string name;
-  std::vector<std::uint64_t> num_points;
-};
-
 struct NetcdfFields {
-  std::vector<NamedField> fields;
+  std::vector<std::string> names;
   bool is_mesh = false;  // cells whose coordinates no attribute of a field may name
 };
 
@@ -74,46 +70,56 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
       found.is_mesh =
           found.is_mesh || !io::netcdf_text(variable.attributes, "face_node_connectivity").empty();
     }
-    const auto add = [&](const io::NetcdfReader::Variable& variable) {
-      NamedField field = {variable.name, {}};
-      std::uint64_t product = 1;
-      for (std::size_t used = 1; used <= std::min<std::size_t>(2, variable.shape.size()); ++used) {
-        product *= variable.shape[variable.shape.size() - used];
-        field.num_points.push_back(product);
-      }
-      if (product > 0 && variable.type != io::NetcdfType::text) found.fields.push_back(field);
-    };
     if (!name.empty()) {
-      add(reader.require(name));
+      found.names.push_back(name);
       return found;
     }
-    for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+    const std::vector<bool> is_part = parts_of_grids(io::headers_of(reader));
+    for (std::size_t v = 0; v < is_part.size(); ++v) {
+      const io::NetcdfReader::Variable& variable = reader.variables()[v];
       const std::string units = io::netcdf_text(variable.attributes, "units");
       const bool is_axis = variable.shape.size() == 1 &&
                            reader.dimensions()[variable.dimensions[0]].name == variable.name;
-      if (!is_axis && !units.starts_with("degree") && !units.starts_with("rad")) add(variable);
+      const bool is_field = !variable.shape.empty() && variable.type != io::NetcdfType::text &&
+                            variable.num_values > 0;
+      const bool is_angle = units.starts_with("degree") || units.starts_with("rad");
+      if (is_field && !is_axis && !is_angle && !is_part[v]) found.names.push_back(variable.name);
     }
     return found;
   });
 }
 
+// The field at places of this number; 0: those of its longitudes and latitudes. Empty values if it is not one field at known places.
+FieldSet one_field(const FileName& file, const std::string& name, std::size_t num_points) {
+  FieldSet fields = read_fields(file, {&name, 1}, num_points);
+  if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) return {};
+  return fields;
+}
+
 // The places of the field, by its coordinates or as the cells of the mesh, and its values; none if nothing says where.
-Spacings spacings_of_field(const FileName& file, const NamedField& field,
-                           const std::vector<Point>& cells) {
-  Spacings result;
-  for (const std::uint64_t num_points : field.num_points) {
-    FieldSet fields = read_fields(file, {&field.name, 1}, num_points);
-    if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) continue;
-    if (fields.points.size() != num_points) fields.points.clear();
-    if (fields.points.empty() && num_points == cells.size()) fields.points = cells;
-    if (fields.points.empty()) continue;
-    result.places = std::move(fields.points);
-    for (const auto& [attribute, text] : fields.arrays.front().attributes) {
-      if (attribute == "units") result.units = text;
-    }
-    result.values = std::move(fields.arrays.front().values);
-    return result;
+Spacings spacings_of_field(const FileName& file, const std::string& name,
+                           const std::vector<Point>& cells, bool is_named) {
+  FieldSet fields;
+  try {
+    fields = one_field(file, name, 0);
+  } catch (const FileError&) {
+    if (cells.empty() && is_named) throw;
   }
+  if (fields.points.empty() && !cells.empty()) {
+    try {
+      fields = one_field(file, name, cells.size());
+    } catch (const FileError&) {
+      if (is_named) throw;
+    }
+    fields.points = cells;
+  }
+  Spacings result;
+  if (fields.arrays.empty() || fields.points.size() != fields.num_points) return result;
+  result.places = std::move(fields.points);
+  for (const auto& [attribute, text] : fields.arrays.front().attributes) {
+    if (attribute == "units") result.units = text;
+  }
+  result.values = std::move(fields.arrays.front().values);
   return result;
 }
 
@@ -122,8 +128,8 @@ Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
   const std::vector<Point> cells =
       known.is_mesh ? places_of_cells(read_cells(file)) : std::vector<Point>{};
   std::vector<Spacings> found;
-  for (const NamedField& field : known.fields) {
-    Spacings one = spacings_of_field(file, field, cells);
+  for (const std::string& field : known.names) {
+    Spacings one = spacings_of_field(file, field, cells, !name.empty());
     if (!one.places.empty()) found.push_back(std::move(one));
     if (found.size() > 1)
       throw FileError(file.path + ": it has several fields of numbers: name one");

@@ -185,6 +185,107 @@ class Meaning(unittest.TestCase):
         said = self.run_tool("apply", "w.nc", "far.csv", "--value", "v", "-o", "n.csv", status=1)
         self.assertIn("far.csv: its points are not the sources of w.nc", said)
 
+    def staggered(self):
+        """cos(lon) at two kinds of points: t(lat, lon), u(lat, lon_u), and their values at times."""
+        data = self.new("c.nc")
+        add_axes(data)
+        data.createDimension("lon_u", len(LON))
+        data.createDimension("time", 2)
+        add(data, "lon_u", ("lon_u",), LON + 10, units="degrees_east")
+        shape = (len(LAT), len(LON))
+        for name, axis in (("t", LON), ("u", LON + 10)):
+            dims = ("lat", "lon" if name == "t" else "lon_u")
+            values = np.broadcast_to(np.cos(np.radians(axis)), shape)
+            add(data, name, dims, values)
+            add(data, name + "s", ("time", *dims), np.stack([values, 2 * values]))
+        data.close()
+
+    def test_values_are_at_their_own_places_whatever_is_named(self):
+        self.staggered()
+        (self.folder / "at.csv").write_text("lon,lat\n20,0\n")
+        nearest = ("--to", "at.csv", "--method", "nearest", "-o", "o.csv")
+        self.run_tool("interpolate", "c.nc", "--value", "u", *nearest)
+        self.assertAlmostEqual(float(self.table("o.csv")[1].split(",")[2]), np.cos(np.pi / 9))
+        said = self.run_tool("interpolate", "c.nc", *nearest)
+        self.assertIn(
+            "at other places than lon and lat: u (lon_u and lat), us (lon_u and lat)", said
+        )
+        self.assertEqual(self.table("o.csv")[0], "lon,lat,t,ts_0,ts_1")
+        for names in (("t", "u"), ("u", "t")):
+            options = [word for name in names for word in ("--value", name)]
+            said = self.run_tool("interpolate", "c.nc", *options, *nearest, status=1)
+            self.assertIn('"t"', said)
+            self.assertIn('"u"', said)
+        self.run_tool("remap", "c.nc:t", "grid:60", "-o", "w.nc")
+        self.assertIn("u (lon_u and lat)", self.run_tool("apply", "w.nc", "c.nc", "-o", "o.csv"))
+        self.assertEqual(self.table("o.csv")[0], "lon,lat,t,ts_0,ts_1")
+        self.run_tool("apply", "w.nc", "c.nc:u", "-o", "n.csv", status=1)
+        self.assertIn("columns: t (number)", self.run_tool("info", "c.nc"))
+        self.assertFalse(list(self.folder.glob("n.*")))
+
+    def test_columns_are_one_of_several_fields(self):
+        self.staggered()
+        (self.folder / "at.csv").write_text("lon,lat\n20,0\n")
+        for name, factor in (("us[0]", 1), ("us[-1]", 2), ("us_1", 2), ("u", 1)):
+            self.run_tool("nearest", "c.nc", "at.csv", "--column", name, "-o", "o.csv")
+            self.assertEqual(self.table("o.csv")[0].split(",")[-1], name)
+            value = float(self.table("o.csv")[1].split(",")[-1])
+            self.assertAlmostEqual(value, factor * np.cos(np.pi / 9))
+        self.run_tool("nearest", "c.nc:ts", "at.csv", "--column", "ts[1]", "-o", "o.csv")
+        said = self.run_tool("nearest", "c.nc", "at.csv", "--column", "us", "-o", "n.csv", status=2)
+        self.assertIn("us[0]", said)
+        data = self.new("h.nc")
+        add_axes(data)
+        data.createDimension("time", 2)
+        sizes = np.full((2, len(LAT), len(LON)), 4000.0)
+        sizes[1] = 2000
+        add(data, "h", ("time", "lat", "lon"), sizes, units="km")
+        data.close()
+        counts = []
+        for name in ("h[0]", "h[1]"):
+            self.run_tool(
+                "mesh", "scvt", "--spacing", f"h.nc:{name}", "--max-steps", "1", "-o", "m.nc"
+            )
+            with netCDF4.Dataset(self.folder / "m.nc") as mesh:
+                counts.append(len(mesh.dimensions["nCells"]))
+        self.assertGreater(counts[1], 3 * counts[0])
+        self.run_tool(
+            "mesh", "scvt", "--spacing", "h.nc:h", "--max-steps", "1", "-o", "n.nc", status=1
+        )
+
+    def test_grids_that_are_targets_are_told(self):
+        self.grid()
+        self.staggered()
+        said = self.run_tool("interpolate", "grid.nc", "--to", "c.nc", "-o", "o.nc")
+        self.assertIn("that of lon and lat is read, not that of lon_u and lat", said)
+        data = self.new("curved.nc")
+        for name, length in (("y", 3), ("x", 4), ("yu", 3), ("xu", 3)):
+            data.createDimension(name, length)
+        for kind, dims in (("rho", ("y", "x")), ("u", ("yu", "xu"))):
+            shape = tuple(len(data.dimensions[name]) for name in dims)
+            lon, lat = np.meshgrid(10.0 * np.arange(shape[1]), 10.0 * np.arange(shape[0]))
+            add(data, "lon_" + kind, dims, lon, units="degrees_east")
+            add(data, "lat_" + kind, dims, lat, units="degrees_north")
+            add(data, "v" + kind, dims, lon, coordinates=f"lon_{kind} lat_{kind}")
+        data.close()
+        said = self.run_tool("interpolate", "grid.nc", "--to", "curved.nc", "-o", "o.nc")
+        self.assertIn("that of lon_rho and lat_rho is read, not that of lon_u and lat_u", said)
+        said = self.run_tool("interpolate", "grid.nc", "--to", "curved.nc:vu", "-o", "o.nc")
+        self.assertNotIn("several grids", said)
+        self.assertIn("to 9 targets", said)
+
+    def test_types_of_the_file_itself_are_told(self):
+        data = netCDF4.Dataset(self.folder / "enum.nc", "w")
+        self.addCleanup(lambda: data.isopen() and data.close())
+        add_axes(data)
+        kind = data.createEnumType(np.uint8, "kind", {"sea": 0, "land": 1})
+        data.createVariable("surface", kind, ("lat", "lon"), fill_value=0)
+        data.close()
+        said = self.run_tool(
+            "interpolate", "enum.nc:surface", "--to", "to.csv", "-o", "n.csv", status=1
+        )
+        self.assertIn('variable "surface" has a type that the file defines itself', said)
+
     def test_fill_is_said_and_counted(self):
         self.grid()
         self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
