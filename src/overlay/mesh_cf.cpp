@@ -20,6 +20,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "system/arithmetic.h"
+#include "system/shortest_text.h"
 
 namespace rondel::overlay {
 namespace {
@@ -189,6 +190,21 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
   return {};
 }
 
+// Throws BadValue unless bounds are the same wherever the places are the same, as at all times: the
+// cells of a grid that moves are not those of its first time.
+void require_repeated(const MeshVariable& bounds, std::span<const double> values,
+                      std::size_t size) {
+  const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
+  for (std::size_t k = size; k < values.size(); ++k) {
+    if (is_same(values[k], values[k - size])) continue;
+    throw BadValue("the bounds " + io::in_quotes(bounds.name) + " are " +
+                   system::shortest_text(values[k - size]) + " and " +
+                   system::shortest_text(values[k]) +
+                   " for one place, as along a dimension that its coordinates do not have, or in "
+                   "which they repeat: cells that change are not read");
+  }
+}
+
 // Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
 // in `of_each`. The bounds have one more dimension than the coordinate, or they are the corners of
 // a grid, (ny + 1, nx + 1).
@@ -218,6 +234,7 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
     }
     if (std::ranges::is_permutation(order, bounds.dimensions)) {
       values = io::in_order(bounds, order, std::move(values));
+      require_repeated(bounds, values, num_cells * of_each);
       values.resize(num_cells * of_each);
       return values;
     }

@@ -547,6 +547,20 @@ class Meaning(unittest.TestCase):
         self.assertIn('dimensions "n_a" and "n_s" have length 0', said)
         self.assertFalse((self.folder / "n.nc").exists())
 
+    def test_cells_that_change_where_their_centers_repeat_are_refused(self):
+        for name, second, status in (("same.nc", 5.0, 0), ("moves.nc", 2.5, 1)):
+            with self.new(name) as data:
+                for dimension, size in (("time", 2), ("x", 2), ("corner", 4)):
+                    data.createDimension(dimension, size)
+                centers = np.array([[20.0, 40.0], [20.0, 40.0]])
+                half = np.array([5.0, second])[:, None, None] * np.array([[-1, 1, 1, -1], [-1, -1, 1, 1]])[:, None, None]
+                for k, (axis, unit) in enumerate((("lon", "degrees_east"), ("lat", "degrees_north"))):
+                    add(data, axis, ("time", "x"), centers, units=unit, bounds=axis + "_bnds")
+                    add(data, axis + "_bnds", ("time", "x", "corner"), centers[..., None] + half[k])
+            said = self.run_tool("remap", name, "grid:30", "-o", "w.nc", status=status)
+            if status:
+                self.assertIn('the bounds "lon_bnds" are 15 and 17.5 for one place', said)
+
 
 if __name__ == "__main__":
     unittest.main()
