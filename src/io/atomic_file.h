@@ -58,6 +58,9 @@ class RONDEL_API AtomicFile {
   // Flushes, closes and renames.
   void commit();
 
+  // The name as it was given, and "<stdout>" for standard output.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
   // Whether the file is written directly; otherwise the file that is replaced, and its directory ("data/", or empty).
   [[nodiscard]] bool is_direct() const { return target_.empty(); }
   [[nodiscard]] const std::string& target() const { return target_; }

@@ -11,6 +11,7 @@
 #include "io/bad_value.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_slabs.h"
+#include "io/number.h"
 #include "io/replacement.h"
 #include "rondel/error.h"
 #include "system/descriptor.h"
@@ -35,6 +36,41 @@ std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) 
   return lengths;
 }
 
+// What netCDF-C keeps back of a variable at most: its largest cache of chunks.
+constexpr std::uint64_t most_kept_back = std::uint64_t{1} << 26U;
+
+// The values of all chunks: those at the end of a dimension are as long as the others, which doubles a dimension at most.
+std::uint64_t values_of_chunks(const std::vector<std::uint64_t>& shape) {
+  const std::vector<std::size_t> lengths = chunk_lengths(shape);
+  std::uint64_t values = 1;
+  for (std::size_t d = 0; d < shape.size(); ++d) {
+    values *= (shape[d] + lengths[d] - 1) / lengths[d] * lengths[d];
+  }
+  return values;
+}
+
+// More than HDF5 takes for definitions: a header, lists of attributes and the trees that say where chunks are.
+std::uint64_t most_bytes_of_definitions(const Netcdf4Definitions& definitions) {
+  constexpr std::uint64_t of_each = std::uint64_t{1} << 14U;
+  constexpr std::uint64_t of_attribute = 512;
+  constexpr std::uint64_t of_chunk = 256;
+  std::uint64_t size = of_each * (1 + definitions.dimensions.size() + definitions.variables.size());
+  const auto add_attributes = [&](const std::vector<NetcdfAttribute>& attributes) {
+    for (const NetcdfAttribute& attribute : attributes) {
+      size += of_attribute +
+              2 * (attribute.name.size() + attribute.text.size() + 8 * attribute.numbers.size());
+    }
+  };
+  add_attributes(definitions.attributes);
+  for (const NetcdfVariable& variable : definitions.variables) {
+    add_attributes(variable.attributes);
+    std::vector<std::uint64_t> shape;
+    for (const std::size_t d : variable.dimensions) shape.push_back(definitions.dimensions[d].size);
+    size += of_chunk * (1 + 2 * values_of_chunks(shape) / values_of_chunk);
+  }
+  return size;
+}
+
 }  // namespace
 
 Netcdf4Output::Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate)
@@ -42,6 +78,7 @@ Netcdf4Output::Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definit
   const std::string folder =
       file.is_direct() ? (std::filesystem::temp_directory_path() / "").string() : file.directory();
   try {
+    size_of_definitions_ = most_bytes_of_definitions(definitions);
     create(temporary_name(folder));
     define(definitions, deflate);
   } catch (...) {
@@ -57,14 +94,47 @@ void Netcdf4Output::create(const std::string& name) {
   if (descriptor_ < 0) {
     throw FileError(name + ": " + std::generic_category().message(errno));
   }
-  const OutputLock lock(netcdf_library_lock());
-  const std::string whole = std::filesystem::absolute(name).string();
-  const int error = library_.create(whole.c_str(), netcdf_create_netcdf4, &number_);
-  is_open_ = error == 0;
   std::error_code failure;
+  try {
+    require_room();
+    const OutputLock lock(netcdf_library_lock());
+    const std::string whole = std::filesystem::absolute(name).string();
+    const int error = library_.create(whole.c_str(), netcdf_create_netcdf4, &number_);
+    is_open_ = error == 0;
+    require(error, "the file");
+  } catch (...) {
+    std::filesystem::remove(name, failure);
+    throw;
+  }
   std::filesystem::remove(name, failure);
   if (failure) left_name_ = name;
-  require_netcdf(library_, error);
+  // The library has emptied the file, and given the room back.
+  size_with_room_ = 0;
+  require_room();
+}
+
+void Netcdf4Output::require(int error, const std::string& what) const {
+  if (error == 0) return;
+  throw FileError(file_.path() + ": " + what + ": netCDF-C says: " + library_.error_text(error));
+}
+
+void Netcdf4Output::require_room() {
+  std::uint64_t kept_back = size_of_definitions_;
+  for (const DefinedVariable& variable : variables_) {
+    if (variable.num_bytes_handed == 0) continue;
+    const std::uint64_t of_chunk = values_of_chunk * variable.size_of_value;
+    kept_back += std::min(
+        {most_kept_back, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
+  }
+  const std::uint64_t needed = system::size_of(descriptor_) + kept_back;
+  if (needed <= size_with_room_) return;
+  // Seldom, and then more: values come in small pieces.
+  constexpr std::uint64_t more = std::uint64_t{1} << 20U;
+  size_with_room_ = needed + more;
+  if (system::allocate(descriptor_, size_with_room_) == 0) return;
+  size_with_room_ = needed;
+  if (system::allocate(descriptor_, size_with_room_) == 0) return;
+  throw FileError(file_.path(), std::error_code(errno, std::generic_category()));
 }
 
 void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
@@ -72,69 +142,71 @@ void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
   std::vector<int> dimensions;
   for (const NetcdfDimension& dimension : definitions.dimensions) {
     int number = 0;
-    require_netcdf(library_,
-                   library_.add_dimension(number_, dimension.name.c_str(),
-                                          static_cast<std::size_t>(dimension.size), &number));
+    require(library_.add_dimension(number_, dimension.name.c_str(),
+                                   static_cast<std::size_t>(dimension.size), &number),
+            "dimension " + in_quotes(dimension.name));
     dimensions.push_back(number);
   }
   for (const NetcdfAttribute& attribute : definitions.attributes) put(netcdf_whole_file, attribute);
   for (const NetcdfVariable& variable : definitions.variables) {
     std::vector<int> own;
-    DefinedVariable output{0, size_of(variable.type), {}};
+    DefinedVariable output{0, variable.name, size_of(variable.type), {}, 0, 0};
     for (const std::size_t dimension : variable.dimensions) {
       own.push_back(dimensions[dimension]);
       output.shape.push_back(definitions.dimensions[dimension].size);
     }
+    output.num_bytes_stored = values_of_chunks(output.shape) * output.size_of_value;
     variables_.push_back(std::move(output));
     define_variable(variable, own, deflate);
   }
-  require_netcdf(library_, library_.end_definitions(number_));
+  require(library_.end_definitions(number_), "the definitions");
 }
 
 void Netcdf4Output::define_variable(const NetcdfVariable& variable,
                                     const std::vector<int>& dimensions, int deflate) {
   DefinedVariable& output = variables_.back();
-  require_netcdf(library_, library_.add_variable(number_, variable.name.c_str(),
-                                                 static_cast<int>(variable.type),
-                                                 static_cast<int>(dimensions.size()),
-                                                 dimensions.data(), &output.number));
+  const std::string what = "variable " + in_quotes(variable.name);
+  require(
+      library_.add_variable(number_, variable.name.c_str(), static_cast<int>(variable.type),
+                            static_cast<int>(dimensions.size()), dimensions.data(), &output.number),
+      what);
   if (!dimensions.empty()) {
     const std::vector<std::size_t> chunks = chunk_lengths(output.shape);
-    require_netcdf(library_, library_.set_chunks(number_, output.number, 0, chunks.data()));
+    require(library_.set_chunks(number_, output.number, 0, chunks.data()), what);
     if (deflate > 0) {
       const int shuffle = 1;  // bytes of the same weight together
-      require_netcdf(library_, library_.set_deflate(number_, output.number, shuffle, 1, deflate));
+      require(library_.set_deflate(number_, output.number, shuffle, 1, deflate), what);
     }
   }
   // All values are written, so netCDF-C need not fill any before.
   if (find_attribute(variable.attributes, "_FillValue") == nullptr) {
-    require_netcdf(library_, library_.set_fill(number_, output.number, 1, nullptr));
+    require(library_.set_fill(number_, output.number, 1, nullptr), what);
   }
   for (const NetcdfAttribute& attribute : variable.attributes) put(output.number, attribute);
 }
 
 void Netcdf4Output::put(int variable, const NetcdfAttribute& attribute) {
   const char* const name = attribute.name.c_str();
-  if (attribute.type == NetcdfType::text) {
-    require_netcdf(library_, library_.put_text(number_, variable, name, attribute.text.size(),
-                                               attribute.text.data()));
-  } else {
-    require_netcdf(library_,
-                   library_.put_numbers(number_, variable, name, static_cast<int>(attribute.type),
-                                        attribute.numbers.size(), attribute.numbers.data()));
-  }
+  const int error =
+      attribute.type == NetcdfType::text
+          ? library_.put_text(number_, variable, name, attribute.text.size(), attribute.text.data())
+          : library_.put_numbers(number_, variable, name, static_cast<int>(attribute.type),
+                                 attribute.numbers.size(), attribute.numbers.data());
+  require(error, "attribute " + in_quotes(attribute.name));
 }
 
 void Netcdf4Output::write(std::size_t variable, std::uint64_t begin, std::size_t size,
                           const void* values) {
-  const DefinedVariable& output = variables_[variable];
+  DefinedVariable& output = variables_[variable];
   const char* const bytes = static_cast<const char*>(values);
+  output.num_bytes_handed += size * output.size_of_value;
+  require_room();
   const OutputLock lock(netcdf_library_lock());
   for_each_slab(output.shape, begin, size,
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
-                  require_netcdf(library_,
-                                 library_.write(number_, output.number, start.data(), count.data(),
-                                                bytes + offset * output.size_of_value));
+                  require(library_.write(number_, output.number, start.data(), count.data(),
+                                         bytes + offset * output.size_of_value),
+                          "variable " + in_quotes(output.name));
                 });
 }
 
@@ -142,14 +214,14 @@ void Netcdf4Output::finish() {
   {
     const OutputLock lock(netcdf_library_lock());
     is_open_ = false;
-    require_netcdf(library_, library_.close(number_));
+    require(library_.close(number_), "the end of the file");
   }
   std::string block(std::size_t{1} << 20U, '\0');
   const std::uint64_t size = system::size_of(descriptor_);
   for (std::uint64_t at = 0; at < size;) {
     const std::size_t wanted = std::min<std::uint64_t>(block.size(), size - at);
     const std::ptrdiff_t count = system::read_at(descriptor_, at, block.data(), wanted);
-    if (count <= 0) throw FileError("netCDF-4: what was written cannot be read again");
+    if (count <= 0) throw FileError(file_.path() + ": what was written cannot be read again");
     file_.write(std::string_view(block.data(), static_cast<std::size_t>(count)));
     at += static_cast<std::uint64_t>(count);
   }

@@ -25,17 +25,21 @@ struct Netcdf4Definitions {
 // system allows it, and its content is copied to the target at the end.
 //
 // Variables are divided into chunks of runs of values, so that values can be written in their order, each chunk once.
+//
+// HDF5 keeps data back until the file is closed, and where it cannot write them then, some versions (1.10) leave a file behind that
+// crashes the process when it ends. So there is room on the disk for all that is handed over before it is: a full disk, or a limit of
+// the size of files, is an error before HDF5 meets it.
 class Netcdf4Output {
  public:
-  // Throws BadValue, and FileError as AtomicFile does.
+  // Throws FileError with the name of the target, and BadValue where netCDF-C is not there.
   Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate);
   ~Netcdf4Output();
   Netcdf4Output(const Netcdf4Output&) = delete;
   Netcdf4Output& operator=(const Netcdf4Output&) = delete;
 
-  // Writes `size` values of the type of the variable, from number `begin` on.
+  // Writes `size` values of the type of the variable, from number `begin` on. Throws FileError.
   void write(std::size_t variable, std::uint64_t begin, std::size_t size, const void* values);
-  // Copies the file into the target.
+  // Copies the file into the target. Throws FileError.
   void finish();
 
  private:
@@ -44,12 +48,19 @@ class Netcdf4Output {
   void define_variable(const NetcdfVariable& variable, const std::vector<int>& dimensions,
                        int deflate);
   void put(int variable, const NetcdfAttribute& attribute);
+  // Throws FileError with the message of the library if the number is that of an error; `what` is what was to be done.
+  void require(int error, const std::string& what) const;
+  // Finds room on the disk for all that HDF5 may have kept back.
+  void require_room();
   void close();
 
   struct DefinedVariable {
     int number;
+    std::string name;
     std::size_t size_of_value;
     std::vector<std::uint64_t> shape;
+    std::uint64_t num_bytes_stored;  // in whole chunks
+    std::uint64_t num_bytes_handed;
   };
 
   AtomicFile& file_;
@@ -59,6 +70,8 @@ class Netcdf4Output {
   bool is_open_ = false;
   std::string left_name_;  // of a file that could not be unlinked while it is open
   std::vector<DefinedVariable> variables_;
+  std::uint64_t size_of_definitions_ = 0;  // at most, with the places of the chunks
+  std::uint64_t size_with_room_ = 0;
 };
 
 }  // namespace rondel::io

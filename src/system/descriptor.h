@@ -49,6 +49,9 @@ RONDEL_API int reserve(int descriptor, std::uint64_t size) noexcept;
 // Reserves room if the system can do so at once, and does nothing otherwise: on Linux, writing to
 // reserved room is several times as fast. Returns 0, also where it cannot.
 RONDEL_API int prepare(int descriptor, std::uint64_t size) noexcept;
+// Room on the disk for so many bytes from the start of the file, which keeps its length: writing there does not fail for want of
+// room. Returns 0, also where the system cannot promise it.
+RONDEL_API int allocate(int descriptor, std::uint64_t size) noexcept;
 // Cuts the file, or makes it longer. Returns 0.
 RONDEL_API int resize(int descriptor, std::uint64_t size) noexcept;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -75,18 +76,42 @@ int reserve(int descriptor, std::uint64_t size) noexcept {
 #endif
 }
 
-int prepare(int descriptor, std::uint64_t size) noexcept {
+namespace {
+
+int allocate_if_possible(int descriptor, int mode, std::uint64_t size) noexcept {
 #if defined(__linux__)
   int status = -1;
   do {
-    status = ::fallocate(descriptor, 0, 0, static_cast<off_t>(size));
+    status = ::fallocate(descriptor, mode, 0, static_cast<off_t>(size));
   } while (status != 0 && errno == EINTR);
   const bool cannot = errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL;
   return status == 0 || cannot ? 0 : -1;
 #else
   static_cast<void>(descriptor);
+  static_cast<void>(mode);
   static_cast<void>(size);
   return 0;
+#endif
+}
+
+}  // namespace
+
+int prepare(int descriptor, std::uint64_t size) noexcept {
+  return allocate_if_possible(descriptor, 0, size);
+}
+
+int allocate(int descriptor, std::uint64_t size) noexcept {
+  // Linux does not hold room beyond the end of a file against the limit of the process.
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      size > limit.rlim_cur) {
+    errno = EFBIG;
+    return -1;
+  }
+#if defined(__linux__)
+  return allocate_if_possible(descriptor, FALLOC_FL_KEEP_SIZE, size);
+#else
+  return allocate_if_possible(descriptor, 0, size);
 #endif
 }
 

@@ -92,6 +92,8 @@ int reserve(int descriptor, std::uint64_t size) noexcept {
 
 int prepare(int /*descriptor*/, std::uint64_t /*size*/) noexcept { return 0; }
 
+int allocate(int /*descriptor*/, std::uint64_t /*size*/) noexcept { return 0; }
+
 int resize(int descriptor, std::uint64_t size) noexcept {
   const int error = ::_chsize_s(descriptor, static_cast<std::int64_t>(size));
   errno = error;

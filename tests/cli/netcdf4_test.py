@@ -7,11 +7,14 @@ written.
 Without them ctest says "Skipped".
 """
 
+import ctypes.util
 import importlib.util
 import itertools
+import json
 import os
 import pathlib
 import random
+import resource
 import subprocess
 import sys
 import tempfile
@@ -393,6 +396,74 @@ class Netcdf4(unittest.TestCase):
                 lines = done.stderr.decode().splitlines()
                 self.assertEqual(len(lines), 1, lines)
                 self.assertTrue(lines[0].startswith("rondel: bad.nc: "), lines)
+
+    def test_no_room_is_told(self):
+        """A limit of the size of files, as a full disk: status 1, the file's name, the system's reason, nothing left behind. Also
+        with the system's netCDF-C, whose HDF5 may be one that crashes where it cannot write."""
+        self.run_tool("generate", "fibonacci", "-n", "60", "-o", "p.csv", "--quiet")
+        rows = (self.folder / "p.csv").read_text().splitlines()
+        named = [rows[0] + ",v", *(f"{row},{k / 7}" for k, row in enumerate(rows[1:]))]
+        (self.folder / "v.csv").write_text("\n".join(named) + "\n")
+        self.run_tool("mesh", "convert", "p.csv", "-o", "m.nc", "--quiet")
+        self.run_tool("remap", "p.csv", "grid:3", "-o", "w.nc", "--quiet")
+        self.run_tool(
+            "interpolate", "v.csv", "--value", "v", "--to", "p.csv", "-o", "f.nc", "--quiet"
+        )
+        commands = (
+            ("interpolate", "v.csv", "--value", "v", "--to", "grid:2"),
+            ("interpolate", "v.csv", "--to", "grid:3", "--weights"),
+            ("remap", "p.csv", "grid:3"),
+            ("apply", "w.nc", "f.nc"),
+            ("mesh", "convert", "m.nc"),
+            ("mesh", "scvt", "-n", "200"),
+            ("mesh", "cull", "m.nc", "--inside", "half.geojson"),
+        )
+        ring = [[0, -80], [90, -80], [170, -80], [170, 80], [90, 80], [0, 80], [0, -80]]
+        half = {"type": "Polygon", "coordinates": [ring]}
+        (self.folder / "half.geojson").write_text(json.dumps(half))
+        libraries = [ENVIRONMENT]
+        system = {name: value for name, value in os.environ.items() if name != "RONDEL_NETCDF"}
+        if ctypes.util.find_library("netcdf") is not None:
+            libraries.append(system)
+        before = sorted(path.name for path in self.folder.iterdir())
+        for environment, command in itertools.product(libraries, commands):
+            option = () if command[-1] == "--weights" else ("-o",)
+            run = [TOOL, *command, *option, "full.nc4", "--quiet"]
+            for limit in (1 << 12, 1 << 28):
+
+                def limited(limit=limit):
+                    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+                done = subprocess.run(
+                    run,
+                    cwd=self.folder,
+                    env=environment,
+                    preexec_fn=limited,
+                    capture_output=True,
+                    check=False,
+                )
+                said = done.stderr.decode()
+                if limit == 1 << 28:
+                    self.assertEqual(done.returncode, 0, said)
+                    (self.folder / "full.nc4").unlink()
+                else:
+                    self.assertEqual(
+                        (done.returncode, said), (1, "rondel: full.nc4: File too large\n"), command
+                    )
+                self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+
+    def test_names_that_netcdf_refuses_are_named(self):
+        """netCDF-4 has names of 256 bytes at most, and none twice once letters and accents are composed."""
+        for first, second in (("a" * 257, "b"), ("\u00e9", "e\u0301")):
+            (self.folder / "t.csv").write_text(
+                f"lon,lat,{first},{second}\n" + "".join(f"{k},{k},1,2\n" for k in range(5))
+            )
+            named = ("--value", first, "--value", second)
+            said = self.run_tool(
+                "interpolate", "t.csv", *named, "--to", "t.csv", "-o", "t.nc4", status=1
+            )
+            refused = f"{first[:60]}..." if len(first) > 256 else second
+            self.assertIn(f'rondel: t.nc4: variable "{refused}": netCDF-C says: ', said)
 
     def test_without_the_library_it_says_what_to_install(self):
         with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
