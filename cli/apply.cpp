@@ -148,7 +148,8 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
 
 ExitStatus run_apply(const ApplyCommandOptions& options) {
   const CommonOptions& common = options.common;
-  require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
+  require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4",
+                 {{"VALUES", options.values_file}});
   Job job(common);
   const WeightFile file = readable_weights(common);
   const Weights& weights = file.weights;

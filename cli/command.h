@@ -15,13 +15,14 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "files_of_command.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 #include "rondel/mesh_files.h"
@@ -83,9 +84,12 @@ void add_build_options(CLI::App& command, CommonOptions& options);
 void add_threads_option(CLI::App& command, CommonOptions& options);
 void add_report_options(CLI::App& command, CommonOptions& options);
 
-/// Throws UsageError unless the output's format is one of those written (`is_known`), if the output
-/// is the input, and if output and report both want standard output. Call it before any work.
-void require_output(const CommonOptions& options, bool is_known, const std::string& endings);
+/// Throws UsageError unless the output's format is one of those written (`is_known`), if output and report both want standard output,
+/// and as require_separate_files() does; the files that the command has beside INPUT and OUTPUT are `inputs` and `outputs`. Call it
+/// before any work.
+void require_output(const CommonOptions& options, bool is_known, const std::string& endings,
+                    const std::vector<NamedFile>& inputs = {},
+                    const std::vector<NamedFile>& outputs = {});
 
 /// The stages of a job that a command times itself.
 enum class Stage { dual, locator, query, write };
@@ -157,9 +161,6 @@ auto with_places(const SiteTable& table, Work&& work) {
 /// \throws UsageError if the name of a further result than OUTPUT has another ending than .npy or .zarr;
 /// it may have none
 void require_array(const char* option, const std::string& path);
-
-/// \throws UsageError if two options name one file to write; an empty name is none, and "-" may be named twice
-void require_distinct(std::initializer_list<std::pair<const char*, std::string>> outputs);
 
 /// Writes to stdout and flushes. \throws FileError
 void print(const std::string& text);

@@ -66,11 +66,12 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
   const auto unless_in_group = [](bool is_in, const std::string& path) {
     return is_in ? std::string() : path;
   };
-  require_distinct({{"--output", common.output},
-                    {"--neighbors", unless_in_group(content.neighbors, options.neighbors)},
-                    {"--areas", unless_in_group(content.areas, options.areas)},
-                    {"--duplicates", unless_in_group(content.duplicates, options.duplicates)},
-                    {"--circumcenters", options.circumcenters}});
+  require_separate_files({{"INPUT", common.input}},
+                         {{"--output", common.output},
+                          {"--neighbors", unless_in_group(content.neighbors, options.neighbors)},
+                          {"--areas", unless_in_group(content.areas, options.areas)},
+                          {"--duplicates", unless_in_group(content.duplicates, options.duplicates)},
+                          {"--circumcenters", options.circumcenters}});
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);

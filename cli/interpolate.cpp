@@ -217,7 +217,8 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (!has_values && options.weights.empty()) {
     throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
   }
-  require_distinct({{"--output", common.output}, {"--weights", options.weights}});
+  require_separate_files({{"INPUT", common.input}, {"--to", options.target}},
+                         {{"--output", common.output}, {"--weights", options.weights}});
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }

@@ -63,20 +63,22 @@ mesh::MeshFormat mesh_format(const CommonOptions& common) {
   return mesh_formats().at(common.format());
 }
 
-void require_mesh_output(const MeshOutput& output, MeshOutputKind kind) {
+void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
+                         const std::vector<NamedFile>& inputs,
+                         const std::vector<NamedFile>& outputs) {
   const CommonOptions& common = output.common;
   const bool may_be_sites = kind == MeshOutputKind::mesh_or_sites;
   const std::string of_meshes = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)";
+  std::vector<NamedFile> written = {{"--report", output.report}, {"--graph", output.graph}};
+  written.insert(written.end(), outputs.begin(), outputs.end());
   require_output(common, is_mesh_file(common) || (may_be_sites && can_write_sites(common.target())),
-                 of_meshes + (may_be_sites ? " .csv .tsv .xyz .txt .npy" : ""));
+                 of_meshes + (may_be_sites ? " .csv .tsv .xyz .txt .npy" : ""), inputs, written);
   if (is_mesh_file(common) && common.output == "-") {
     throw UsageError("--output: a mesh is written to a file");
   }
   if (!is_mesh_file(common) && output.netcdf.kind != NetcdfKind::by_name) {
     throw UsageError("--kind: sites are not written as netCDF");
   }
-  require_distinct(
-      {{"--output", common.output}, {"--report", output.report}, {"--graph", output.graph}});
 }
 
 void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,

@@ -71,9 +71,11 @@ enum class MeshOutputKind { mesh, mesh_or_sites };
 
 /// Adds the options that all commands that write a mesh share: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
-/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written; if two options name one
-/// file, or --kind is given for a file that is not netCDF
-void require_mesh_output(const MeshOutput& output, MeshOutputKind kind);
+/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written; if --kind is given for a
+/// file that is not netCDF; and as require_separate_files() with the files that the command has beside those of `output`
+void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
+                         const std::vector<NamedFile>& inputs = {},
+                         const std::vector<NamedFile>& outputs = {});
 /// Whether OUTPUT is a mesh, not sites.
 bool is_mesh_file(const CommonOptions& common);
 /// The format of --format, or of the ending: nc is mpas, exo exodus. \pre is_mesh_file()

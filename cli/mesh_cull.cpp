@@ -132,16 +132,15 @@ Command add_mesh_cull_command(CLI::App& mesh) {
 
 ExitStatus run_mesh_cull(const MeshCullOptions& options) {
   const CommonOptions& common = options.written.common;
-  require_mesh_output(options.written, MeshOutputKind::mesh);
+  require_mesh_output(
+      options.written, MeshOutputKind::mesh,
+      {{"--inside", options.inside}, {"--outside", options.outside}, {"--mask", options.mask}},
+      {{"--cell-map", options.cell_map},
+       {"--edge-map", options.edge_map},
+       {"--vertex-map", options.vertex_map}});
   require_map_output("--cell-map", options.cell_map);
   require_map_output("--edge-map", options.edge_map);
   require_map_output("--vertex-map", options.vertex_map);
-  require_distinct({{"--output", common.output},
-                    {"--report", options.written.report},
-                    {"--graph", options.written.graph},
-                    {"--cell-map", options.cell_map},
-                    {"--edge-map", options.edge_map},
-                    {"--vertex-map", options.vertex_map}});
   if (options.mask.empty() && options.inside.empty() && options.outside.empty()) {
     throw UsageError("--inside, --outside or --mask says which cells are removed");
   }

@@ -122,7 +122,7 @@ mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
-  require_mesh_output(output, MeshOutputKind::mesh_or_sites);
+  require_mesh_output(output, MeshOutputKind::mesh_or_sites, files_read(options));
   if (options.scvt.count == 0 && options.spacing.empty() && options.start.empty()) {
     throw UsageError("-n, --spacing or --start says how many cells there shall be");
   }

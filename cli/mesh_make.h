@@ -63,6 +63,8 @@ struct FixedSites {
   std::size_t num_left_out = 0;  ///< on lines and beside them
 };
 
+/// The files of --spacing, --refine, --density, --fixed, --along and --start.
+std::vector<NamedFile> files_read(const ScvtCommandOptions& options);
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution);

@@ -76,6 +76,7 @@ Command add_mesh_quality_command(CLI::App& mesh) {
 }
 
 ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
+  require_separate_files({{"INPUT", options.common.input}}, {{"--report", options.report}});
   Job job(options.common);
   const mesh::MeshArrays arrays = read_mesh_or_sites(job, options.common, {}, true);
   const mesh::Quality quality = mesh::quality(arrays, job.execution());

@@ -91,6 +91,17 @@ std::pair<std::string, std::string> split_at_colon(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
+std::vector<NamedFile> files_read(const ScvtCommandOptions& options) {
+  std::vector<NamedFile> files = {
+      {"--spacing", options.spacing}, {"--density", options.density}, {"--start", options.start}};
+  for (const auto& [option, paths] :
+       {std::pair("--refine", &options.refine), std::pair("--fixed", &options.fixed),
+        std::pair("--along", &options.along)}) {
+    for (const std::string& path : *paths) files.push_back({option, path});
+  }
+  return files;
+}
+
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution) {
   if (!options.density.empty()) {

@@ -203,18 +203,8 @@ void require_array(const char* option, const std::string& path) {
   throw UsageError(std::string(option) + ": the ending of '" + path + "' is not .npy");
 }
 
-void require_distinct(std::initializer_list<std::pair<const char*, std::string>> outputs) {
-  for (auto second = outputs.begin(); second != outputs.end(); ++second) {
-    if (second->second.empty() || second->second == "-") continue;
-    for (auto first = outputs.begin(); first != second; ++first) {
-      if (first->second != second->second) continue;
-      throw UsageError(std::string(second->first) + ": '" + second->second + "' is the file of " +
-                       first->first);
-    }
-  }
-}
-
-void require_output(const CommonOptions& options, bool is_known, const std::string& endings) {
+void require_output(const CommonOptions& options, bool is_known, const std::string& endings,
+                    const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs) {
   if (!is_known && !options.output_format.empty()) {
     throw UsageError("--format: '" + options.output_format + "' is not one of " + endings);
   }
@@ -228,10 +218,11 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
   if (options.json && options.output == "-") {
     throw UsageError("--json: standard output has the output; name a file");
   }
-  std::error_code ignored;  // a file that does not exist is equivalent to none
-  if (std::filesystem::equivalent(options.input, options.output, ignored)) {
-    throw UsageError("--output: '" + options.output + "' is the input");
-  }
+  std::vector<NamedFile> read = {{"INPUT", options.input}};
+  read.insert(read.end(), inputs.begin(), inputs.end());
+  std::vector<NamedFile> written = {{"--output", options.output}};
+  written.insert(written.end(), outputs.begin(), outputs.end());
+  require_separate_files(read, written);
 }
 
 }  // namespace rondel::cli

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "process.h"
@@ -42,11 +41,7 @@ QueryJob::QueryJob(const QueryOptions& options)
   }
   const std::string format = common.format();
   const bool is_known = format == "npy" || format == "csv" || format == "tsv";
-  require_output(common, is_known, ".csv .tsv .npy");
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options_.queries, common.output, ignored)) {
-    throw UsageError("--output: '" + common.output + "' is the file of queries");
-  }
+  require_output(common, is_known, ".csv .tsv .npy", {{"QUERIES", options_.queries}});
 }
 
 void QueryJob::prepare() {

@@ -112,7 +112,8 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   const CommonOptions& common = options.common;
   const std::string format = common.format();
   constexpr const char* formats[] = {"nc", "nc4", "npz", "esmf", "scrip"};
-  require_output(common, std::ranges::find(formats, format) != std::end(formats), ".nc .nc4 .npz");
+  require_output(common, std::ranges::find(formats, format) != std::end(formats), ".nc .nc4 .npz",
+                 {{"TARGET", options.target}});
   Job job(common);
   std::optional<CellSide> source;
   std::optional<CellSide> target;

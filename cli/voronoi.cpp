@@ -13,7 +13,7 @@ ExitStatus run_voronoi(const VoronoiOptions& options) {
   CommonOptions common = options.common;
   const bool is_by_gdal = is_format_of_gdal(common.format());
   require_output(common, is_by_gdal || can_write_cells(common.target()),
-                 ".geojson .vtp .npz .gpkg .fgb .parquet");
+                 ".geojson .vtp .npz .gpkg .fgb .parquet", {{"--clip", options.clip}});
   common.read.keep_columns = is_by_gdal || common.format() == "geojson";  // these have properties
   if (makes_regions(options)) {
     VoronoiOptions regions = options;

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "files_of_command.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "command.h"
+
+namespace rondel::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What is written to a device or a pipe replaces nothing.
+bool is_file_name(const std::string& path) {
+  std::error_code error;
+  return !path.empty() && path != "-" && !fs::is_other(path, error);
+}
+
+// Where the links of a path lead to, also where no file is there yet.
+fs::path resolved(fs::path path) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int k = 0; k < most_links && fs::is_symlink(path, error); ++k) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+  if (error) return path.lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();  // of a folder with a slash behind it
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
+}
+
+// The files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a file of the whole name.
+std::vector<std::string> readings(const std::string& input) {
+  std::error_code error;
+  if (!is_file_name(input)) return {};
+  std::vector<std::string> files = {input};
+  if (fs::exists(input, error)) return files;
+  for (std::size_t colon = input.find(':'); colon != std::string::npos;
+       colon = input.find(':', colon + 1)) {
+    if (fs::exists(input.substr(0, colon), error)) files.push_back(input.substr(0, colon));
+  }
+  return files;
+}
+
+}  // namespace
+
+void require_separate_files(const std::vector<NamedFile>& inputs,
+                            const std::vector<NamedFile>& outputs) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const NamedFile& output = outputs[k];
+    if (!is_file_name(output.path)) continue;
+    const std::string what = std::string(output.option) + ": '" + output.path + "' is the ";
+    for (const NamedFile& input : inputs) {
+      for (const std::string& file : readings(input.path)) {
+        if (!are_one_file(file, output.path)) continue;
+        const std::string option = input.option;
+        throw UsageError(what + (option == "INPUT" ? "input" : "file of " + option));
+      }
+    }
+    for (std::size_t other = 0; other < k; ++other) {
+      if (!is_file_name(outputs[other].path)) continue;
+      if (!are_one_file(outputs[other].path, output.path)) continue;
+      throw UsageError(what + "file of " + outputs[other].option);
+    }
+  }
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The files that a command reads and writes, which have to be different ones.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rondel::cli {
+
+/// A file as the command line names it.
+struct NamedFile {
+  const char* option;  ///< "--to", or "INPUT"
+  std::string path;    ///< may be empty, "-", FILE:NAME of an input, or no file at all as grid:1
+};
+
+/// Every command that writes calls it before any work.
+///
+/// \throws UsageError if a file that is written is also read, or is written twice. Files are compared as the system knows them (device
+/// and number), so every spelling and every link of a file is that file; of files that do not exist yet the resolved paths are compared.
+void require_separate_files(const std::vector<NamedFile>& inputs,
+                            const std::vector<NamedFile>& outputs);
+
+}  // namespace rondel::cli

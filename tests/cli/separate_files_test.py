@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""No command writes a file that it reads, nor one file twice, under whatever spelling and whichever option names it.
+
+The table below has every file that a command reads or writes; the test fails if the help of a command has one that is not there.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+
+# The arguments of each command, in which {OPTION} stands for a file, and the files that it reads and writes: their ending where they
+# are one. Options that are left out are not needed.
+COMMANDS = {
+    "delaunay": (
+        "{INPUT}",
+        ["INPUT"],
+        {
+            "--output": ".npy",
+            "--neighbors": ".npy",
+            "--areas": ".npy",
+            "--circumcenters": ".npy",
+            "--duplicates": ".npy",
+        },
+    ),
+    "voronoi": ("{INPUT}", ["INPUT", "--clip"], {"--output": ".geojson"}),
+    "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
+    "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),
+    "contours": ("{INPUT} --value v --step 1", ["INPUT"], {"--output": ".geojson"}),
+    "graph": ("{INPUT} --kind gabriel", ["INPUT"], {"--output": ".geojson"}),
+    "plot": ("{INPUT}", ["INPUT"], {"--output": ".svg"}),
+    "generate": ("uniform -n 5", [], {"--output": ".csv"}),
+    "info": ("{INPUT}", ["INPUT"], {}),
+    "locate": ("{INPUT} {QUERIES}", ["INPUT", "QUERIES"], {"--output": ".csv"}),
+    "nearest": ("{INPUT} {QUERIES}", ["INPUT", "QUERIES"], {"--output": ".csv"}),
+    "interpolate": (
+        "{INPUT} --value v --to {--to}",
+        ["INPUT", "--to"],
+        {"--output": ".nc", "--weights": ".nc"},
+    ),
+    "remap": ("{INPUT} {TARGET}", ["INPUT", "TARGET"], {"--output": ".nc"}),
+    "apply": ("{WEIGHTS} {VALUES}", ["WEIGHTS", "VALUES"], {"--output": ".nc"}),
+    "check-weights": ("{WEIGHTS}", ["WEIGHTS"], {}),
+    "mesh scvt": (
+        "-n 12 --spacing {--spacing}",
+        ["--spacing", "--refine", "--density", "--fixed", "--along", "--start"],
+        {"--output": ".nc", "--graph": "", "--report": ""},
+    ),
+    "mesh icosahedral": ("1", [], {"--output": ".nc", "--graph": "", "--report": ""}),
+    "mesh points": (
+        "healpix --size 2",
+        [],
+        {"--output": ".nc", "--graph": "", "--report": ""},
+    ),
+    "mesh partition": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
+    "mesh convert": ("{INPUT}", ["INPUT"], {"--output": ".nc", "--graph": "", "--report": ""}),
+    "mesh cull": (
+        "{INPUT} --mask {--mask}",
+        ["INPUT", "--inside", "--outside", "--mask"],
+        {
+            "--output": ".nc",
+            "--graph": "",
+            "--report": "",
+            "--cell-map": ".npy",
+            "--edge-map": ".npy",
+            "--vertex-map": ".npy",
+        },
+    ),
+    "mesh quality": ("{INPUT}", ["INPUT"], {"--report": ""}),
+}
+# Options that exclude those which the arguments above have.
+INSTEAD = {"--density": "-n 12", "--start": ""}
+# Files that are told apart elsewhere: a folder of the command's own.
+APART = {"delaunay": {"--scratch"}}
+FILE = re.compile(r"^  (?:-\w,)?(--[\w-]+)(?:,--[\w-]+)? (FILE|TARGET|KM\|FILE|FILE:KM|DIR)\b")
+ARGUMENT = re.compile(r"^  (INPUT|TRIANGLES|QUERIES|TARGET|WEIGHTS|VALUES)\b")
+
+
+class SeparateFiles(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "sub").mkdir()
+
+    def run_tool(self, *arguments):
+        return subprocess.run(
+            [TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False
+        )
+
+    def spellings(self, name):
+        """The file under other names; a link and a second name of it are made."""
+        for link in ("link", "second"):
+            (self.folder / (link + pathlib.Path(name).suffix)).unlink(missing_ok=True)
+        suffix = pathlib.Path(name).suffix
+        os.symlink(name, self.folder / f"link{suffix}")
+        yield from (name, f"./{name}", f"sub/..//{name}", str(self.folder / name), f"link{suffix}")
+        if (self.folder / name).exists():
+            os.link(self.folder / name, self.folder / f"second{suffix}")
+            yield f"second{suffix}"
+
+    def arguments(self, command, given):
+        """The words of a command whose files are `given`; others have names of their own."""
+        template = COMMANDS[command][0]
+        for option, instead in INSTEAD.items():
+            if option in given:
+                template = instead
+        if "--refine" in given:
+            template = "--spacing 2000"
+        words = command.split()
+        for word in template.split():
+            name = word[1:-1]
+            words.append(given.get(name, f"other-{name.strip('-')}") if word[0] == "{" else word)
+        if "--output" in COMMANDS[command][2] and "--output" not in given:
+            given = {**given, "--output": f"out{COMMANDS[command][2]['--output']}"}
+        for option, name in given.items():
+            if option.startswith("--") and "{" + option + "}" not in template:
+                words += [option, name]
+        return words
+
+    def assert_refused(self, words, said):
+        content = {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
+        done = self.run_tool(*words)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), (words, done.stderr))
+        self.assertIn(said, done.stderr, words)
+        self.assertEqual(
+            content, {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}, words
+        )
+
+    def test_every_file_of_every_command_is_in_the_table(self):
+        def commands(*group):
+            found = re.search(
+                r"Subcommands:\n(.*?)\n\n", self.run_tool(*group, "--help").stdout, re.S
+            )
+            names = re.findall(r"^  ([\w-]+) ", found[1], re.M)
+            return [" ".join((*group, name)) for name in names if (*group, name) != ("mesh",)]
+
+        every = commands() + commands("mesh")
+        self.assertEqual(sorted(every), sorted(COMMANDS))
+        for command in every:
+            lines = self.run_tool(*command.split(), "--help").stdout.splitlines()
+            found = {m[1] for line in lines if (m := FILE.match(line) or ARGUMENT.match(line))}
+            _, read, written = COMMANDS[command]
+            self.assertEqual(found, {*read, *written, *APART.get(command, ())}, command)
+
+    def test_no_output_is_an_input(self):
+        for command, (_, read, written) in COMMANDS.items():
+            for source in read:
+                for output, ending in written.items():
+                    name = f"same{ending}"
+                    (self.folder / name).write_bytes(b"content")
+                    part = {"--refine": ":30"}.get(source, "")
+                    what = (
+                        "the input" if source in ("INPUT", "WEIGHTS") else f"the file of {source}"
+                    )
+                    for spelling in self.spellings(name):
+                        words = self.arguments(command, {source: name + part, output: spelling})
+                        self.assert_refused(words, f"{output}: '{spelling}' is {what}")
+                    for variable in (":t", ":a:b"):
+                        if source == "--refine":
+                            continue
+                        words = self.arguments(command, {source: name + variable, output: name})
+                        self.assert_refused(words, f"{output}: '{name}' is {what}")
+                    (self.folder / name).unlink()
+
+    def test_no_two_outputs_are_one_file(self):
+        for command, (_, _, written) in COMMANDS.items():
+            for first in written:
+                for second in list(written)[: list(written).index(first)]:
+                    endings = {written[first], written[second]} - {""}
+                    name = f"same{min(endings, default='')}"
+                    if len(endings) > 1:
+                        continue  # the names differ
+                    for exists in (False, True):
+                        if exists:
+                            (self.folder / name).write_bytes(b"content")
+                        for spelling in self.spellings(name):
+                            words = self.arguments(command, {second: name, first: spelling})
+                            self.assert_refused(words, "' is the file of --")
+                        (self.folder / name).unlink(missing_ok=True)
+
+    def test_different_files_are_none(self):
+        """A second name of nothing, names that begin as others do, a device for several outputs."""
+        self.assertEqual(
+            self.run_tool("generate", "uniform", "-n", "20", "-o", "s.csv").returncode, 0
+        )
+        for words in (
+            ("mesh", "convert", "s.csv", "-o", "s.nc", "--graph", "s", "--report", "s.c"),
+            (
+                "mesh",
+                "convert",
+                "s.csv",
+                "-o",
+                "m.nc",
+                "--graph",
+                "/dev/null",
+                "--report",
+                "/dev/null",
+            ),
+            ("delaunay", "s.csv", "-o", "f.zarr", "--areas", "f.zarr/"),
+        ):
+            done = self.run_tool(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
