@@ -49,7 +49,7 @@ struct MeshFileOptions {
 ///    one corner.
 /// 4. The cells of Exodus are ordered by their number of corners; elem_num_map and the global_id of
 ///    each block have their numbers, from 1 on.
-/// \throws InvalidInput if the arrays do not fit together
+/// \throws InvalidInput if the arrays do not fit together, or have numbers that no mesh has
 /// \throws FileError also if CDF-2 cannot hold the mesh
 RONDEL_API void write(const std::string& path, const MeshArrays& arrays,
                       const MeshFileOptions& options = {}, const Execution& execution = {});

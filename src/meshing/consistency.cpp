@@ -4,12 +4,15 @@
 // Whether arrays of a mesh, which anybody may fill, can be walked through.
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 
 #include "meshing/mesh_file.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
+#include "system/shortest_text.h"
 
 namespace rondel::meshing {
 namespace {
@@ -57,7 +60,60 @@ void require_indices(const char* name, unsigned threads, const std::vector<Row>&
   });
 }
 
+// The numbers that an array may have: up to `most`, from `least` on or, unless `has_least`, above it.
+struct PossibleNumbers {
+  double least;
+  double most;
+  bool has_least;
+};
+
+// is_exception(i, number) allows a number that is not possible elsewhere.
+template <class IsException>
+void require_numbers(const char* name, unsigned threads, std::span<const double> numbers,
+                     const PossibleNumbers& possible, const IsException& is_exception) {
+  constexpr std::size_t grain = 65536;
+  constexpr double slack =
+      1e-3;  // as single precision, and spheres that are not quite round, ask for
+  const double most = possible.most * (1 + slack);
+  const double least = possible.least * (1 + slack);
+  system::parallel_for(threads, numbers.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double number = numbers[i];
+      const bool is_above = possible.has_least ? number >= least : number > least;
+      if (is_above && number <= most) continue;
+      if (is_exception(i, number)) continue;
+      std::string why = " is not positive";
+      if (possible.has_least) why = " is less than " + system::shortest_text(possible.least);
+      if (number > most) why = " is more than " + system::shortest_text(possible.most);
+      if (!std::isfinite(number)) why = " is not finite";
+      throw InvalidInput("variable \"" + std::string(name) + "\", value " + std::to_string(i) +
+                             ": " + system::shortest_text(number) + why,
+                         i);
+    }
+  });
+}
+
 }  // namespace
+
+void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads) {
+  constexpr double turn = 2 * std::numbers::pi;
+  const PossibleNumbers areas{0, 2 * turn * arrays.radius * arrays.radius, false};
+  const PossibleNumbers distances{0, turn * arrays.radius, false};
+  const PossibleNumbers lengths{0, turn * arrays.radius, true};
+  const PossibleNumbers angles{-turn, turn, true};
+  const auto never = [](std::size_t, double) { return false; };
+  require_numbers("areaCell", threads, arrays.cell_areas, areas, never);
+  require_numbers("dcEdge", threads, arrays.cell_distances, distances,
+                  [&](std::size_t e, double distance) {
+                    return distance == 0 && is_at_border(arrays.cells_on_edge[e]);
+                  });
+  require_numbers("dvEdge", threads, arrays.vertex_distances, lengths, never);
+  require_numbers("angleEdge", threads, arrays.normal_angles, angles, never);
+  require_numbers("areaTriangle", threads, arrays.triangle_areas, areas,
+                  [&](std::size_t v, double area) {
+                    return std::abs(area) <= areas.most && is_at_border(arrays.cells_on_vertex[v]);
+                  });
+}
 
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   const std::size_t cells = arrays.num_cells();
@@ -96,6 +152,7 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   require_indices("vertices_on_edge", threads, arrays.vertices_on_edge, vertices);
   require_indices("cells_on_vertex", threads, arrays.cells_on_vertex, cells, None::allowed);
   require_indices("edges_on_vertex", threads, arrays.edges_on_vertex, edges, None::allowed);
+  require_possible_numbers(arrays, threads);
   for (std::size_t e = 0; e < edges; ++e) {
     if (arrays.cells_on_edge[e][0] != no_index) continue;
     throw InvalidInput("edge " + std::to_string(e) + " of the mesh has no first cell", e);

@@ -152,7 +152,13 @@ inline bool has_border(const mesh::MeshArrays& arrays) {
                              [](const auto& cells) { return cells[1] == no_index; });
 }
 
-// Throws InvalidInput where a size or an index does not fit.
+// Throws InvalidInput where a number cannot be what it is said to be: an area that is not positive or more than that of the sphere, a
+// length that is negative or more than a turn, an angle of more than a turn, a number that is not finite. An edge may have length 0; at
+// the border a distance may be 0, and the area of a triangle is a sum of kites, which may be negative. The message has the name that
+// MPAS gives to the array.
+void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads);
+
+// Throws InvalidInput where a size or an index does not fit, or a number is not possible.
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
 
 }  // namespace rondel::meshing

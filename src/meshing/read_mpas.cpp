@@ -57,6 +57,7 @@ class MpasReader {
     follow_rings();
     read_rows("cellsOnVertex", arrays_.num_vertices(), arrays_.num_cells(), arrays_.cells_on_vertex,
               true);
+    require_numbers();
     read_kites();
     find_edges_of_vertices();
     system::announce(execution_, "read", 1);
@@ -102,6 +103,14 @@ class MpasReader {
     if (std::isfinite(value)) return;
     throw BadValue("variable " + io::in_quotes(name) + ", value " + std::to_string(i) +
                    ": not finite");
+  }
+
+  void require_numbers() const {
+    try {
+      meshing::require_possible_numbers(arrays_, threads_);
+    } catch (const InvalidInput& error) {
+      throw BadValue(error.what());
+    }
   }
 
   void read_points(const std::array<const char*, 3>& names, std::vector<Point>& points) const {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,7 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "rondel/error.h"
+#include "rondel/mesh_cull.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
 #include "support/temporary_files.h"
@@ -345,6 +347,51 @@ TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
             std::string::npos);
   put("text.nc", "lon,lat\n");
   EXPECT_NE(file_error([&] { mesh::read_mesh(path("text.nc")); }), "");
+}
+
+void set_number(std::string& content, const char* name, std::size_t index, double value) {
+  const io::NetcdfReader file(content);
+  const std::uint64_t at = file.require(name).offset + sizeof(double) * index;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  for (unsigned i = 0; i < 8; ++i) content[at + i] = static_cast<char>(bits >> (56 - 8 * i));
+}
+
+// In a file, and in arrays that somebody filled.
+TEST_F(MeshFiles, impossible_numbers_are_refused_with_their_place) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 18)), {.radius = 2});
+  mesh::write(path("m.nc"), arrays);
+  const std::string whole = bytes("m.nc");
+  const auto refusal = [&](const char* name, double value) {
+    std::string content = whole;
+    set_number(content, name, 5, value);
+    put("bad.nc", content);
+    std::string what = file_error([&] { mesh::read_mesh(path("bad.nc")); });
+    return what.substr(std::min(what.size(), path("bad.nc").size() + 2));
+  };
+  const auto said = [](const std::string& name, const std::string& why) {
+    return "variable \"" + name + "\", value 5: " + why;
+  };
+  for (const char* name : {"areaCell", "areaTriangle", "dcEdge"}) {
+    EXPECT_EQ(refusal(name, -1), said(name, "-1 is not positive"));
+    EXPECT_EQ(refusal(name, 0), said(name, "0 is not positive"));
+    EXPECT_NE(refusal(name, 60).find("60 is more than "), std::string::npos) << name;
+    EXPECT_NE(refusal(name, std::nan("")), "");
+    EXPECT_EQ(refusal(name, 1), "");
+  }
+  EXPECT_EQ(refusal("dvEdge", -1e-9), said("dvEdge", "-1e-09 is less than 0"));
+  EXPECT_EQ(refusal("dvEdge", 0), "");
+  EXPECT_NE(refusal("dvEdge", 13), "");
+  EXPECT_EQ(refusal("angleEdge", 1e30), said("angleEdge", "1e+30 is more than 6.283185307179586"));
+  EXPECT_EQ(refusal("angleEdge", -7), said("angleEdge", "-7 is less than -6.283185307179586"));
+  EXPECT_EQ(refusal("angleEdge", -6.28), "");
+  MeshArrays bad = arrays;
+  bad.cell_areas[7] = -3;
+  EXPECT_THROW(mesh::write(path("bad.nc"), bad, {.format = MeshFormat::scrip}), InvalidInput);
+  EXPECT_THROW(mesh::quality(bad), InvalidInput);
+  EXPECT_THROW(mesh::cull(bad, std::vector<std::uint8_t>(50, 0)), InvalidInput);
+  bad = arrays;
+  bad.normal_angles[7] = std::nan("");
+  EXPECT_THROW(mesh::write(path("bad.nc"), bad), InvalidInput);
 }
 
 // Three lunes from pole to pole; two of the meridians between them have a corner on the equator.
