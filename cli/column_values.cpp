@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 
@@ -25,8 +26,13 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
   cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
   if (cell == "NA" || cell == "null") return value;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc() && end == cell.data() + cell.size() && !std::isinf(value)) return value;
-  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' is not a number");
+  const bool is_number = end == cell.data() + cell.size() && error != std::errc::invalid_argument;
+  const bool is_beyond = is_number && error == std::errc::result_out_of_range;
+  if (is_beyond) value = std::strtod(std::string(cell).c_str(), nullptr);  // 0, or infinite
+  if (is_number && !std::isinf(value)) return value;
+  const char* why = "is not a number";
+  if (is_number) why = is_beyond ? "is beyond the largest number" : "is not finite";
+  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' " + why);
 }
 
 // A field of a netCDF file at the sites: of a variable that has one, or of one of several.

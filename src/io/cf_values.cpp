@@ -73,11 +73,14 @@ double packing(const NetcdfVariable& variable, std::string_view name, double oth
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   if (attribute == nullptr) return otherwise;
   const std::vector<double> numbers = numbers_of_attribute(variable, name);
-  if (numbers.size() == 1) return numbers.front();
-  throw BadValue("variable " + in_quotes(variable.name) + ": attribute " + std::string(name) +
-                 (attribute->numbers.empty()
-                      ? " is the text " + in_quotes(attribute->text) + " and no number"
-                      : " has " + std::to_string(numbers.size()) + " numbers instead of one"));
+  if (numbers.size() == 1 && std::isfinite(numbers.front())) return numbers.front();
+  throw BadValue(
+      "variable " + in_quotes(variable.name) + ": attribute " + std::string(name) +
+      (numbers.size() == 1
+           ? " is not finite"
+           : (attribute->numbers.empty()
+                  ? " is the text " + in_quotes(attribute->text) + " and no number"
+                  : " has " + std::to_string(numbers.size()) + " numbers instead of one")));
 }
 
 }  // namespace
@@ -113,10 +116,13 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
   offset_ = packing(variable, "add_offset", 0);
   for (const char* name : {"scale_factor", "add_offset"}) {
     if (!has_type(variable, name, NetcdfType::text)) continue;
-    remark_ = "variable " + in_quotes(variable.name) + ": attribute " + name +
-              " is a text and taken for the number that it has";
+    add_remark(variable, name, "is a text and taken for the number that it has");
   }
   const std::string unsignedness = lower_case(netcdf_text(variable.attributes, "_Unsigned"));
+  const bool is_known = unsignedness == "true" || unsignedness == "false";
+  if (find_attribute(variable.attributes, "_Unsigned") != nullptr && !is_known) {
+    add_remark(variable, "_Unsigned", "is not heeded: it is neither \"true\" nor \"false\"");
+  }
   becomes_unsigned_ = unsignedness == "true" && is_signed_integer(type_);
   if (becomes_unsigned_ || (unsignedness == "false" && is_unsigned_integer(type_))) {
     wrapped_ = std::ldexp(1, static_cast<int>(8 * size_of(type_)));
@@ -141,8 +147,9 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
        {std::tuple("valid_range", &range, 2U), std::tuple("valid_min", &least, 1U),
         std::tuple("valid_max", &most, 1U)}) {
     if (numbers->size() == count || find_attribute(variable.attributes, name) == nullptr) continue;
-    remark_ = "variable " + in_quotes(variable.name) + ": attribute " + name +
-              " is not heeded: it is not " + (count == 1 ? "one number" : "two numbers");
+    add_remark(
+        variable, name,
+        std::string("is not heeded: it is not ") + (count == 1 ? "one number" : "two numbers"));
   }
   if (least.size() == 1) lowest_ = least[0];
   if (most.size() == 1) highest_ = most[0];
@@ -157,6 +164,16 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
     lowest_ = as_type(lowest_);
     highest_ = as_type(highest_);
   }
+  if (!(lowest_ <= highest_)) {
+    add_remark(variable, range.size() == 2 ? "valid_range" : "valid_min",
+               "is more than the largest valid number: all values are missing");
+  }
+}
+
+void ValueRules::add_remark(const NetcdfVariable& variable, std::string_view attribute,
+                            const std::string& what) {
+  remark_ += remark_.empty() ? "variable " + in_quotes(variable.name) + ": " : "; ";
+  remark_ += "attribute " + std::string(attribute) + ' ' + what;
 }
 
 // The number after conversion to the type of the variable.

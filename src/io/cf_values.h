@@ -14,6 +14,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/netcdf_format.h"
@@ -23,7 +24,7 @@ namespace rondel::io {
 
 class RONDEL_API ValueRules {
  public:
-  // Throws BadValue if scale_factor or add_offset is no number, or several.
+  // Throws BadValue if scale_factor or add_offset is no finite number, or several.
   explicit ValueRules(const NetcdfVariable& variable);
 
   // Unpacks numbers as they are in the file; missing ones become NaN.
@@ -32,10 +33,13 @@ class RONDEL_API ValueRules {
   void apply_to_unpacked(std::span<double> values) const;
   // Whether apply() changes numbers that are not missing.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
-  // A sentence if scale_factor or add_offset is a text, or valid_min, valid_max or valid_range no numbers; else empty.
+  // What is odd about the attributes: a packing that is a text, bounds that are no numbers or that no number is between, an
+  // _Unsigned that is no text of the two; else empty.
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
+  void add_remark(const NetcdfVariable& variable, std::string_view attribute,
+                  const std::string& what);
   [[nodiscard]] double as_type(double value) const;
   [[nodiscard]] bool is_missing(double value) const;
 

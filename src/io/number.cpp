@@ -65,7 +65,9 @@ double parse_number(std::string_view field, std::string_view what) {
   const bool is_number = stop == end && error != std::errc::invalid_argument;
   if (is_number && std::isfinite(value)) return value;
   throw BadValue(std::string(what) + " " + in_quotes(trim(field)) +
-                 (is_number                   ? " is not finite"
+                 (is_number
+                      ? (std::ranges::any_of(digits, is_digit) ? " is beyond the largest number"
+                                                               : " is not finite")
                   : has_decimal_comma(digits) ? " is not a number: its decimal point is a comma"
                                               : " is not a number"));
 }

@@ -338,6 +338,31 @@ TEST(conventions, valid_ranges_are_of_packed_numbers) {
               {not_there, 2, 10, not_there});
 }
 
+TEST(conventions, odd_attributes_are_told) {
+  const auto remark = [](NetcdfType type, std::vector<io::NetcdfAttribute> attributes) {
+    return io::ValueRules({"v", type, {}, std::move(attributes)}).remark();
+  };
+  EXPECT_EQ(remark(NetcdfType::float32, {numbers("valid_range", NetcdfType::float32, {0, 10})}),
+            "");
+  EXPECT_EQ(
+      remark(NetcdfType::float32, {numbers("valid_range", NetcdfType::float32, {10, 0})}),
+      "variable \"v\": attribute valid_range is more than the largest valid number: all values "
+      "are missing");
+  EXPECT_EQ(remark(NetcdfType::int8, {numbers("_Unsigned", NetcdfType::int32, {1})}),
+            "variable \"v\": attribute _Unsigned is not heeded: it is neither \"true\" nor "
+            "\"false\"");
+  // Both are told.
+  const std::string several = remark(
+      NetcdfType::int8,
+      {{"_Unsigned", NetcdfType::text, "yes", {}}, {"scale_factor", NetcdfType::text, "2", {}}});
+  EXPECT_NE(several.find("; attribute "), std::string::npos) << several;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const char* name : {"scale_factor", "add_offset"}) {
+    EXPECT_THROW(remark(NetcdfType::int16, {numbers(name, NetcdfType::float64, {nan})}),
+                 io::BadValue);
+  }
+}
+
 TEST(conventions, unsigned_and_packed_numbers) {
   expect_same(meant(NetcdfType::int8,
                     {{"_Unsigned", NetcdfType::text, "true", {}},
