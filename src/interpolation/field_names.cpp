@@ -161,9 +161,14 @@ std::vector<std::string> dates_of(const FieldArray& axis) {
   if (!units) return {};
   std::vector<std::int64_t> times;
   const double last = static_cast<double>(day_number(*calendar, {9999, 12, 30})) * seconds_per_day;
+  // Before this day the standard calendar is the Julian one, and has no dates here.
+  const bool is_mixed =
+      *calendar == Calendar::gregorian && attribute_of(axis, "calendar") != "proleptic_gregorian";
+  const double first =
+      is_mixed ? static_cast<double>(day_number(*calendar, {1582, 10, 15})) * seconds_per_day : 0;
   for (const double value : axis.values) {
     const double time = std::round(value * units->seconds) + static_cast<double>(units->start);
-    if (!(time >= 0 && time <= last)) return {};
+    if (!(time >= first && time <= last)) return {};
     times.push_back(static_cast<std::int64_t>(time));
   }
   const bool are_days =

@@ -104,7 +104,7 @@ std::string header_of(const FieldsToWrite& job, char separator) {
     if (!text.empty()) text += separator;
     io::append_csv_field(text, names.unique(name), separator);
   };
-  if (!job.side.points.empty()) {
+  if (!job.side.points.empty() || job.fields.num_points == 0) {  // the columns of no rows, too
     append("lon");
     append("lat");
   }

@@ -233,6 +233,29 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
   return weights;
 }
 
+namespace {
+
+// A gradient of values of this size may be beyond the largest number.
+constexpr double huge_value = 0x1p960;
+
+// Gradients, and their sums, may exceed the largest number where values do not. What is missing for that is computed of smaller values.
+void complete_overflown(const Interpolator& interpolator, std::span<const double> field,
+                        std::span<const Point> targets, const InterpolationOptions& options,
+                        const Execution& execution, std::vector<double>& values) {
+  constexpr double scale = 0x1p-200;
+  std::vector<double> small(field.begin(), field.end());
+  for (double& value : small) value *= scale;
+  const std::vector<double> found = interpolator.values(small, targets, options, execution);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i]) || std::isnan(found[i])) continue;
+    values[i] = found[i] / scale;
+    if (std::isfinite(values[i])) continue;
+    throw InvalidInput("the value is beyond the largest number", i % targets.size());
+  }
+}
+
+}  // namespace
+
 std::vector<double> Interpolator::values(std::span<const double> field,
                                          std::span<const Point> targets,
                                          const InterpolationOptions& options,
@@ -245,6 +268,10 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                                       targets.size(), options, execution);
   impl_->for_each_row(targets, options, execution, fields.has_gradient,
                       [&] { return ValuesTaker(fields.sums(), values); });
+  const auto is_huge = [](double value) { return std::abs(value) > huge_value; };
+  if (impl_->needs_gradients(options.method) && std::ranges::any_of(field, is_huge)) {
+    complete_overflown(*this, field, targets, options, execution, values);
+  }
   return values;
 }
 

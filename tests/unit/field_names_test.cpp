@@ -151,6 +151,20 @@ TEST(field_names, are_dates_from_the_first_to_the_last_that_there_is) {
       (Names{"-1", "0"}));
 }
 
+// The standard calendar is the Julian one before 15 October 1582.
+TEST(field_names, are_numbers_before_the_gregorian_calendar) {
+  const auto names = [](const char* calendar, double day) {
+    return places_on_axis(
+        axis("time", {day, 0}, {{"units", "days since 1600-01-01"}, {"calendar", calendar}}));
+  };
+  for (const char* calendar : {"standard", "gregorian", ""}) {
+    EXPECT_EQ(names(calendar, -80000), (Names{"-80000", "0"}));
+    EXPECT_EQ(names(calendar, -6288), (Names{"-6288", "0"}));
+    EXPECT_EQ(names(calendar, -6287), (Names{"1582-10-15", "1600-01-01"}));
+  }
+  EXPECT_EQ(names("proleptic_gregorian", -80000), (Names{"1380-12-19", "1600-01-01"}));
+}
+
 TEST(field_names, have_no_clock_where_all_times_are_midnight) {
   EXPECT_EQ(places_on_axis(axis("time", {0, 59, 366}, {{"units", "days since 2000-01-01"}})),
             (Names{"2000-01-01", "2000-02-29", "2001-01-01"}));

@@ -9,6 +9,8 @@
 
 #include "interpolation/hermite.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/interpolate.h"
 #include "support/generators.h"
 #include "unit/interpolation_slopes.h"
 
@@ -42,6 +44,28 @@ TEST(interpolation_hermite, gives_linear_functions_of_space_back) {
       ASSERT_NEAR(sum_of(row, values, gradients), 2 + dot(slope, u), 1e-13) << generator.name;
     }
   }
+}
+
+// Gradients of such values are beyond the largest number.
+TEST(interpolation_hermite, values_up_to_the_largest_number_are_carried) {
+  Random random(5);
+  std::vector<Point> sites;
+  std::vector<Point> targets;
+  for (int i = 0; i < 60; ++i) sites.push_back(random.direction());
+  for (int i = 0; i < 60; ++i) targets.push_back(random.direction());
+  std::vector<double> values;
+  for (const Point& site : sites) values.push_back(site.z);
+  const Triangulation triangulation = delaunay(sites);
+  const Interpolator interpolator(triangulation);
+  for (const Method method : {Method::hermite, Method::cubic}) {
+    const std::vector<double> expected = interpolator.values(values, targets, {.method = method});
+    std::vector<double> large = values;
+    for (double& value : large) value *= 0x1p1023;
+    const std::vector<double> found = interpolator.values(large, targets, {.method = method});
+    for (std::size_t i = 0; i < targets.size(); ++i) EXPECT_EQ(found[i], expected[i] * 0x1p1023);
+  }
+  for (double& value : values) value = value > 0 ? 1.7e308 : -1.7e308;
+  EXPECT_THROW(interpolator.values(values, targets, {.method = Method::cubic}), InvalidInput);
 }
 
 TEST(interpolation_hermite, is_sibson_where_a_neighbor_has_no_gradient) {
