@@ -26,14 +26,16 @@ constexpr double same_places_deg = 1e-9;
 struct InterpolateCounts {
   std::size_t sites = 0;
   std::size_t targets = 0;
-  std::size_t left_out = 0;  // values of sites that are not there
-  std::size_t missing = 0;   // values of targets, or rows, that are not there
+  std::size_t duplicates = 0;  // sites in the place of another one
+  std::size_t left_out = 0;    // values of sites that are not there
+  std::size_t missing = 0;     // values of targets, or rows, that are not there
 };
 
 void report(Job& job, const InterpolateOptions& options, const InterpolateCounts& counts) {
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {{"sites", counts.sites},
                                        {"targets", counts.targets},
+                                       {"duplicates", counts.duplicates},
                                        {"left_out", counts.left_out},
                                        {"missing", counts.missing},
                                        {"seconds",
@@ -44,6 +46,11 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
                                        {"peak_memory_bytes", peak_memory_bytes()}};
   std::string text =
       count(counts.sites, "site", "sites") + " to " + count(counts.targets, "target", "targets");
+  if (counts.duplicates > 0) {
+    text += ", " + count(counts.duplicates, "duplicate", "duplicates") +
+            (options.interpolation.shared_place == SharedPlace::mean ? " (the mean counts)"
+                                                                     : " (the first site counts)");
+  }
   if (counts.left_out > 0)
     text += ", left out " + std::to_string(counts.left_out) + " without value";
   text += "; targets without value: " + std::to_string(counts.missing) + '\n';
@@ -51,13 +58,15 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
   job.report(json.dump(2) + '\n', text);
 }
 
-Triangulation triangulated(Job& job, const InterpolateOptions& options, const SiteTable& table) {
+Triangulation triangulated(Job& job, const InterpolateOptions& options, const SiteTable& table,
+                           InterpolateCounts& counts) {
   Triangulation triangulation = job.triangulate(table);
   const auto duplicates = triangulation.duplicates();
   if (options.interpolation.shared_place == SharedPlace::error && !duplicates.empty()) {
     throw FileError(table.where(duplicates.front().site) + ": the place of " +
                     table.where(duplicates.front().representative));
   }
+  counts.duplicates = std::max(counts.duplicates, duplicates.size());
   return triangulation;
 }
 
@@ -75,12 +84,13 @@ class FieldCarrier {
     const bool is_whole = std::ranges::find(is_known, false) == is_known.end();
     std::optional<Interpolator>& interpolator = is_whole ? whole_ : partial_;
     if (!is_whole && is_known != is_known_) interpolator.reset();
-    if (is_whole && !interpolator) interpolator.emplace(triangulated(job_, options_, table_));
+    if (is_whole && !interpolator)
+      interpolator.emplace(triangulated(job_, options_, table_, counts_));
     if (!is_whole) {
       counts_.left_out += std::erase_if(values, [](double value) { return std::isnan(value); });
       if (!interpolator) {
         kept_ = table_.selection(is_known);
-        interpolator.emplace(triangulated(job_, options_, kept_));
+        interpolator.emplace(triangulated(job_, options_, kept_, counts_));
         is_known_ = std::move(is_known);
       }
     }
@@ -180,7 +190,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   const bool has_masked = numbers.size() < table.sites.size();
   SiteTable kept;  // what the triangulation refers to
   if (has_masked) kept = table.selection(grid.unmasked());
-  const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table);
+  const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table, counts);
   const Interpolator interpolator(triangulation);
   WeightFile file;
   job.time(Stage::query, [&] {
@@ -222,13 +232,16 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }
+  if (common.build.model == Model::weighted && options.interpolation.method != Method::nearest) {
+    throw UsageError("--method: weighted sites have no method but nearest");
+  }
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
   const NetcdfSites grid = job.read_grid(common.source(), read, options.columns);
   const SiteTable& table = grid.table;
   Targets targets = read_targets(options.target, common.read);
-  InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0};
+  InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
   if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, counts);
   if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, counts);
   if (!options.weights.empty()) {

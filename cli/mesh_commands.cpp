@@ -65,7 +65,9 @@ Command add_scvt_command(CLI::App& group) {
   CLI::App* parser = group.add_subcommand("scvt", "Make a centroidal Voronoi mesh");
   CLI::Option* number =
       parser->add_option("-n,--number", options->scvt.count, "Number of cells, also as 1e6");
-  number->check(sites_error)->transform(digits_of_whole)->type_name("N");
+  number->check([](const std::string& text) { return whole_error(text, 12, max_sites); })
+      ->transform(digits_of_whole)
+      ->type_name("N");
   CLI::Option* spacing = parser->add_option(
       "--spacing", options->spacing,
       "Distance of neighbors: kilometers, or a file of them, FILE.nc[:NAME]\n"

@@ -157,7 +157,13 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     json["fixed"] = made.fixed.size();
     json["left_out"] = task.fixed.num_left_out;
   }
-  std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
+  std::string how;
+  if (made.end == mesh::ScvtEnd::iterations) {
+    how = "not converged after " +
+          count(static_cast<std::size_t>(made.last.iteration), "step", "steps") + "; ";
+  } else if (!is_whole) {
+    how = std::string(mesh::name_of(made.end)) + "; ";
+  }
   if (!made.fixed.empty()) {
     how += count(made.fixed.size(), "site", "sites") + " fixed";
     if (task.fixed.num_left_out > 0) {

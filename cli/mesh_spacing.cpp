@@ -14,6 +14,7 @@
 
 #include "mesh.h"
 #include "mesh_make.h"
+#include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
@@ -122,9 +123,13 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
     const auto kilometers = as_kilometers("--refine", text);
     if (!kilometers) throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
     const double near = *kilometers / kilometers_per_radian;
-    size = size->refined(
-        mesh::read_refinement({file, {}}, 0.5 * near, {.edges = options.edges}, execution), near,
-        options.slope.value_or(usual_slope), execution);
+    const std::vector<Point> places =
+        mesh::read_refinement({file, {}}, 0.5 * near, {.edges = options.edges}, execution);
+    if (std::ranges::none_of(places, [&](const Point& p) { return size->spacing(p) > near; })) {
+      tell(file, {"--refine: the spacing there is " + text +
+                  " kilometers or less without it, which it does not change"});
+    }
+    size = size->refined(places, near, options.slope.value_or(usual_slope), execution);
   }
   if (options.slope || !options.refine.empty()) {
     size = size->limited(options.slope.value_or(usual_slope));
