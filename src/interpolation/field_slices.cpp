@@ -229,7 +229,12 @@ void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& 
     const io::ValueRules rules(*axis);
     if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
     axes.push_back(array_of(file_, *axis, {0}));
-    axes.back().values = file_.numbers(*axis);
+    bool is_rounded = false;
+    axes.back().values = file_.rounded_numbers(*axis, is_rounded);
+    if (is_rounded) {
+      fields_.remarks.push_back("variable " + io::in_quotes(axis->name) +
+                                " has integers that are no doubles, which are rounded");
+    }
     rules.apply(axes.back().values);
   }
 }

@@ -14,6 +14,7 @@
 #include "io/cf_names.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
+#include "io/wide_integers.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
 
@@ -128,20 +129,32 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
     wrapped_ = std::ldexp(1, static_cast<int>(8 * size_of(type_)));
   }
   for (const char* name : {"_FillValue", "missing_value"}) {
-    for (const double value : numbers_of_attribute(variable, name)) {
-      missing_.push_back(as_type(value));
+    const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
+    const std::vector<double> values = numbers_of_attribute(variable, name);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      // Of integers that are no doubles the reader has told which are missing.
+      const bool is_exact = attribute->type != type_ || attribute->integers.size() <= i ||
+                            is_double(attribute->integers[i], type_);
+      if (is_exact) missing_.push_back(as_type(values[i]));
     }
     is_single_ |= type_ == NetcdfType::float64 && has_type(variable, name, NetcdfType::float32);
   }
   if (find_attribute(variable.attributes, "_FillValue") == nullptr) {
-    missing_.push_back(as_type(default_fill(type_)));
+    // That of 64-bit integers is no double, which the reader knows.
+    (is_wide(type_) ? rounded_missing_ : missing_).push_back(as_type(default_fill(type_)));
   }
   const std::vector<double> range = numbers_of_attribute(variable, "valid_range");
   const std::vector<double> least = numbers_of_attribute(variable, "valid_min");
   const std::vector<double> most = numbers_of_attribute(variable, "valid_max");
+  const auto bound = [&](const char* name, const std::vector<double>& numbers, std::size_t i,
+                         bool is_lower) {
+    const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
+    const bool is_exact = attribute->type == type_ && attribute->integers.size() > i;
+    return is_exact ? bound_as_double(attribute->integers[i], type_, is_lower) : numbers[i];
+  };
   if (range.size() == 2) {
-    lowest_ = range[0];
-    highest_ = range[1];
+    lowest_ = bound("valid_range", range, 0, true);
+    highest_ = bound("valid_range", range, 1, false);
   }
   for (const auto& [name, numbers, count] :
        {std::tuple("valid_range", &range, 2U), std::tuple("valid_min", &least, 1U),
@@ -151,8 +164,8 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
         variable, name,
         std::string("is not heeded: it is not ") + (count == 1 ? "one number" : "two numbers"));
   }
-  if (least.size() == 1) lowest_ = least[0];
-  if (most.size() == 1) highest_ = most[0];
+  if (least.size() == 1) lowest_ = bound("valid_min", least, 0, true);
+  if (most.size() == 1) highest_ = bound("valid_max", most, 0, false);
   for (const char* name : {"valid_range", "valid_min", "valid_max"}) {
     for (const char* factor : {"scale_factor", "add_offset"}) {
       const NetcdfAttribute* const unpacked = find_attribute(variable.attributes, factor);
@@ -223,8 +236,9 @@ void ValueRules::apply_to_unpacked(std::span<double> values) const {
     const auto is_one = [&](double missing) {
       return is_packed() ? std::abs(value - unpacked(missing)) <= slack : value == missing;
     };
-    const bool is_lost =
-        std::ranges::any_of(missing_, is_one) || (!is_packed() && is_missing(value));
+    const bool is_lost = std::ranges::any_of(missing_, is_one) ||
+                         std::ranges::any_of(rounded_missing_, is_one) ||
+                         (!is_packed() && is_missing(value));
     if (is_lost || value < lowest || value > highest) value = no_number;
   }
 }

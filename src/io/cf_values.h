@@ -48,7 +48,8 @@ class RONDEL_API ValueRules {
       0;  // what is added to negative integers, or subtracted from those of its half and more
   bool becomes_unsigned_ = false;
   std::vector<double> missing_;
-  bool is_single_ = false;  // some of these are of single precision
+  std::vector<double> rounded_missing_;  // of 64-bit integers that somebody else has made doubles
+  bool is_single_ = false;               // some of these are of single precision
   double lowest_;
   double highest_;
   bool has_unpacked_range_ = false;

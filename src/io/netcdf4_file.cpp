@@ -150,6 +150,16 @@ class Netcdf4Header {
     if (type <= 0 || type > netcdf_string_type) return false;
     attribute.type = static_cast<NetcdfType>(type);
     attribute.numbers.resize(size);
+    if (attribute.type == NetcdfType::int64 || attribute.type == NetcdfType::uint64) {
+      attribute.integers.resize(size);
+      std::int64_t* const at = attribute.integers.data();
+      const int error =
+          attribute.type == NetcdfType::int64
+              ? library_.attribute_integers(group, variable, name, reinterpret_cast<long long*>(at))
+              : library_.attribute_naturals(group, variable, name,
+                                            reinterpret_cast<unsigned long long*>(at));
+      if (error != 0) return false;
+    }
     return library_.attribute_numbers(group, variable, name, attribute.numbers.data()) == 0;
   }
 
@@ -250,6 +260,19 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
                                             count.data(), reinterpret_cast<long long*>(at)));
   };
   for_each_slab(variable.shape, begin, out.size(), read);
+}
+
+void Netcdf4File::read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+                           std::span<std::int64_t> out) const {
+  const NetcdfLock lock(netcdf_library_lock());
+  require_netcdf(
+      library_,
+      variable.type == NetcdfType::uint64
+          ? library_.read_naturals(variable.group, variable.number, box.start.data(),
+                                   box.count.data(),
+                                   reinterpret_cast<unsigned long long*>(out.data()))
+          : library_.read_integers(variable.group, variable.number, box.start.data(),
+                                   box.count.data(), reinterpret_cast<long long*>(out.data())));
 }
 
 }  // namespace rondel::io

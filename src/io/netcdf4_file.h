@@ -41,6 +41,8 @@ class Netcdf4File {
   // Precondition: they are integers.
   void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
             std::span<std::int64_t> out) const;
+  void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+                std::span<std::int64_t> out) const;
 
  private:
   const NetcdfLibrary& library_;

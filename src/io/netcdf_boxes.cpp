@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "io/netcdf4_file.h"
+#include "io/wide_integers.h"
 
 namespace rondel::io {
 namespace {
@@ -196,6 +197,12 @@ void NetcdfReader::read_box(const Variable& variable, const NetcdfBox& box,
                             std::span<double> out) const {
   if (netcdf4_ != nullptr) {
     require_numbers(variable);
+    if (is_wide(variable.type)) {
+      std::vector<std::int64_t> wide(out.size());
+      netcdf4_->read_box(variable, box, std::span(wide));
+      to_doubles(variable, wide, out);
+      return;
+    }
     netcdf4_->read_box(variable, box, out);
   } else {
     RunReader(*this, variable, box).read(0, 0, out);

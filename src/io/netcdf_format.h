@@ -59,6 +59,8 @@ struct NetcdfAttribute {
   NetcdfType type = NetcdfType::text;
   std::string text;
   std::vector<double> numbers;
+  std::vector<std::int64_t>
+      integers{};  // the same of 64-bit integers, exactly; those of uint64 as bits
 };
 
 struct NetcdfVariable {

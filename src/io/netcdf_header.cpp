@@ -109,6 +109,9 @@ std::vector<NetcdfAttribute> attributes_of(HeaderFields& fields) {
     }
     for (std::size_t i = 0; i < count; ++i) {
       attribute.numbers.push_back(number_at(bytes.data() + i * size, attribute.type));
+      if (attribute.type == NetcdfType::int64 || attribute.type == NetcdfType::uint64) {
+        attribute.integers.push_back(load<std::int64_t>(bytes.data() + i * size, std::endian::big));
+      }
     }
   }
   return attributes;

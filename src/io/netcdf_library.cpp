@@ -80,6 +80,8 @@ bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   from.get(netcdf.attribute_text, "nc_get_att_text");
   from.get(netcdf.attribute_strings, "nc_get_att_string");
   from.get(netcdf.attribute_numbers, "nc_get_att_double");
+  from.get(netcdf.attribute_integers, "nc_get_att_longlong");
+  from.get(netcdf.attribute_naturals, "nc_get_att_ulonglong");
   from.get(netcdf.free_strings, "nc_free_string");
   from.get(netcdf.read_doubles, "nc_get_vara_double");
   from.get(netcdf.read_integers, "nc_get_vara_longlong");

@@ -29,6 +29,8 @@ struct NetcdfLibrary {
   int (*attribute_text)(int, int, const char*, char*);
   int (*attribute_strings)(int, int, const char*, char**);
   int (*attribute_numbers)(int, int, const char*, double*);
+  int (*attribute_integers)(int, int, const char*, long long*);
+  int (*attribute_naturals)(int, int, const char*, unsigned long long*);
   int (*free_strings)(std::size_t, char**);
   int (*read_doubles)(int, int, const std::size_t*, const std::size_t*, double*);
   int (*read_integers)(int, int, const std::size_t*, const std::size_t*, long long*);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "io/bad_value.h"
@@ -11,6 +12,7 @@
 #include "io/netcdf4_file.h"
 #include "io/netcdf_header.h"
 #include "io/number.h"
+#include "io/wide_integers.h"
 
 namespace rondel::io {
 namespace {
@@ -200,20 +202,45 @@ void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span
 
 void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
                                 std::span<double> out) const {
-  if (netcdf4_ != nullptr) {
+  if (is_wide(variable.type)) {
+    std::vector<std::int64_t> wide(out.size());
+    read_wide(variable, begin, wide);
+    to_doubles(variable, wide, out);
+  } else if (netcdf4_ != nullptr) {
     require_numbers(variable);
     netcdf4_->read(variable, begin, out);
   } else if (variable.type == NetcdfType::float64) {
     copy<double>(variable, begin, out);
   } else if (variable.type == NetcdfType::float32) {
     copy<float>(variable, begin, out);
-  } else if (variable.type == NetcdfType::uint64) {  // also beyond 2^63: fill values
-    copy<std::uint64_t>(variable, begin, out);
   } else {
     std::vector<std::int64_t> whole(out.size());
     read_integers(variable, begin, whole);
     std::ranges::copy(whole, out.begin());
   }
+}
+
+void NetcdfReader::read_wide(const Variable& variable, std::uint64_t begin,
+                             std::span<std::int64_t> out) const {
+  if (netcdf4_ != nullptr) {
+    netcdf4_->read(variable, begin, out);
+  } else {
+    copy<std::int64_t>(variable, begin, out);
+  }
+}
+
+std::vector<double> NetcdfReader::rounded_numbers(const Variable& variable,
+                                                  bool& is_rounded) const {
+  if (!is_wide(variable.type)) return numbers(variable);
+  require_room(variable);
+  std::vector<std::int64_t> wide(variable.num_values);
+  read_wide(variable, 0, wide);
+  std::vector<double> values(wide.size());
+  to_doubles(variable, wide, values, true);
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    is_rounded |= !std::isnan(values[i]) && !is_double(wide[i], variable.type);
+  }
+  return values;
 }
 
 // Values that were never written take no bytes, and those that are all the same hardly any: of netCDF-4 this only keeps a damaged

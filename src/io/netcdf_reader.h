@@ -67,7 +67,11 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] const Variable& require(std::string_view name) const;
 
   // All values as doubles. Throws BadValue if they are a text.
+  // Integers of 64 bits that are no doubles are NaN if they are missing, as wide_integers.h says; otherwise BadValue is thrown.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  // The same, but those that are no doubles are rounded. Sets `is_rounded` if there are some.
+  [[nodiscard]] std::vector<double> rounded_numbers(const Variable& variable,
+                                                    bool& is_rounded) const;
   // Throws BadValue if the variable is a text, or has more values than the file can have: before there is room for them.
   void require_room(const Variable& variable) const;
   // As many as there is room for, from this one on. Throws BadValue as numbers() and integers() do.
@@ -86,6 +90,8 @@ class RONDEL_API NetcdfReader {
   void parse(std::string_view head);
   static void require_numbers(const Variable& variable);
   [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
+  // Those of 64 bits, uint64 as bits.
+  void read_wide(const Variable& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
   void place_records(std::uint64_t claimed);

@@ -397,6 +397,44 @@ class Netcdf4(unittest.TestCase):
                 self.assertEqual(len(lines), 1, lines)
                 self.assertTrue(lines[0].startswith("rondel: bad.nc: "), lines)
 
+    def test_integers_of_64_bits_are_compared_exactly(self):
+        """Fill values and bounds that are no doubles; the oracle is what Python's integers say."""
+        large = 2**62
+
+        def values(kind, numbers, fill=None, **attributes):
+            with netCDF4.Dataset(self.folder / "i.nc", "w", format=kind) as data:
+                data.createDimension("p", 6)
+                for name, unit, places in (
+                    ("lon", "degrees_east", [0, 90, 180, 270, 0, 0]),
+                    ("lat", "degrees_north", [0, 0, 0, 0, 90, -90]),
+                ):
+                    axis = data.createVariable(name, "f8", ("p",))
+                    axis.units = unit
+                    axis[:] = places
+                field = data.createVariable("t", "i8", ("p",), fill_value=fill)
+                field.set_auto_maskandscale(False)
+                for name, value in attributes.items():
+                    field.setncattr(name, np.int64(value))
+                field[:] = [*numbers, 1, 2, 3, 4]
+            run = ("interpolate", "i.nc:t", "--to", "i.nc", "--method", "nearest")
+            self.run_tool(*run, "-o", "o.npy", "--outside", "nearest", "--quiet")
+            return [int(value) for value in np.load(self.folder / "o.npy").ravel()[:2]]
+
+        for kind in ("NETCDF4", "NETCDF3_64BIT_DATA"):
+            # The missing second value takes that of another site.
+            self.assertEqual(values(kind, [large, large + 4], fill=large + 4)[0], large)
+            self.assertLess(values(kind, [large, large + 4], fill=large + 4)[1], 5)
+            bounded = values(kind, [large, large + 1024], valid_max=large + 1023)
+            self.assertEqual(bounded[0], large)
+            self.assertLess(bounded[1], 5)
+            never_written = values(kind, [-(2**63), -(2**63) + 2])
+            self.assertEqual(never_written[0], -(2**63))
+            self.assertGreater(never_written[1], 0)
+            with self.assertRaisesRegex(
+                AssertionError, 'variable "t": 4611686018427387907 is no double'
+            ):
+                values(kind, [large + 3, large + 4], fill=large + 4)
+
     def test_no_room_is_told(self):
         """A limit of the size of files, as a full disk: status 1, the file's name, the system's reason, nothing left behind. Also
         with the system's netCDF-C, whose HDF5 may be one that crashes where it cannot write."""
