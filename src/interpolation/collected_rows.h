@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Rows that come in any order of the targets, from several threads, put together in their order.
+// The rows of weights of many targets, which several threads find in any order, put together in the
+// order of the targets.
+//
+// in    lists of rows, each of some targets, in any order
+// out   Weights: one compressed row for each target
+// index vertices (spatial ranks) in Row; sites in RowList and in the result
 #pragma once
 
 #include <cstdint>
@@ -16,7 +21,7 @@
 
 namespace rondel::interpolation {
 
-// Those of one range of targets: row k ends at ends[k].
+// The rows of some targets: row k is that of targets[k] and ends before entry ends[k].
 struct RowList {
   std::vector<Index> targets;
   std::vector<std::uint64_t> ends;
@@ -26,12 +31,16 @@ struct RowList {
 
 class CollectedRows {
  public:
-  // The columns are the sites of the vertices, all of a place where the mean is asked for.
+  // The columns of the rows are sites: the lowest site of each vertex, or with SharedPlace::mean
+  // all sites of its place, with equal parts of the weight.
   CollectedRows(const Ground& ground, SharedPlace shared);
 
+  // Appends the entries of a row to a list, with sites instead of vertices.
   void append(const Row& row, RowList& list) const;
+  // Takes over a finished list. Several threads may call this at once.
   void add(RowList list);
-  // The rows of so many targets, in which those that nobody added are empty. Once.
+  // Returns the rows of targets 0 ... num_targets - 1; the row of a target that nobody added is
+  // empty. Call this once, when all lists have been added.
   [[nodiscard]] Weights joined(std::size_t num_targets, unsigned threads) const;
 
  private:

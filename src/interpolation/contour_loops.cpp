@@ -13,8 +13,7 @@ namespace rondel::interpolation {
 namespace {
 
 std::uint64_t hash_of(const Point& p) {
-  constexpr std::uint64_t odd =
-      0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the bits
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
   std::uint64_t hash = 0;
   for (const double coordinate : {p.x, p.y, p.z}) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * odd;
@@ -23,7 +22,7 @@ std::uint64_t hash_of(const Point& p) {
   return hash;
 }
 
-// False only if no point is there twice.
+// Returns false only if all points of the line differ; compares hashes.
 bool may_repeat(std::span<const Point> line) {
   std::vector<std::uint64_t> hashes(line.size());
   std::ranges::transform(line, hashes.begin(), hash_of);

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Lines that come back to one of their points fall apart there.
+// Splits lines that visit a point twice.
+//
+// in    a line as a sequence of points, closed or not
+// out   lines that visit no point twice
 #pragma once
 
 #include <span>
@@ -11,8 +14,9 @@
 
 namespace rondel::interpolation {
 
-// Appends the line as lines that visit no point twice: loops between two visits of a point, which are
-// closed, and what is left. A loop of two points, which runs to and fro, is none; nor is a line of one.
+// Appends the line as lines that visit no point twice: each part between two visits of a point
+// becomes a closed line of its own, and what remains is the last line. Loops of fewer than three
+// points and lines of fewer than two points are dropped.
 void append_simple_lines(std::span<const Point> line, bool is_closed, TracedLines& out);
 
 }  // namespace rondel::interpolation

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t faces_at_a_time = 8192;
 
-// Of the sites in one place the one with the smallest coordinates speaks, so that their order does not
-// matter.
+// Returns for each site that shares its place with others the site that represents them: the one
+// with the smallest coordinates, so that the order of the sites does not matter.
 std::unordered_map<Index, Index> find_speakers(const Triangulation& triangulation) {
   const Sites& sites = triangulation.sites();
   const auto key = [&](Index site) {
@@ -82,7 +82,8 @@ void ContourTracer::find_pieces(unsigned threads) {
   for (std::size_t f = 0; f < faces_.size(); ++f) first_piece_[f + 1] += first_piece_[f];
 }
 
-// A face whose values are all strictly between two levels has no border but that of the surface.
+// A face whose values are all strictly between two levels contains no border except that of the
+// surface.
 void ContourTracer::classify(Index face, std::uint64_t& num_pieces) {
   if (faces_.is_missing(face)) {
     content_[face] = Content::missing;
@@ -108,7 +109,8 @@ void ContourTracer::list_mixed_faces() {
   }
 }
 
-// Links lead to lower names, so that in the end one pass leads all to the first of their part.
+// Links lead to pieces of lower numbers, so that one pass at the end leads each piece to the first
+// of its part.
 void ContourTracer::connect() {
   part_.resize(first_piece_.back());
   for (std::uint64_t i = 0; i < part_.size(); ++i) part_[i] = i;
@@ -222,7 +224,7 @@ TracedLines ContourTracer::rings(std::size_t region) {
   return out;
 }
 
-// A line is followed to its end, or around. If it has an end, it is followed back to its beginning as well.
+// Follows a line to its end, or around. A line with an end is also followed back to its beginning.
 TracedLines ContourTracer::lines(std::size_t region) {
   TracedLines out;
   const ValueRange values = range(region);
@@ -254,7 +256,7 @@ TracedLines ContourTracer::lines(std::size_t region) {
         }
         std::ranges::reverse(line);
       } else {
-        line.pop_back();  // the first point
+        line.pop_back();  // the first point, which comes again
       }
       append_simple_lines(line, !is_rim, out);
     }
@@ -268,7 +270,8 @@ Point ContourTracer::direction(Index site) const {
   return normalized(scaled(triangulation_.sites()[place] - triangulation_.sphere().center));
 }
 
-// On the chord between the two sites. The share of it grows with the level, whatever is rounded.
+// Returns the direction of a point on the chord between the two sites. Its share of the chord grows
+// with the level, whatever is rounded.
 Point ContourTracer::point(const PieceCorner& corner) const {
   const Point low = direction(corner.lower);
   if (corner.upper == no_index) return low;

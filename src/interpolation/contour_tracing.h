@@ -1,12 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The borders of regions between levels, as rings and as lines.
+// Traces the borders of the regions between levels, as closed rings and as open lines.
 //
-// A border runs from side to side of pieces (contour_pieces.h), the region to its left. At the end of a
-// side it goes on with the next side of the same piece; where that is inside the region, it turns through the
-// pieces around the corner until one is not. So it never leaves the fan of pieces in which it
-// arrived, and the rings of two fans that touch in a corner do not mix.
+// in    a triangulation, values at its sites, increasing levels
+// out   the border of each region, with the region on the left
+// index regions: region k lies between levels k - 1 and k; faces and sites of the triangulation;
+//       pieces, numbered face by face and in a face by region
+//
+// A border goes along the sides of pieces (contour_pieces.h), with the region to its left. At the
+// end of a side it continues with the next side of the same piece; if the region goes on across that
+// side, it turns through the pieces around the corner until it reaches a side where it does not. So
+// it never leaves the fan of pieces in which it arrived, and the rings of two fans that touch in a
+// corner are not mixed.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +26,17 @@
 
 namespace rondel::interpolation {
 
-// What the regions are: those of region k are levels[k-1] <= f < levels[k], or <= f alone.
+// What region k is: a `band` has levels[k-1] <= f < levels[k]; `from_level_on` has levels[k-1] <=
+// f.
 enum class RegionKind : std::uint8_t { band, from_level_on };
 
-// Lines or rings of one region.
+// The lines or rings of one region, one after the other.
 struct TracedLines {
   std::vector<Point> points;
-  std::vector<std::uint64_t> ends;      // of each line, in `points`
-  std::vector<std::uint8_t> is_closed;  // of each line
+  std::vector<std::uint64_t> ends;      // line i ends before point ends[i]
+  std::vector<std::uint8_t> is_closed;  // by line: whether it returns to its first point
   std::vector<std::uint64_t>
-      component;  // of each ring: which connected part of its band it borders
+      component;  // by ring: the number of the connected part of the band that it borders
 };
 
 class ContourTracer {
@@ -38,34 +45,38 @@ class ContourTracer {
                 std::span<const double> levels, RegionKind kind, const Execution& execution);
 
   [[nodiscard]] std::size_t num_regions() const { return levels_.size() + 1; }
-  // The border of region k, each line once: without what is the surface's border too, or with it. One
-  // thread for each region.
+  // Returns the border of region k, each line once. One thread at a time may trace a region;
+  // several threads may trace different regions. lines() leaves out what is the border of the
+  // surface too.
   [[nodiscard]] TracedLines lines(std::size_t region);
+  // Returns the same with the border of the surface, as closed rings.
   [[nodiscard]] TracedLines rings(std::size_t region);
 
-  // The region that has most of the surface if this is the whole sphere, and otherwise num_regions().
-  // Of bands only.
+  // Returns the region that covers the most pieces, if the surface is the whole sphere, and
+  // otherwise num_regions(). Defined for bands only.
   [[nodiscard]] std::size_t region_without_border() const;
 
  private:
-  // A side of a face's piece.
+  // One side of the piece that a face has in a region.
   struct PieceSide {
     Index face = 0;
     std::size_t side = 0;
     ContourPiece piece{};
   };
+  // What a side is: `inner` if the region goes on beyond it, `line` if it lies between two regions,
+  // `rim` if it is on the border of the surface.
   enum class SideKind : std::uint8_t { inner, line, rim };
-  enum class Content : std::uint8_t {
-    plain,
-    mixed,
-    missing
-  };  // of a face; plain: no border is in it
+  // What a face contains: a `plain` face belongs to one region and has no border in it.
+  enum class Content : std::uint8_t { plain, mixed, missing };
 
   [[nodiscard]] ValueRange range(std::size_t region) const;
+  // Sets region_of_ for all sites.
   void find_levels(std::span<const double> values, unsigned threads);
+  // Classifies all faces and numbers their pieces.
   void find_pieces(unsigned threads);
   void classify(Index face, std::uint64_t& num_pieces);
   void list_mixed_faces();
+  // Finds which pieces are connected, for the component of each ring.
   void connect();
   void connect(std::uint64_t a, std::uint64_t b);
   void connect_plain(Index face);
@@ -79,13 +90,16 @@ class ContourTracer {
   }
 
   [[nodiscard]] SideKind kind(const PieceSide& place, const ValueRange& range) const;
-  // Steps into the face across the side, to the same side there.
+  // Moves the place into the face across the side, to the same side as seen there.
   void cross(PieceSide& place, const ValueRange& range) const;
+  // Moves the place to the next side of the border.
   void go_on(PieceSide& place, const ValueRange& range) const;
+  // Moves the place to the previous side of the border.
   void go_back(PieceSide& place, const ValueRange& range) const;
-  // Marks the side; whether it was not marked before.
+  // Marks the side as traced; returns true if it was not marked before.
   bool take(const PieceSide& place, std::size_t region);
 
+  // Returns the direction of a corner from the center, as a unit vector.
   [[nodiscard]] Point point(const PieceCorner& corner) const;
   [[nodiscard]] Point direction(Index site) const;
 
@@ -94,14 +108,16 @@ class ContourTracer {
   RegionKind kind_;
   ValuedFaces faces_;
   std::unordered_map<Index, Index>
-      speakers_;  // of a vertex, where another site of its place speaks for it
-  std::vector<std::uint32_t> region_of_;    // of each site: the number of levels up to its value
-  std::vector<Content> content_;            // of the faces
-  std::vector<std::uint32_t> lowest_;       // region of each face
-  std::vector<std::uint64_t> first_piece_;  // of each face: a piece for each of its regions
-  std::vector<std::uint8_t> taken_;         // of each piece: a bit for each side
-  std::vector<std::uint64_t> part_;         // of each piece: the first one that is connected to it
-  std::vector<std::vector<Index>> mixed_faces_;  // of each region
+      speakers_;  // site of a vertex -> the site that represents all sites of its place
+  std::vector<std::uint32_t> region_of_;    // by site: the number of levels up to its value
+  std::vector<Content> content_;            // by face
+  std::vector<std::uint32_t> lowest_;       // by face: its lowest region
+  std::vector<std::uint64_t> first_piece_;  // by face: the number of its first piece; it has one
+                                            // piece in each of its regions
+  std::vector<std::uint8_t> taken_;         // by piece: a bit for each traced side
+  std::vector<std::uint64_t> part_;         // by piece: a piece of a lower number that it is
+                                            // connected with
+  std::vector<std::vector<Index>> mixed_faces_;  // by region: the faces with a border in it
 };
 
 }  // namespace rondel::interpolation

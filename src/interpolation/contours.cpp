@@ -40,7 +40,7 @@ void require_values_and_levels(const Triangulation& triangulation, std::span<con
   }
 }
 
-// What trace(k) finds for each of the regions, at once.
+// Returns trace(k) for each region k; regions are traced in parallel.
 template <class Trace>
 std::vector<TracedLines> traced_regions(std::size_t num_regions, const Execution& execution,
                                         const Trace& trace) {
@@ -51,7 +51,7 @@ std::vector<TracedLines> traced_regions(std::size_t num_regions, const Execution
   return traced;
 }
 
-// Appends the rings, those of a part of the band one after the other.
+// Appends the rings as polygons: rings of one connected part of the band come one after the other.
 void append_polygons(const TracedLines& rings, Bands& out) {
   std::unordered_map<std::uint64_t, std::size_t> polygon_of;
   std::vector<std::vector<std::size_t>> polygons;

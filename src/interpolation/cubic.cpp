@@ -15,8 +15,8 @@
 namespace rondel::interpolation {
 namespace {
 
-// S of one on the unit sphere is 0.48 and more in faces of evenly spread sites, from 40 sites up, and near
-// 1 in small faces. Below this the face is odd.
+// S of 1 on the unit sphere is at least 0.48 in faces of evenly spread sites, from 40 sites on, and
+// near 1 in small faces. In faces below this bound the row is linear.
 constexpr double least_image_of_one = 0.25;
 
 }  // namespace
@@ -80,7 +80,7 @@ bool CubicKernel::weigh(std::size_t lane, SlopeRow& row) const {
   for (std::size_t k = 0; k < 6; ++k) {
     if (k >= 3 && !faces_.has_opposite(lane, k - 3)) continue;
     const std::span others(row.data(), size);
-    // In triangulations of few sites a vertex may be opposite to several edges.
+    // In triangulations of few sites, one vertex may be opposite to several edges.
     const auto known = std::ranges::find(others, vertices[k], &SlopeShare::vertex);
     SlopeShare& share = row[static_cast<std::size_t>(known - others.begin())];
     if (known == others.end()) {

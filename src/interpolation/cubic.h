@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cubic interpolation: values and gradients at the sites met, the gradient continuous everywhere, order
-// 4. In each face a spherical Clough-Tocher element S (Alfeld, Neamtu, Schumaker, J. Comput. Appl. Math.
-// 73, 1996), divided by what S makes of the constant one; docs/theory/cubic.md derives it.
+// Cubic interpolation: reproduces the values and gradients at the sites, has a continuous gradient
+// and converges with order 4. Each face has a spherical Clough-Tocher element S (Alfeld, Neamtu,
+// Schumaker, J. Comput. Appl. Math. 73, 1996), divided by what S gives for the constant 1;
+// docs/theory/cubic.md derives it.
+//
+// in    targets with their locations, and which vertices have a gradient
+// out   rows of weights of values and of gradients
+// index spatial ranks of vertices
 #pragma once
 
 #include <array>
@@ -19,18 +24,20 @@
 
 namespace rondel::interpolation {
 
-// A row has the corners of the face, from the lowest rank, and then the vertices opposite to its edges.
+// A row has the corners of the face, beginning with the lowest rank, and then the vertices opposite
+// to its edges.
 //
-// Targets are worked on several at once: begin(), expect() of some lanes, and then their rows.
-// Which targets share lanes changes nothing.
+// Several targets are computed at once: call begin(), then expect() for some lanes, then operator()
+// for these lanes. Which targets share lanes changes no result.
 //
-// In faces with a side above 90 degrees or so, where S of one may vanish, in those smaller than
-// 1e-60 and in those with a corner that has no gradient, it is linear.
+// Interpolation is linear in faces with a side of more than about 90 degrees, where S of 1 may
+// vanish, in faces smaller than 1e-60, and in faces with a corner that has no gradient.
 class CubicKernel {
  public:
   static constexpr std::size_t group = CubicFaces::lanes;
 
-  // `has_gradient` of each vertex; empty if all have one. Normalization::homogeneous: S undivided.
+  // `has_gradient` says for each vertex whether it has a gradient; it is empty if all have one.
+  // With Normalization::homogeneous, S is not divided.
   explicit CubicKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
                        Normalization normalization = Normalization::unity)
       : ground_(ground),
@@ -38,7 +45,7 @@ class CubicKernel {
         has_gradient_(has_gradient),
         normalization_(normalization) {}
 
-  // `place` is on an edge or in a face.
+  // Adds a target on an edge or in a face to a lane.
   void expect(std::size_t lane, const TargetPlace& place);
   void operator()(std::size_t lane, const TargetPlace& place, SlopeRow& row);
   void operator()(const TargetPlace& place, SlopeRow& row) {
@@ -50,9 +57,9 @@ class CubicKernel {
   void begin() { are_weighed_ = false; }
 
  private:
-  // What is expected of a lane.
+  // What expect() has found for a lane.
   struct Lane {
-    Row flat;  // the linear weights
+    Row flat;  // the linear weights of the target
     std::array<Index, 6> vertices{};
     bool has_gradients = false;
   };
@@ -60,7 +67,7 @@ class CubicKernel {
   [[nodiscard]] bool has_gradient(Index v) const {
     return has_gradient_.empty() || has_gradient_[v] != 0;
   }
-  // False if one of them has no gradient.
+  // Sets the vertices of the lane; returns false if one of the corners has no gradient.
   bool find_corners(std::size_t lane, const TargetPlace& place);
   bool weigh(std::size_t lane, SlopeRow& row) const;
   void add_linear(const TargetPlace& place, const Row& flat, SlopeRow& row) const;

@@ -18,19 +18,19 @@ using FaceLanes = CubicFaces::FaceLanes;
 constexpr std::size_t next_of(std::size_t k) { return (k + 1) % 3; }
 constexpr std::size_t previous_of(std::size_t k) { return (k + 2) % 3; }
 
-// Squares of the lengths of sides between which S of one is far from 0 and nothing underflows. The
-// sides of an octahedron, 2, are well within.
+// Bounds of the squared lengths of sides between which S of 1 is far from 0 and nothing underflows.
+// The squared sides of an octahedron, 2, are well within.
 constexpr double longest_square = 2.125;
 constexpr double shortest_square = 0x1p-400;
 
-// Of the coordinates a and b: C1 across edges so much shorter than their faces would take values so many
-// times.
+// The bound of the coordinates a and b. A continuous gradient across edges that are shorter than
+// their faces by this factor would multiply values by it.
 constexpr double largest_part = 1024;
 
-// Both faces of an edge are higher than an eighth of it.
+// (8)^2: X_4 has its full share if both faces of an edge are higher than an eighth of the edge.
 constexpr double full_share_of_height = 64;
 
-// Three numbers of one lane.
+// One vector of one lane.
 struct LaneVec {
   double x;
   double y;
@@ -58,14 +58,14 @@ RONDEL_ALWAYS_INLINE inline double product(const LaneVec& a, const LaneVec& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 RONDEL_ALWAYS_INLINE inline LaneVec third(const LaneVec& a) { return {a.x / 3, a.y / 3, a.z / 3}; }
-// Whatever `a` is, nothing if not.
+// Returns `a` or 0, whatever `a` is, NaN included.
 RONDEL_ALWAYS_INLINE inline double only_if(bool is, double a) { return is ? a : 0.0; }
 RONDEL_ALWAYS_INLINE inline LaneVec only_if(bool is, const LaneVec& a) {
   return {only_if(is, a.x), only_if(is, a.y), only_if(is, a.z)};
 }
-// As std::min(), which is not always inline.
+// This is std::min(), which compilers do not always inline.
 RONDEL_ALWAYS_INLINE inline double least(double a, double b) { return b < a ? b : a; }
-// Without a branch.
+// Computes `a && b` without a branch.
 RONDEL_ALWAYS_INLINE inline bool all_of(bool a, bool b) {
   return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
 }
@@ -82,8 +82,8 @@ RONDEL_ALWAYS_INLINE inline void measure_edge(FaceLanes& s) {
   }
 }
 
-// With k of the least l, the point's coordinates in the part of the face that has it, (x_i, x_j, v),
-// are s = l_i - l_k, t = l_j - l_k, r = 3 l_k. The excess of a corner is s, t or, at x_k, 0.
+// With k the index of the smallest l, the coordinates of the point in the part (x_i, x_j, v) of the
+// face are s = l_i - l_k, t = l_j - l_k, r = 3 l_k. The excess u of a corner is s, t or, at x_k, 0.
 RONDEL_ALWAYS_INLINE inline void weigh_points(FaceLanes& state) {
   RONDEL_KEEP_LOOP for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double l0 = state.l[0][lane];
@@ -94,16 +94,18 @@ RONDEL_ALWAYS_INLINE inline void weigh_points(FaceLanes& state) {
     const double u1 = l1 - lowest;
     const double u2 = l2 - lowest;
     const double r = 3 * lowest;
-    // p[v, v, v] is the mean of the p[x, v, v], these of p[x, x, v] and both p[x, x', v], these of
-    // p[x, x, .] and of both p[x, x', .] and e.
+    // p[v, v, v] is the mean of the three p[x, v, v]; p[x, v, v] is the mean of p[x, x, v] and both
+    // p[x, x', v]; p[x, x, v] is that of the p[x, x, .], and p[x, x', v] that of both p[x, x', .]
+    // and e.
     const double all = r * r * r / 3;
-    const double of_center0 = all + 3 * u0 * r * r;  // of p[x, v, v]
+    const double of_center0 = all + 3 * u0 * r * r;  // factor of p[x, v, v]
     const double of_center1 = all + 3 * u1 * r * r;
     const double of_center2 = all + 3 * u2 * r * r;
-    const double spoke0 = (of_center0 / 3 + 3 * u0 * u0 * r) / 3;  // of p[x, x, v]
+    const double spoke0 = (of_center0 / 3 + 3 * u0 * u0 * r) / 3;  // factor of p[x, x, v]
     const double spoke1 = (of_center1 / 3 + 3 * u1 * u1 * r) / 3;
     const double spoke2 = (of_center2 / 3 + 3 * u2 * u2 * r) / 3;
-    const double edge0 = ((of_center1 + of_center2) / 3 + 6 * u1 * u2 * r) / 3;  // of p[x, x', v]
+    // factor of p[x, x', v]
+    const double edge0 = ((of_center1 + of_center2) / 3 + 6 * u1 * u2 * r) / 3;
     const double edge1 = ((of_center2 + of_center0) / 3 + 6 * u2 * u0 * r) / 3;
     const double edge2 = ((of_center0 + of_center1) / 3 + 6 * u0 * u1 * r) / 3;
     state.of_edges[0][lane] = edge0;
@@ -121,15 +123,15 @@ RONDEL_ALWAYS_INLINE inline void weigh_points(FaceLanes& state) {
   }
 }
 
-// z = a x_i + b x_j + something normal to the edge, z - x_i - that is
-// (a + b - 1) times the midpoint plus (b - a + 1) / 2 times d.
+// The coordinates of a point z = a x_i + b x_j + a vector normal to the edge. Apart from the normal
+// part, z - x_i is (a + b - 1) times the midpoint plus (b - a + 1) / 2 times d.
 struct EdgeCoordinates {
   double a;
   double b;
   double along;
   double lack;  // 1 - a - b
 };
-// Of the point at e from x_i, with |e|^2 and |e - d|^2.
+// Returns the coordinates of the point x_i + e, given |e|^2 and |e - d|^2.
 RONDEL_ALWAYS_INLINE inline EdgeCoordinates part_of_edge(const LaneVec& e, const LaneVec& d,
                                                          double square, double from_i,
                                                          double from_j) {
@@ -138,17 +140,16 @@ RONDEL_ALWAYS_INLINE inline EdgeCoordinates part_of_edge(const LaneVec& e, const
   return {1 - along - lack / 2, along - lack / 2, along, lack};
 }
 
-// X_4, and its share. With y = a' x_i + b' x_j - q H (q > 0) and P = p[., ., x_i], the equations for
-// p[x_k, x_k, x_i] and p[y, y, x_i] are linear in X and p[H, H, x_i]; without the latter,
-//
+// X_4 and its share. With y = a' x_i + b' x_j - q H (q > 0) and P = p[., ., x_i], the equations for
+// p[x_k, x_k, x_i] and p[y, y, x_i] are linear in X and p[H, H, x_i]; eliminating the latter,
 //   2 q A X = R_i = q^2 P(x_k, x_k) - P(y, y) - (qa - a') B f_i - (qb - b') A P(x_j, x_j)
 //                   - ((qa - a') A + (qb - b') B) P(x_i, x_j) - 2/3 q B g_i.H,
 //
-// where A = qb + b' and B = qa + a'; the same at x_j with A and B in turns. Least squares:
-// X = (A R_i + B R_j) / (2 q (A^2 + B^2)). The other face of the edge has 1/q, H -> -q H and the same X
-// in its own terms.
+// where A = qb + b' and B = qa + a'; at x_j the same holds with A and B exchanged. Least squares
+// give X = (A R_i + B R_j) / (2 q (A^2 + B^2)). The other face of the edge has 1/q and -q H in
+// place of q and H, and computes the same X.
 struct BeyondEdge {
-  double share;  // 0: all others are 0, too
+  double share;  // if 0, all others are 0 too
   double q;
   double a_sum;  // A
   double b_sum;  // B
@@ -163,8 +164,8 @@ RONDEL_ALWAYS_INLINE inline BeyondEdge look_across(bool may_look, const LaneVec&
   const double q = -product(e, h) / height;
   const double a_sum = q * inner.b + outer.b;
   const double b_sum = q * inner.a + outer.a;
-  // Where the edge is seen from x_k and y at more than a right angle or so, as in few faces of a
-  // coarse triangulation, X_4 has no say.
+  // X_4 fades out where x_k and y see the edge at more than about a right angle, as in few faces of
+  // a coarse triangulation.
   const double turn = 4 * (a_sum + b_sum) / (1 + q) - 2;
   const double bounded = turn < 0 ? 0.0 : (1.0 < turn ? 1.0 : turn);
   const double least_height = least(1.0, q * q) * height;
@@ -178,7 +179,7 @@ RONDEL_ALWAYS_INLINE inline BeyondEdge look_across(bool may_look, const LaneVec&
           only_if(is, q * inner.b - outer.b)};
 }
 
-// Edge k, from x_i to x_j.
+// Computes the weights that come through edge K, from x_i to x_j.
 template <std::size_t K>
 RONDEL_ALWAYS_INLINE inline void weigh_edge(FaceLanes& s) {
   constexpr std::size_t i = next_of(K);
@@ -188,7 +189,7 @@ RONDEL_ALWAYS_INLINE inline void weigh_edge(FaceLanes& s) {
     const LaneVec d = difference(at(s.corners[j].step, l), start);
     const LaneVec inner_e = difference(at(s.corners[K].step, l), start);
     const double square = s.squares[K][l];
-    const double weight = s.of_edges[K][l];  // what the value takes of X
+    const double weight = s.of_edges[K][l];  // derivative of the value by X
     const EdgeCoordinates inner =
         part_of_edge(inner_e, d, square, s.squares[j][l], s.squares[i][l]);
     const bool is_long =
@@ -227,7 +228,7 @@ RONDEL_ALWAYS_INLINE inline void weigh_edge(FaceLanes& s) {
         sum(difference(at(s.slopes[i], l), times(by_height * w_i * x.b_sum, h)), slope));
     put(s.slopes[j], l,
         sum(difference(at(s.slopes[j], l), times(by_height * w_j * x.a_sum, h)), slope));
-    // P(y, y) at x_i and x_j: y's own value and gradient.
+    // The terms P(y, y) at x_i and x_j: value and gradient of y.
     s.weights[3 + K][l] = -(w_i * (1 - from_i / 2) + w_j * (1 - from_j / 2));
     const LaneVec towards = difference(times(w_i + w_j, e), times(w_j, d));
     const double radial = (w_i * from_i + w_j * from_j) / 2;

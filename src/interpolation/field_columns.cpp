@@ -15,8 +15,8 @@ namespace rondel::interpolation {
 
 using io::NetcdfType;
 
-// netCDF User's Guide, "NetCDF names": letters, digits, underscores and UTF-8 begin a name, a slash and control characters are not in it,
-// and a blank does not end it.
+// By the netCDF User's Guide, "NetCDF names", a name begins with a letter, a digit, an underscore
+// or a UTF-8 character, has no slash and no control characters, and does not end with a blank.
 std::string netcdf_name(std::string name) {
   for (char& c : name) {
     if (c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '_';
@@ -32,7 +32,8 @@ std::string netcdf_name(std::string name) {
 
 namespace {
 
-// A name that nothing else has and that programs take for that of a variable of their own: it has no blanks and begins with a letter.
+// Returns a name that is not used yet and that programs accept for a variable: without blanks and
+// beginning with a letter.
 std::string name_of_variable(const Column& column, std::set<std::string>& used) {
   std::string name = netcdf_name(column.name);
   std::ranges::replace(name, ' ', '_');

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The texts and numbers of points, as the properties of polygons, in netCDF: variables along their dimension.
+// Writes texts and numbers of points, such as the properties of polygons, as netCDF variables along
+// the dimension of the points.
 #pragma once
 
 #include <cstddef>
@@ -15,20 +16,22 @@
 
 namespace rondel::interpolation {
 
-// The name of a variable or a dimension for this one: what netCDF does not take becomes an underscore.
+// Returns a valid netCDF name: characters that netCDF does not accept become underscores.
 std::string netcdf_name(std::string name);
 
 class ColumnsOut {
  public:
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
 
-  // Texts are arrays of characters in UTF-8. `points` is the dimension, `used` the names of other variables.
+  // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of
+  // the points, `used` the names that other variables have.
   void define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> used);
+  // Writes the values, after NetcdfWriter::begin().
   void write(io::NetcdfWriter& out) const;
 
  private:
   std::span<const Column> columns_;
-  std::vector<std::size_t> lengths_;  // of the longest cells, at least 1
+  std::vector<std::size_t> lengths_;  // by column: bytes of its longest text, at least 1
 };
 
 }  // namespace rondel::interpolation

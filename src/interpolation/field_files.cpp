@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads and writes fields as files, whole and in slices, in the format that a file has.
+// Reads and writes fields as files, whole and in slices, and picks the format.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -41,7 +41,7 @@ constexpr FieldBeginning field_writers[] = {{".csv", &interpolation::begin_field
                                             {".nc", &interpolation::begin_fields_netcdf},
                                             {".nc4", &interpolation::begin_fields_netcdf}};
 
-// The first bytes of a file say its format, and if they do not, its name does.
+// The first bytes of a file say its format; otherwise its name does.
 bool is_netcdf_file(const FileName& file, const io::FileBytes& bytes) {
   if (file.format.empty() && io::is_netcdf(bytes.head())) return true;
   const FieldReader* const reader = io::find_format<FieldReader>(field_readers, file);
@@ -61,7 +61,8 @@ struct FieldFile::OpenFields {
 
   io::FileBytes bytes;
   std::optional<io::NetcdfReader> netcdf;
-  std::optional<interpolation::FieldSlices> slices;  // of netCDF; else values has all
+  std::optional<interpolation::FieldSlices> slices;  // for netCDF; for other formats `fields` and
+                                                     // the values are read at once
   FieldSet fields;                                   // without values
   std::vector<std::vector<double>> values;
 };

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The formats of fields, one function each way.
+// Readers and writers of fields, one function a format and direction.
+//
+// in    the bytes of a file and which fields are wanted; or a FieldSet without values, and the
+//       values one field after the other
+// out   a FieldSet; or a file
 #pragma once
 
 #include <cstdint>
@@ -23,18 +27,18 @@ struct FieldsToRead {
   std::span<const std::uint64_t> shape;  // of the points' grid; empty: not known
   WantedPlaces places = {};
 };
-// Each reads the content of a file. Throws BadValue.
+// Each of these reads the content of a file. They throw BadValue if it is not as the format says.
 FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted);
 
 struct FieldsToWrite {
-  const FieldSet& fields;  // the arrays without values
+  const FieldSet& fields;  // names, dimensions and attributes of the fields, without values
   const WeightSide& side;
   NetcdfOptions netcdf;
 };
 
-// What writes the values that FieldWriter is given.
+// Receives the values that FieldWriter is given, in the order of the fields, and writes them.
 class FieldSink {
  public:
   FieldSink() = default;
@@ -44,7 +48,7 @@ class FieldSink {
   virtual void write(std::span<const double> values) = 0;
   virtual void finish() = 0;
 };
-// Each begins a file. What is to be written lives until finish().
+// Each of these begins a file. `job` refers to objects that must live until finish().
 std::unique_ptr<FieldSink> begin_fields_csv(io::AtomicFile& file, const FieldsToWrite& job);
 std::unique_ptr<FieldSink> begin_fields_tsv(io::AtomicFile& file, const FieldsToWrite& job);
 std::unique_ptr<FieldSink> begin_fields_npy(io::AtomicFile& file, const FieldsToWrite& job);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the dimensions of a variable that are those of the points.
+// Finds which dimensions of a netCDF variable are those of the points.
 //
 // 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude, longitude of axes, and else in that of
 //    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon). A variable with an attribute `coordinates` has
@@ -33,16 +33,18 @@ namespace rondel::interpolation {
 
 struct FieldDimensions {
   std::vector<std::size_t>
-      leading;  // numbers of the dimensions of the variable that are not those of the points, in their order
-  std::vector<std::size_t> points;  // those of the points, the fastest one last
+      leading;  // positions of the dimensions that are not those of the points, in their order
+  std::vector<std::size_t> points;  // positions of the points' dimensions, the one that varies
+                                    // fastest last
   std::vector<LonLat>
-      places;  // degrees; empty if the file does not say where they are, or says it more than once
+      places;  // degrees, by point; empty if the file has none for the variable or more than one
+               // pair
   std::vector<std::size_t>
       kept;  // which of all have a place, if others are left out; `places` are theirs
   bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
   std::string remark;        // a sentence on a choice that was made; else empty
 
-  // All dimensions, in the order of the values of a FieldArray.
+  // Returns all dimensions in the order in which a FieldArray has its values.
   [[nodiscard]] std::vector<std::size_t> order() const;
 };
 
@@ -81,7 +83,7 @@ class FieldDimensionFinder {
     std::vector<std::size_t> dimensions;
     std::vector<std::uint64_t> shape;
     std::vector<LonLat> places;
-    std::size_t num_known;  // of those that are not missing
+    std::size_t num_known;  // number of places with both coordinates present
   };
   struct PossiblePlaces {
     std::size_t lon;

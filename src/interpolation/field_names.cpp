@@ -55,7 +55,7 @@ std::int64_t days_of_month(Calendar calendar, std::int64_t year, std::int64_t mo
   return days[static_cast<std::size_t>(month - 1)] + (is_longer ? 1 : 0);
 }
 
-// The number of days in the years from 0 to the one before this.
+// Returns the number of days in the years 0 ... year - 1.
 std::int64_t days_before(Calendar calendar, std::int64_t year) {
   if (calendar == Calendar::days_360) return 360 * year;
   const std::int64_t leap_years =
@@ -73,7 +73,7 @@ std::int64_t day_number(Calendar calendar, const Date& date) {
 
 Date date_of(Calendar calendar, std::int64_t days) {
   Date date;
-  date.year = days / 366;  // no later than the year of the date
+  date.year = days / 366;  // this is at most the year of the date
   while (days_before(calendar, date.year + 1) <= days) ++date.year;
   days -= days_before(calendar, date.year);
   while (days >= days_of_month(calendar, date.year, date.month)) {
@@ -83,7 +83,8 @@ Date date_of(Calendar calendar, std::int64_t days) {
   return date;
 }
 
-// The number at the front of a text, which loses it and one separator behind it.
+// Takes the number at the front of a text, and one separator behind it, away from the text and
+// returns it.
 std::optional<std::int64_t> take_number(std::string_view& text, std::string_view separators) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -95,8 +96,8 @@ std::optional<std::int64_t> take_number(std::string_view& text, std::string_view
   return value;
 }
 
-// A text such as "hours since 2000-01-01 06:00" has the seconds of a unit and the second from which times count. A text with anything
-// else in it, such as another zone than UTC, has none.
+// The unit in seconds and the second from which times count, as in "hours since 2000-01-01 06:00".
+// A text with anything else in it, such as a time zone other than UTC, has none.
 struct TimeUnits {
   double seconds = 1;
   std::int64_t start = 0;
@@ -137,7 +138,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
     return std::nullopt;
   }
   if (*day < 1 || *day > days_of_month(calendar, *year, *month)) return std::nullopt;
-  // The Julian calendar was in use before; CF's standard one has a gap there.
+  // The Julian calendar was in use before; the standard calendar of CF changes to it there.
   if (calendar == Calendar::gregorian && *year < 1583) return std::nullopt;
   std::int64_t clock = 0;
   for (const std::int64_t unit : {3600, 60, 1}) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The names of the fields of an array in a table, where each is a column.
+// Names for the fields of an array in a table, where each field is a column.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,10 @@
 
 namespace rondel::interpolation {
 
-// The places of an axis as texts that differ; none if they do not. Times by their CF units ("hours since
-// 2000-01-01") are dates of ISO 8601, with the time of the day where one is not midnight; other axes are
-// numbers, and so are times in units or calendars that are not known.
+// Returns the coordinates along an axis as texts that differ from each other, or nothing if they do
+// not differ. Times with units of CF ("hours since 2000-01-01") become dates of ISO 8601, with the
+// time of the day if one of them is not midnight; other axes, and times in unknown units or
+// calendars, become numbers.
 std::vector<std::string> places_on_axis(const FieldArray& axis);
 
 }  // namespace rondel::interpolation

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// FieldSet read from netCDF with the CF conventions.
+// Reads a FieldSet from netCDF by the CF conventions.
 #include "interpolation/field_slices.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 using SlicedNetcdf = io::NetcdfReader::Variable;
 
-// The attributes that are true of values at other points, too.
+// Returns the attributes that still hold for values at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNetcdf& variable) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : variable.attributes) {
@@ -36,13 +36,13 @@ std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNet
   return kept;
 }
 
-// A name that a file can have: a variable of a group has one with a slash.
+// Returns a name that a file can have: the name of a variable of a group has a slash.
 std::string written_name(std::string name) {
   std::ranges::replace(name, '/', '_');
   return name;
 }
 
-// Without the values: the dimensions are those that are leading.
+// Returns the array without values; its dimensions are the leading ones.
 FieldArray array_of(const io::NetcdfReader& file, const SlicedNetcdf& variable,
                     const std::vector<std::size_t>& leading) {
   FieldArray array;
@@ -124,7 +124,8 @@ bool FieldSlices::add(const SlicedNetcdf& variable) {
   return true;
 }
 
-// "tas[3]" means field 3 of variable tas, "tas_2001-07-15" the field that has this name where each is a column.
+// Adds one field of several: "tas[3]" is field 3 of variable tas, "tas_2001-07-15" the field that
+// has this name as a column of a table.
 bool FieldSlices::add_one_of_several(const std::string& name) {
   for (const SlicedNetcdf* const variable : meant_variables(file_, name)) {
     std::optional<FieldDimensions> layout = layouts_.layout(*variable);
@@ -180,7 +181,7 @@ void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions 
       {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
 }
 
-// All variables that are fields; of others those are told that are no coordinates.
+// Adds all variables that are fields, and reports the others unless they are coordinates.
 void FieldSlices::add_all() {
   NameList without_points;
   NameList elsewhere;
@@ -215,7 +216,7 @@ void FieldSlices::add_all() {
                             elsewhere.text());
 }
 
-// The coordinates along the dimensions that are not those of the points, but for those that are known.
+// Adds the coordinates along the leading dimensions, unless they are known already.
 void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& layout,
                            std::vector<FieldArray>& axes) {
   for (const std::size_t d : layout.leading) {
@@ -239,7 +240,7 @@ void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& 
   }
 }
 
-// Fields are read one by one where points are left out, several at once elsewhere.
+// Fields are read one by one if points are left out, and otherwise several at once.
 void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out) const {
   const SlicedVariable& source = sources_[array];
   const std::vector<std::size_t>& kept = source.layout.kept;
@@ -254,7 +255,8 @@ void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> o
   }
 }
 
-// Fields that are by themselves in the file are read as they are; others in blocks, of which the last one is kept.
+// Fields that are contiguous in the file are read directly; others in blocks, of which the last one
+// is kept.
 void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
                                   std::span<double> out) const {
   const std::size_t n = source.num_points;
@@ -286,7 +288,8 @@ void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& blo
   mean(source, out);
 }
 
-// Makes what is meant of the numbers in the file. Tables refuse infinite values, too.
+// Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
+// as in tables.
 void FieldSlices::mean(const SlicedVariable& source, std::span<double> values) {
   source.rules.apply(values);
   const auto infinite =

@@ -1,7 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The fields of a netCDF file, read slice by slice in memory that does not grow with the file.
+// Reads the fields of a netCDF file slice by slice, in an amount of memory that does not depend on
+// the size of the file.
+//
+// in    an open file, the names of the wanted fields (or all), the points
+// out   names, dimensions and attributes; then the values of any range of fields
+// index arrays in the order of fields().arrays; fields of an array, the last leading dimension
+//       fastest
 #pragma once
 
 #include <cstddef>
@@ -18,29 +24,29 @@
 
 namespace rondel::interpolation {
 
-// The fields of a netCDF file, which lives as long as this.
+// The fields of a netCDF file. The file must live as long as this object.
 class FieldSlices {
  public:
-  // Throws BadValue.
+  // Throws BadValue if a named variable is missing or is no field at the points.
   FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
               std::size_t most_of_block = usual_block);
 
-  // Only axes have their values here; read() reads those of the fields.
+  // Returns the arrays without their values; only coordinates along axes have values here.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
-  // As FieldFile::read().
+  // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
   void read(std::size_t array, std::size_t first, std::span<double> out) const;
 
  private:
   struct SlicedVariable {
     const io::NetcdfReader::Variable* variable;
-    std::size_t num_points;  // with those that are left out
+    std::size_t num_points;  // with the points that are left out
     FieldDimensions layout;
     FieldBlocks blocks;
     io::ValueRules rules;
-    std::size_t first;  // field: the only one, where one of several is chosen
+    std::size_t first;  // first field: the only one, if one of several is chosen by its indices
   };
 
-  // False if the variable is no field at the points.
+  // Adds a variable; returns false if it is no field at the points.
   bool add(const io::NetcdfReader::Variable& variable);
   bool add_one_of_several(const std::string& name);
   void add_with_layout(const io::NetcdfReader::Variable& variable, FieldDimensions layout);
@@ -58,8 +64,8 @@ class FieldSlices {
   std::size_t most_of_block_;
   FieldDimensionFinder layouts_;
   FieldSet fields_;
-  std::vector<SlicedVariable> sources_;  // of the arrays
-  // The last block of which a part was wanted.
+  std::vector<SlicedVariable> sources_;  // by array
+  // The values of the last block of which a part was read.
   mutable std::vector<double> block_;
   mutable const SlicedVariable* source_of_block_ = nullptr;
   mutable std::size_t first_of_block_ = 0;

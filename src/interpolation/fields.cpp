@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Fields as tables and as arrays of NumPy.
+// Reads and writes fields as tables (CSV, TSV) and as arrays of NumPy (.npy).
 #include "rondel/fields.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ double value_of(std::string_view cell, const std::string& name) {
   return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
 }
 
-// Says which line of a table with one column is empty, as an empty field looks like no row there. `records` are at their end.
+// Names the line of a table with one column that is empty, since an empty value looks like a
+// missing row there. `records` are at their end.
 std::string text_of_empty_line(std::vector<std::uint64_t> lines, const io::CsvRecords& records) {
   lines.push_back(records.line());
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -82,7 +83,7 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
   return fields;
 }
 
-// A name for each column: one that a column before has gets a number.
+// Makes the names of columns unique: a repeated name gets a number.
 class ColumnNames {
  public:
   std::string unique(const std::string& name) {
@@ -115,7 +116,7 @@ std::string header_of(const FieldsToWrite& job, char separator) {
   return text + '\n';
 }
 
-// A row has the values of all fields at a point: the table is kept until it is complete.
+// Keeps the table until it is complete, because a row has the values of all fields at one point.
 class TableSink : public FieldSink {
  public:
   TableSink(io::AtomicFile& file, const FieldsToWrite& job, char separator)
@@ -162,7 +163,7 @@ class TableSink : public FieldSink {
   std::vector<double> values_;
 };
 
-// (n,) of one field, (fields, n) of more, the arrays one after the other.
+// Writes the shape (n,) for one field and (fields, n) for several, the arrays one after the other.
 class NpySink : public FieldSink {
  public:
   NpySink(io::AtomicFile& file, const FieldSet& fields) : file_(file) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// FieldSet written as netCDF with the CF conventions.
+// Writes a FieldSet as netCDF by the CF conventions.
 #include <set>
 
 #include "interpolation/field_columns.h"
@@ -22,7 +22,7 @@ std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
   return attributes;
 }
 
-// The points of a side as a grid, or one after the other.
+// Writes the points of a side, as a longitude-latitude grid or as a list.
 class PointsOut {
  public:
   PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
@@ -37,7 +37,7 @@ class PointsOut {
     num_points_ = num_points;
   }
 
-  // The names that its dimensions and coordinates take.
+  // Returns the names that its dimensions and coordinates take.
   [[nodiscard]] std::set<std::string> names() const {
     std::set<std::string> names;
     if (is_grid_ || !side_.points.empty()) names = {"lat", "lon"};
@@ -74,7 +74,7 @@ class PointsOut {
     out.write_values<double>(num_lon_, [&](std::size_t i) { return side_.points[i].lon_deg; });
   }
   [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return dimensions_; }
-  // Whether the points are one after the other.
+  // True if the points are a list, not a grid.
   [[nodiscard]] bool is_one_dimension() const { return !is_grid_ && side_.shape.size() <= 1; }
   [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
 
@@ -86,7 +86,7 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
-// The name as netCDF takes it, with a number if it is taken.
+// Returns a valid netCDF name, with a number appended if it is taken.
 std::string take_name(const std::string& given, std::set<std::string>& taken) {
   const std::string name = netcdf_name(given);
   std::string own = name;
@@ -149,11 +149,12 @@ class NetcdfSink : public FieldSink {
   struct LeadingDimension {
     std::string name;
     std::uint64_t length;
-    std::string own_name;  // another one where the name is taken
+    std::string own_name;  // differs from `name` where that is taken
     std::size_t number;
   };
 
-  // Of this name and length: two arrays may have one.
+  // Returns the dimension of this name and length; two arrays may have dimensions of one name and
+  // different lengths.
   const LeadingDimension& dimension(const std::string& name, std::uint64_t length) {
     for (const LeadingDimension& known : known_) {
       if (known.name == name && known.length == length) return known;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The first part of a local fit: the neighbors of a site in its stereographic plane, their weights, and the change of coordinates
-// that makes their cloud round.
+// The first part of a local fit: the neighbors of a site in its stereographic plane, their weights,
+// and the linear change of coordinates that makes the cloud of neighbors round.
 #pragma once
 
 #include <cmath>
@@ -12,19 +12,20 @@
 
 namespace rondel::interpolation::fits {
 
-// The radius at which weights vanish, over the distance of the farthest neighbor.
+// The radius at which weights become 0, in units of the distance of the farthest neighbor.
 inline constexpr double reach = 1.2;
 
-// No neighbor weighs more than one at this part of the radius.
+// Weights do not grow further within this part of the radius.
 inline constexpr double least_radius = 0.25;
 
-// Nearer ones are in the same place.
+// Neighbors within this distance count as being in the place of the site.
 inline constexpr double least_scale = 0x1p-1000;
-// Clouds thinner than this, and those whose thinness rounding may have made, are lines.
+// A cloud is a line if its ratio of breadth to length is below the first bound, or if the second
+// bound says that its breadth may come from rounding errors.
 inline constexpr double least_thickness = 0x1p-40;
 inline constexpr double least_remainder = 0x1p-30;
 
-// Steps in units of the largest coordinate; the first axis points to the farthest.
+// Scales the steps by the largest coordinate; the first axis points to the farthest neighbor.
 RONDEL_ALWAYS_INLINE inline void set_axes(Fit& fit) {
   for (std::size_t k = 0; k < fit.size; ++k) {
     const LaneVectors& p = fit.points[k];
@@ -55,7 +56,7 @@ RONDEL_ALWAYS_INLINE inline void set_axes(Fit& fit) {
   LaneVectors& first = fit.first_axis;
   LaneVectors& second = fit.second_axis;
   RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
-    // x.step = -|step|^2 / 2.
+    // The step to a unit vector is inclined: x.step = -|step|^2 / 2.
     const double up = fit.farthest[i] * fit.scale[i] / 2;
     const double x = far.x[i] + up * fit.sites.x[i];
     const double y = far.y[i] + up * fit.sites.y[i];
@@ -70,6 +71,7 @@ RONDEL_ALWAYS_INLINE inline void set_axes(Fit& fit) {
   }
 }
 
+// Replaces the steps by coordinates in the stereographic plane.
 RONDEL_ALWAYS_INLINE inline void set_chart(Fit& fit) {
   const LaneVectors& first = fit.first_axis;
   const LaneVectors& second = fit.second_axis;
@@ -88,7 +90,8 @@ RONDEL_ALWAYS_INLINE inline void set_chart(Fit& fit) {
   }
 }
 
-// And what makes the cloud round. What fills up a lane lies at (0, 0), where no term and no moment has a value.
+// Sets the weights and the change of coordinates. Entries that only fill a lane lie at (0, 0),
+// where all terms and moments are 0.
 RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   Lanes radius;
   Lanes least;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The third part of a local fit: the normal equations and the polynomials that solve them, one for the slope along each axis.
+// The third part of a local fit: solves the normal equations for two polynomials, whose values at
+// the neighbors are the weights of the slopes along each axis.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +11,22 @@
 
 namespace rondel::interpolation::fits {
 
-// Linear, quadratic and cubic fits take so many neighbors: one or two more than terms, lest a pair of close sites decide.
+// The least number of neighbors for a linear, quadratic and cubic fit: one or two more than it has
+// terms, so that no pair of close sites decides the result.
 inline constexpr system::PlainArray<double, 3> least_neighbors = {2, 6, 11};
 
-// The equations for the weights of the slopes along a' and b' have this left side, and this solves it.
+// The normal equations for the weights of the slopes along a' and b', which have one left side, and
+// their factors.
 struct Solution {
   system::PlainArray<Terms, max_terms> rows;
   Terms diagonal;
-  Terms of_pivots;  // their reciprocals
+  Terms of_pivots;  // reciprocals of the pivots, 0 for those that are too small
   Terms by_a{};
   Terms by_b{};
 };
 
-// rows[i][j], j < i: L; where a pivot is too small, its column is 0. The right sides, which are e_0 and e_1, become L^-1 of them.
+// Factors the left side: afterwards rows[i][j], j < i, are the entries of L, with a column of zeros
+// where the pivot is too small. The right sides e_0 and e_1 are replaced by L^-1 times them.
 RONDEL_ALWAYS_INLINE inline void factor(Solution& s) {
   for (std::size_t j = 0; j < max_terms; ++j) {
     RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
@@ -47,7 +51,8 @@ RONDEL_ALWAYS_INLINE inline void factor(Solution& s) {
   }
 }
 
-// Up to the last degree at whose end no pivot is too small.
+// Keeps the terms up to the highest degree all of whose pivots are large enough, and solves for
+// these.
 RONDEL_ALWAYS_INLINE inline void keep_terms(Fit& fit, Solution& s) {
   constexpr auto linear = static_cast<double>(LocalFits::terms_of_degree[0]);
   constexpr auto quadratic = static_cast<double>(LocalFits::terms_of_degree[1]);
@@ -82,7 +87,7 @@ RONDEL_ALWAYS_INLINE inline void keep_terms(Fit& fit, Solution& s) {
   }
 }
 
-// The sum of c_t times term t.
+// Returns the sum of c_t times term t at (a, b).
 RONDEL_ALWAYS_INLINE inline double polynomial(const Terms& c, std::size_t lane, double a,
                                               double b) {
   const double linear = c[0][lane] * a + c[1][lane] * b;

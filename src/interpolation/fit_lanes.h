@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the parts of local fits (local_fit.h) share: the numbers of the sites in all lanes. The functions in fit_*.h are inlined into
-// LocalFits::find(), which is compiled for vectors of several widths.
+// Types that the parts of local fits (local_fit.h) share: the data of the sites in all lanes. The
+// functions in fit_*.h are inlined into LocalFits::find(), which is compiled for vectors of several
+// widths.
 #pragma once
 
 #include <cstddef>
@@ -19,21 +20,22 @@ using Lanes = LocalFits::Lanes;
 using LaneVectors = LocalFits::LaneVectors;
 using Terms = system::PlainArray<Lanes, max_terms>;
 
-// Degree and power of b of the terms a, b, a^2, ab, b^2, a^3 ...
+// The degree, and the power of b, of each of the terms a, b, a^2, ab, b^2, a^3, ...
 inline constexpr system::PlainArray<std::size_t, max_terms> degrees = {1, 1, 2, 2, 2, 3, 3, 3, 3};
 inline constexpr system::PlainArray<std::size_t, max_terms> powers_of_b = {0, 1, 0, 1, 2,
                                                                            0, 1, 2, 3};
 
-// As std::max() and std::min(), which are not always inline.
+// These are std::max() and std::min(), which compilers do not always inline.
 RONDEL_ALWAYS_INLINE inline double larger(double a, double b) { return a < b ? b : a; }
 RONDEL_ALWAYS_INLINE inline double smaller(double a, double b) { return b < a ? b : a; }
 
-// Without a branch.
+// Computes `a && b` without a branch.
 RONDEL_ALWAYS_INLINE inline bool both(bool a, bool b) {
   return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
 }
 
-// What LocalFits::find() works on, apart from the object, so that a compiler knows that nothing of it is anything else.
+// The data that LocalFits::find() works on, apart from the object, so that the compiler knows that
+// nothing aliases it.
 struct Fit {
   LaneVectors* points;
   std::size_t size;
@@ -43,13 +45,13 @@ struct Fit {
   Lanes is_found{};
   Lanes is_line{};
   bool with_lines = true;
-  Lanes scale{};  // the unit of the plane's coordinates
+  Lanes scale{};  // by which the plane's coordinates are multiplied to give lengths
   Lanes farthest{};
   LaneVectors first_axis{};
   LaneVectors second_axis{};
   Lanes largest{};
-  Lanes mean_weight{};  // of the neighbors, by their squared distances
-  // a' = round_a a,  b' = round_b (b - shear a)
+  Lanes mean_weight{};  // mean weight of the neighbors, weighted by their squared distances
+  // The coordinates that make the cloud round: a' = round_a a,  b' = round_b (b - shear a).
   Lanes round_a{};
   Lanes round_b{};
   Lanes shear{};

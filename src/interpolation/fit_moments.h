@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The second part of a local fit: sums over the neighbors of weight a^i b^j, of which the entries of the normal equations are some.
+// The second part of a local fit: the moments, which are sums over the neighbors of weight a^i b^j.
+// The entries of the normal equations are some of them.
 #pragma once
 
 #include <cstddef>
@@ -12,19 +13,19 @@
 
 namespace rondel::interpolation::fits {
 
-// The moments of degree s begin here, a^s first.
+// Returns the index of the first moment of degree s, that of a^s.
 RONDEL_ALWAYS_INLINE constexpr std::size_t first_of(std::size_t s) { return (s * (s + 1)) / 2 - 3; }
 inline constexpr std::size_t num_moments = first_of(8);
 static_assert(num_moments == num_fit_moments);
 
-// That of the product of two terms.
+// Returns the index of the moment of the product of two terms.
 RONDEL_ALWAYS_INLINE constexpr std::size_t moment_of(std::size_t i, std::size_t j) {
   return first_of(degrees[i] + degrees[j]) + powers_of_b[i] + powers_of_b[j];
 }
 
 using Products = system::PlainArray<double, num_moments>;
 
-// Makes the products of degree s from those of degree s - 1.
+// Computes the products of degree s from those of degree s - 1.
 template <std::size_t S, std::size_t... Q>
 RONDEL_ALWAYS_INLINE inline void raise(double a, double b, std::index_sequence<Q...> /*powers*/,
                                        Products& products) {
@@ -32,7 +33,7 @@ RONDEL_ALWAYS_INLINE inline void raise(double a, double b, std::index_sequence<Q
   products[first_of(S) + S] = products[first_of(S - 1) + S - 1] * b;
 }
 
-// The weighted a^(s-q) b^q of one neighbor, s = 2 ... 7.
+// Returns weight a^(s-q) b^q of one neighbor, for s = 2 ... 7.
 RONDEL_ALWAYS_INLINE inline Products products_of(double weight, double a, double b) {
   Products products;
   products[0] = weight * (a * a);
@@ -48,6 +49,7 @@ RONDEL_ALWAYS_INLINE inline Products products_of(double weight, double a, double
 
 using Moments = system::PlainArray<Lanes, num_moments>;
 
+// Changes the points to the coordinates that make their cloud round and sums up their moments.
 RONDEL_ALWAYS_INLINE inline void add_moments(const Fit& fit, Moments& moments) {
   const auto add =
       [&moments]<std::size_t... M>(std::size_t i, const Products& p, const Products& q,

@@ -15,10 +15,11 @@
 namespace rondel::interpolation {
 namespace {
 
-// Those of the vertices of a range.
+// Returns the rows of the vertices of a range.
 GradientRows rows_of(GradientBlocks& blocks, std::size_t begin) {
   GradientRows rows;
-  std::vector<std::uint64_t> room = {0};  // one more than neighbors, where there are enough
+  std::vector<std::uint64_t> room = {0};  // begin of the room of each row: one more than its
+                                          // neighbors, if it has enough
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     room.push_back(room[i] + blocks.most_neighbors(i) + 1);
   }
@@ -43,7 +44,7 @@ GradientRows rows_of(GradientBlocks& blocks, std::size_t begin) {
       sizes[i] = neighbors.size() + 1;
     }
   });
-  // Without the room that was left.
+  // Closes the gaps of room that was not needed.
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const std::uint64_t to = rows.offsets.back();
     rows.offsets.push_back(to + sizes[i]);

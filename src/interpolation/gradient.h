@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Gradients at the vertices, as weights of the values around them (local_fit.h).
+//
+// in    a prepared triangulation, options
+// out   one compressed row for each vertex
+// index spatial ranks of vertices
 #pragma once
 
 #include <cstdint>
@@ -13,17 +17,20 @@
 
 namespace rondel::interpolation {
 
-// Row v: the gradient at vertex v is the sum of weights[k] f(vertices[k]), a tangent vector.
-// 1. v itself comes first, if there is anything; its weight is minus the sum of the others in their
-//    order, so that the sum of weights[k] (f(vertices[k]) - f(v)), k > 0, is the better way to take it.
-// 2. A row without entries: all neighbors of v are in line with it.
+// Row v says that the gradient at vertex v, a tangent vector, is the sum of
+// weights[k] f(vertices[k]).
+// 1. The first entry is v itself, unless the row is empty; its weight is minus the sum of the
+//    others in their order. So the sum of weights[k] (f(vertices[k]) - f(v)) over k > 0 is the more
+//    accurate form.
+// 2. A row is empty if the vertex has no gradient: its neighbors are too close, or they are in line
+//    with it and Undetermined::missing is chosen.
 struct GradientRows {
   std::vector<std::uint64_t> offsets = {0};
   std::vector<Index> vertices;
   std::vector<Point> weights;
 };
 
-// Precondition: dimension 2, Model::projected.
+// Computes the rows of all vertices. Precondition: dimension 2, Model::projected.
 GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads);
 
 }  // namespace rondel::interpolation

@@ -9,12 +9,13 @@
 namespace rondel::interpolation {
 namespace {
 
-// Neighbors farther than 120 degrees are left out: in the stereographic plane they would be too far.
+// The square of the chord of 120 degrees. Farther neighbors are left out, since they would lie too
+// far out in the stereographic plane.
 constexpr double largest_squared_chord = 3;
 
 constexpr std::size_t usual_neighbors = 20;
 
-// Those with more neighbors stand together.
+// Vertices with at least this many neighbors are sorted as one size.
 constexpr std::size_t num_sizes = 64;
 
 }  // namespace
@@ -54,7 +55,8 @@ void GradientBlocks::fit(std::span<const Index> members) {
 
 void GradientBlocks::add_neighbors(std::size_t lane, std::size_t i) {
   const auto v = static_cast<Index>(begin_ + i);
-  const exact::SplitPoint x = ground_.unit(v);  // a copy: what is written below is not of it
+  const exact::SplitPoint x = ground_.unit(v);  // a copy, so that the compiler knows that writing
+                                                // below does not change it
   Index* const neighbors = neighbors_.data() + starts_[i];
   const std::size_t count = most_neighbors(i);
   std::size_t num_near = 0;

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The fits of many vertices (local_fit.h), several at once: those with about as many neighbors share
-// lanes, so that little of a lane is idle.
+// The local fits of many vertices (local_fit.h), several at once. Vertices with about as many
+// neighbors share lanes, so that few entries of a lane are idle.
+//
+// in    a range of vertices
+// out   the fits of all of them, a block of LocalFits::lanes at a time
+// index i: position of a vertex in the range; vertices by spatial rank
 #pragma once
 
 #include <algorithm>
@@ -22,22 +26,23 @@
 
 namespace rondel::interpolation {
 
-// Of a range of vertices.
+// The fits of the vertices begin ... end - 1.
 class GradientBlocks {
  public:
-  // So many vertices are one thread's work at a time: what they need fits the fastest cache.
+  // The number of vertices that one thread takes at a time: their data fit the first-level cache.
   static constexpr std::size_t vertices_per_piece = 256;
 
   GradientBlocks(const Ground& ground, SolidRings& finder, const GradientOptions& options,
                  std::size_t begin, std::size_t end);
 
   [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
-  // No more neighbors than these has the vertex of this number in the range.
+  // Returns an upper bound of the number of neighbors of vertex i of the range.
   [[nodiscard]] std::size_t most_neighbors(std::size_t i) const {
     return starts_[i + 1] - starts_[i];
   }
 
-  // take(fits, members): the numbers of vertices in the range by lanes.
+  // Calls take(fits, members) for each block; members[lane] is the position in the range of the
+  // vertex of that lane.
   template <class Take>
   void for_each_block(const Take& take) {
     for (std::size_t at = 0; at < size(); at += LocalFits::lanes) {
@@ -46,7 +51,7 @@ class GradientBlocks {
       take(fits_, members);
     }
   }
-  // Of the vertex of this number, which has been in a block.
+  // Returns the neighbors that the fit of vertex i used. Precondition: its block has been taken.
   [[nodiscard]] std::span<const Index> neighbors(std::size_t i) const {
     return {neighbors_.data() + starts_[i], num_near_[i]};
   }
@@ -59,14 +64,15 @@ class GradientBlocks {
   const Ground& ground_;
   bool with_lines_;
   std::size_t begin_;
-  std::vector<Index> neighbors_;  // of one after the other; those too far are taken out in blocks
+  std::vector<Index> neighbors_;  // of all vertices, one after the other; blocks take out those
+                                  // that are too far
   std::vector<std::size_t> starts_ = {0};
   std::vector<std::size_t> num_near_;
   std::vector<Index> order_;
   LocalFits fits_;
 };
 
-// Calls work(blocks, begin) for the ranges of all vertices, in parallel.
+// Calls work(blocks, begin) for ranges that cover all vertices, in parallel.
 template <class Work>
 void for_each_range_of_blocks(const Ground& ground, const GradientOptions& options,
                               unsigned threads, const Work& work) {

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A triangulation, prepared for interpolation: what all kernels of all threads read. Vertices are
-// named by their spatial rank everywhere; names outside are indices of sites.
+// A triangulation prepared for interpolation: the read-only data that the kernels of all threads
+// share.
+//
+// in    a triangulation
+// out   queries for locations, unit vectors and the mesh
+// index vertices by spatial rank throughout; `names` are indices of sites
 #pragma once
 
 #include <span>
@@ -28,20 +32,25 @@ class Ground {
   [[nodiscard]] Model model() const { return triangulation_.model(); }
   [[nodiscard]] const Point& center() const { return center_; }
 
-  // Its answers are ranks, and ties go to the lowest rank.
+  // Returns the engine for locate and nearest. It answers with ranks and breaks ties by the lowest
+  // rank.
   [[nodiscard]] const query::Engine& engine() const { return engine_; }
+  // Returns a vertex near the point, from which a walk may begin.
   [[nodiscard]] Index near(const Point& p) const { return built_.near(p); }
 
-  // In dimension 2: faces as the triangulation numbers them, their corners as ranks.
+  // Returns the mesh, if the dimension is 2: faces as the triangulation numbers them, corners as
+  // ranks.
   [[nodiscard]] const topology::Mesh& mesh() const { return built_.mesh(); }
   [[nodiscard]] bool is_solid(Index face) const { return !triangulation_.is_ghost(face); }
 
-  // Of a vertex: its direction from the center (Model::projected only), and its coordinates as given.
+  // unit() is the direction of a vertex from the center (Model::projected only), point() its
+  // coordinates as given.
   [[nodiscard]] const exact::SplitPoint& unit(Index rank) const { return units_[rank]; }
   [[nodiscard]] std::span<const exact::SplitPoint> units() const { return units_; }
   [[nodiscard]] const Point& point(Index rank) const { return built_.point(rank); }
 
-  // The lowest index of the sites of a vertex; the vertex of a site, no_index if that is hidden.
+  // names() gives the lowest site of each vertex. vertex_of() gives the vertex of a site, or
+  // no_index if the site is hidden.
   [[nodiscard]] std::span<const Index> names() const { return built_.names(); }
   [[nodiscard]] Index name(Index rank) const { return built_.names()[rank]; }
   [[nodiscard]] Index vertex_of(Index site) const { return built_.vertex_of(site); }

@@ -18,7 +18,8 @@ bool HermiteKernel::all_have_gradients() const {
          });
 }
 
-// Of two sites on one line through u: by their distances in the plane, |s| / (1 - |s|^2 / 4)^(1/2).
+// Weighs two sites on one line through u by their distances in the stereographic plane,
+// s| / (1 - |s|^2 / 4)^(1/2).
 void HermiteKernel::weigh_on_contour(const TargetPlace& place) {
   const auto distance = [&](Index v) {
     const Vec s = careful_step(ground_, place, v);
@@ -47,7 +48,7 @@ void HermiteKernel::operator()(const TargetPlace& place, SlopeRow& row) {
   if (flat_.size() == 2) weigh_on_contour(place);
   take_up_rounding(flat_);
   for (const auto& [v, weight] : flat_) {
-    // u = x - s; its part along x is 1 - |s|^2 / 2.
+    // u = x - s, whose component along x is 1 - |s|^2 / 2.
     const Vec s = careful_step(ground_, place, v);
     const double square = dot(s, s);
     const Vec tangent = square / 2 * exact::to_vector(ground_.unit(v).hi) - s;

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Natural neighbors with gradients: with the weights m_i of Sibson's method in the stereographic plane
-// of the target u and c_i = x_i.u,
+// Natural neighbor interpolation with gradients. With Sibson's weights m_i in the stereographic
+// plane of the target u, and c_i = x_i.u,
 //
 //     f(u) = sum of m_i (f_i + g_i.u / (1 + c_i)).
 //
-// With exact gradients 1, x, y and z come back. In the plane, x_i lies at p_i = 2 (x_i - c_i u) /
-// (1 + c_i), and the sum of m_i p_i is 0. For f = h.x, g_i = h - (h.x_i) x_i, so the bracket is
-// h.x_i + (h.u - c_i h.x_i) / (1 + c_i) = h.(x_i + u) / (1 + c_i) = h.p_i / 2 + h.u.
+// It reproduces 1, x, y and z if the gradients are exact. In the plane, x_i lies at p_i = 2 (x_i -
+// c_i u) / (1 + c_i), and the sum of m_i p_i is 0. For f = h.x, g_i = h - (h.x_i) x_i, so the term
+// in parentheses is h.x_i + (h.u - c_i h.x_i) / (1 + c_i) = h.(x_i + u) / (1 + c_i) = h.p_i / 2 +
+// h.u.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,12 @@
 
 namespace rondel::interpolation {
 
-// Where a neighbor has no gradient, the row is that of Sibson's method.
+// Where a neighbor has no gradient, the row is that of Sibson's method without gradients.
 class HermiteKernel {
  public:
-  // `has_gradient` of each vertex; empty if all have one. Both normalizations are the same, for what the
-  // gradients serve.
+  // `has_gradient` says for each vertex whether it has a gradient; it is empty if all have one. The
+  // normalization matters only where the row has no gradients, as the formula above reproduces 1,
+  // x, y and z.
   explicit HermiteKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
                          Normalization normalization = Normalization::unity)
       : ground_(ground),

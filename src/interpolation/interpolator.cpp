@@ -33,11 +33,11 @@ using namespace interpolation;  // NOLINT(google-build-using-namespace): this fi
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Of fields that are given, what their rows ask for.
+// Given fields, in the form in which rows need them.
 struct Fields {
   PlaceValues values;
   std::optional<PlaceGradients> gradients{};
-  std::vector<std::uint8_t> has_gradient{};  // empty: all vertices have one
+  std::vector<std::uint8_t> has_gradient{};  // by vertex; empty if all have one
 
   [[nodiscard]] FieldSums sums() const { return {values, gradients ? &*gradients : nullptr}; }
 };
@@ -55,21 +55,21 @@ class Interpolator::Impl {
   }
 
   void validate(std::span<const Point> targets, const InterpolationOptions& options) const;
-  // The number of fields of so many values.
+  // Returns how many fields an array of `size` values has.
   [[nodiscard]] std::size_t num_fields(std::string_view name, std::size_t size) const;
   static void require_normalization(const InterpolationOptions& options);
 
   [[nodiscard]] std::shared_ptr<const GradientRows> gradient_rows(const GradientOptions& options,
                                                                   unsigned threads) const;
-  // Null if they have not been asked for.
+  // Returns null if they have not been computed.
   [[nodiscard]] std::shared_ptr<const GradientRows> known_rows(
       const GradientOptions& options) const;
-  // With estimated gradients if the method needs any.
+  // Returns the fields with estimated gradients, if the method needs gradients.
   [[nodiscard]] Fields fields(FieldLayout layout, std::size_t num_targets,
                               const InterpolationOptions& options,
                               const Execution& execution) const;
 
-  // `has_gradient` says which vertices have one; empty: all.
+  // `has_gradient` says which vertices have one; it is empty if all have.
   template <class MakeTaker>
   void for_each_row(std::span<const Point> targets, const InterpolationOptions& options,
                     const Execution& execution, std::span<const std::uint8_t> has_gradient,
@@ -86,7 +86,7 @@ class Interpolator::Impl {
   Ground ground_;
   mutable std::once_flag hash_once_;
   mutable std::uint64_t sites_hash_ = 0;
-  // The last ones that were asked for.
+  // The last gradient rows that were computed, and their options.
   mutable system::Mutex gradients_mutex_;
   mutable GradientOptions gradients_options_;
   mutable std::shared_ptr<const GradientRows> gradients_;

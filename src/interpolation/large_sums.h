@@ -5,8 +5,8 @@
 
 namespace rondel::interpolation {
 
-// Weights may be more than 1, so that a sum goes beyond the largest number and comes back: it is taken of values that
-// are so much smaller then.
+// Weights may be larger than 1, so that a partial sum may overflow although the sum does not. The
+// sum is then taken again with all values multiplied by this number, and divided by it.
 inline constexpr double scale_of_large = 0x1p-8;
 
 }  // namespace rondel::interpolation

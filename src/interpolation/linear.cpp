@@ -20,13 +20,13 @@ using exact::DoubleDouble;
 using exact::to_vector;
 using Steps = std::array<Vec, 3>;
 
-// Split unit vectors are wrong by 2^-100, and so are steps; so with the largest step L and the sum S of
-// the determinants, which is the double area of the face, weights are wrong by 2^-100 L/S. Rounding
-// errors of doubles add 2^-50 or so times the product P of the two largest steps over S.
-constexpr double least_sum = 0x1p-46;  // S/L
-constexpr double most_elongated = 16;  // P/S, for doubles
+// Split unit vectors have errors of 2^-100, and so have steps. With the largest step L and the sum
+// S of the determinants, which is twice the area of the face, weights have errors of 2^-100 L/S.
+// Rounding errors of doubles add about 2^-50 P/S, where P is the product of the two largest steps.
+constexpr double least_sum = 0x1p-46;  // lower bound of S/L
+constexpr double most_elongated = 16;  // upper bound of P/S for doubles
 
-// u.(B x C), u.(C x A), u.(A x B).
+// Returns u.(B x C), u.(C x A) and u.(A x B).
 template <class V>
 auto determinants(const V& u, const std::array<V, 3>& s) {
   return std::array{dot(u, cross(s[1], s[2])), dot(u, cross(s[2], s[0])),
@@ -68,7 +68,7 @@ Weights3 wide_determinants(const exact::SplitPoint& unit,
   return {wide[0].hi, wide[1].hi, wide[2].hi};
 }
 
-// The location says that no weight is negative.
+// The location says that no weight is negative, so negative ones are rounding errors.
 void add_shares(const Triple& corners, Weights3 w, Row& row) {
   for (double& weight : w) weight = std::max(weight, 0.0);
   const double sum = sum_of(w);
@@ -76,7 +76,7 @@ void add_shares(const Triple& corners, Weights3 w, Row& row) {
   for (std::size_t i = 0; i < 3; ++i) row[i] = {corners[i], w[i] / sum};
 }
 
-// Counterclockwise from the lowest.
+// Returns the corners counterclockwise from the lowest.
 Triple canonical(Triple corners) {
   std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   return corners;
@@ -93,7 +93,7 @@ Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex) {
 void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
   Index a = place.location.sites[0];
   Index b = place.location.sites[1];
-  // Ranks of a ring may begin anywhere.
+  // Since the ring may begin with any rank, the order is decided by coordinates.
   const auto coordinates = [&](Index v) {
     const Point& p = ground.point(v);
     return std::tuple(p.x, p.y, p.z);
@@ -107,7 +107,8 @@ void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
     from_b = exact::length_of(cross(u, exact_step(ground, place, b)));
   }
   const double sum = from_a + from_b;
-  const double share = sum > 0 ? from_b / sum : 0.5;  // both may be below the range of doubles
+  const double share = sum > 0 ? from_b / sum : 0.5;  // both distances may be below the range of
+                                                      // doubles
   row.push_back({a, share});
   row.push_back({b, sum > 0 ? from_a / sum : 0.5});
 }

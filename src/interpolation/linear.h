@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Barycentric weights in the plane of a face, seen from the center (Renka, ACM TOMS 23, 1997, INTRC0):
-// the ray of u meets the plane of the face (a, b, c) in the point sum of l_i x_i with
+// Barycentric weights in the plane of a face, seen from the center (Renka, ACM TOMS 23, 1997,
+// INTRC0): the ray of u meets the plane of the face (a, b, c) in the point sum of l_i x_i with
 //
 //     l_a : l_b : l_c = det(u, b, c) : det(u, c, a) : det(u, a, b),   sum 1.
 //
-// With the steps A = a - u, B, C from u, det(u, b, c) = u.(B x C): its rounding errors are a few units
-// of |B||C|, whatever the size of the face. Where this is not enough, longer numbers take over. On an edge, in the limit, l_a : l_b = |u x B| : |u x A|.
+// With the steps A = a - u, B = b - u, C = c - u, det(u, b, c) = u.(B x C) has rounding errors of a
+// few units of |B||C|, whatever the size of the face. Where doubles do not suffice, DoubleDouble
+// and then arbitrary precision take over. On an edge the limit is l_a : l_b = |u x B| : |u x A|.
 #pragma once
 
 #include <array>
@@ -21,28 +22,29 @@ namespace rondel::interpolation {
 using Vec = exact::Vector3<double>;
 using Weights3 = std::array<double, 3>;
 
-// Steps shorter than this are not right to doubles if they come from split unit vectors.
+// Steps between split unit vectors that are shorter than this are not accurate to doubles.
 inline constexpr double least_split_step = 0x1p-45;
 
-// x - u. Each coordinate is right to a few units of the step if that is no shorter than
-// least_split_step.
+// Returns x - u. Each coordinate is accurate to a few units in the last place of the step if that
+// is no shorter than least_split_step.
 inline Vec step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
   return {(x.hi.x - u.hi.x) + (x.lo.x - u.lo.x), (x.hi.y - u.hi.y) + (x.lo.y - u.lo.y),
           (x.hi.z - u.hi.z) + (x.lo.z - u.lo.z)};
 }
+// True if the step is long enough for step() to be accurate.
 inline bool is_split_enough(const Vec& step) {
   return dot(step, step) >= least_split_step * least_split_step;
 }
 
-// The step to a vertex that is not in the place of the target, right to a few units however short it is
-// (above 2^-1022).
+// Returns the step from the target to a vertex in another place, accurate to a few units in the
+// last place for any length above 2^-1022.
 Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex);
 inline Vec careful_step(const Ground& ground, const TargetPlace& place, Index vertex) {
   const Vec split = step(place.unit, ground.unit(vertex));
   return is_split_enough(split) ? split : exact_step(ground, place, vertex);
 }
 
-// The two weights of a target on an edge, in any dimension.
+// Adds the two weights of a target on an edge, in any dimension.
 void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row);
 
 class LinearKernel {

@@ -16,10 +16,10 @@ namespace rondel::interpolation {
 namespace fits {
 namespace {
 
-// Of vertices closer than its reciprocal no gradient can be had: it would not be a number.
+// Vertices that are closer than its reciprocal have no gradient, since it might overflow.
 constexpr double largest_gradient_weight = 0x1p500;
 
-// From slopes along a' and b' to the tangent vector.
+// Changes the slopes along a' and b' into the tangent vector.
 RONDEL_ALWAYS_INLINE inline void set_gradient_weights(Fit& fit, const Solution& solution) {
   LaneVectors along_a;
   LaneVectors along_b;
@@ -50,7 +50,7 @@ RONDEL_ALWAYS_INLINE inline void set_gradient_weights(Fit& fit, const Solution& 
   }
 }
 
-// The sums of excess_of_cubic(), a monomial in each row.
+// The sums for excess_of_cubic(), one entry a monomial.
 struct LaneExcess {
   system::PlainArray<Lanes, 5> of_a{};
   system::PlainArray<Lanes, 5> of_b{};
@@ -68,7 +68,8 @@ RONDEL_ALWAYS_INLINE inline void add_excess(const Moments& moments, const Soluti
   }
 }
 
-// Settles the fits whose neighbors determine less than was tried, one after the other, since they are few.
+// Settles the fits whose neighbors do not determine the tried degree, one after the other, since
+// they are few.
 void settle_lanes(Fit& fit, const Moments& moments, const LaneExcess& sums, Solution& s) {
   for (std::size_t l = 0; l < lanes; ++l) {
     if (fit.counts[l] == 0 || !(fit.scale[l] >= least_scale)) {
@@ -139,7 +140,7 @@ RONDEL_ALWAYS_INLINE inline void find_in_lanes(Fit& fit) {
 }  // namespace fits
 
 void LocalFits::start(std::size_t most_neighbors) {
-  // Moments are added up in pairs.
+  // The number is even, because moments are summed up in pairs.
   points_.assign(most_neighbors + most_neighbors % 2, LaneVectors{});
   counts_ = {};
   sites_ = {};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The names of methods and of their options, in the order of the enumerations.
+// The names of methods and of their options, in the order of the enumerators.
 
 #include <algorithm>
 #include <array>

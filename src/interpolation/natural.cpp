@@ -13,9 +13,10 @@
 namespace rondel::interpolation {
 namespace {
 
-// Of weights, as far as the estimate tells. The tests find errors of at most as much (docs/theory).
+// The largest accepted estimate of the error of a weight. Tests find no larger errors
+// (docs/theory).
 constexpr double most_error = 0x1p-45;
-// Of steps and of what is made of them, relative.
+// The relative errors of steps and of sums and products of them, by arithmetic.
 constexpr double double_unit = 0x1p-53;
 constexpr double wide_unit = 0x1p-98;
 constexpr double split_error = 0x1p-98;
@@ -27,7 +28,7 @@ WideVector wide(const exact::SplitPoint& u) {
           exact::fast_two_sum(u.hi.z, u.lo.z)};
 }
 
-// x - u from split points, so right to 2^-99.
+// Returns x - u from split points, with an error of 2^-99.
 WideVector wide_step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
   const auto difference = [](double a_hi, double a_lo, double b_hi, double b_lo) {
     return exact::two_diff(b_hi, a_hi) + exact::two_diff(b_lo, a_lo);
@@ -48,8 +49,8 @@ bool is_on_contour(const Ground& ground, const Location& location) {
 
 }  // namespace
 
-// Where the cell is not bounded even in the best arithmetic, the target is as near to an edge of the
-// contour as makes no difference.
+// If the cell is not bounded even in arbitrary precision, the target is so near to an edge of the
+// contour that the weights of that edge are correct.
 void NaturalKernel::operator()(const TargetPlace& place, Row& row) {
   if (is_on_contour(ground_, place.location)) {
     weigh_on_edge(ground_, place, row);
@@ -120,8 +121,8 @@ void NaturalKernel::add_shares(Row& row) const {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (shares_[i] > 0) row.push_back({ring[i], shares_[i] / sum});
   }
-  // The sum of more terms may be several ulp off where it is taken along the row; of still more, rounding
-  // to multiples of one number would be felt in their mean.
+  // The sum of more than `few` terms may be several ulp off when it is taken along the row; for
+  // `many` terms, rounding to multiples of one number would change their mean noticeably.
   constexpr std::size_t few = 16;
   constexpr std::size_t many = 1 << 14;
   if (row.size() > few && row.size() < many) {

@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights by natural neighbors (Sibson 1981; Christ, Friedberg, Lee 1982), on the sphere: those sites
-// whose cells a target would take a part of, weighed by what its cell has in common with theirs.
-// docs/theory/interpolation.md proves what is said here.
+// Weights of natural neighbors (Sibson 1981; Christ, Friedberg, Lee 1982) on the sphere. The
+// natural neighbors of a target are the sites whose Voronoi cells would lose a part to the target's
+// cell; Sibson's weight of a neighbor is its share of that cell, Laplace's the ratio of the common
+// side to the distance. docs/theory/interpolation.md proves the statements below.
 //
-// 1. The weights are not negative and sum up to 1; the sum of weights times sites is on the ray of u
-//    (not of the planar ones).
-// 2. They are within 1e-13 of those of exact arithmetic, wherever the sites are.
-// 3. They are continuous in u: how ties are broken has no effect but rounding errors.
-// 4. A row is counterclockwise from the lowest vertex, without weights that are exactly zero.
+// in    targets with their locations
+// out   rows of weights
+// index spatial ranks of vertices
+//
+// 1. The weights are not negative and sum up to 1; the sum of weights times sites is on the ray of
+//    u (except for planar_sibson).
+// 2. They are within 1e-13 of the weights in exact arithmetic, wherever the sites are.
+// 3. They are continuous in u: how ties are broken changes them by rounding errors only.
+// 4. A row is counterclockwise, begins with the lowest vertex, and has no weight that is exactly
+//    zero.
 #pragma once
 
 #include <vector>
@@ -32,7 +38,7 @@ class NaturalKernel {
  private:
   template <class T>
   [[nodiscard]] double weigh(NaturalCell<T>& cell);
-  // Whether the error is small enough.
+  // Computes the shares in one arithmetic; each returns false if the error may be too large.
   [[nodiscard]] bool weigh_in_doubles(const TargetPlace& place);
   [[nodiscard]] bool weigh_from_split_points(const TargetPlace& place);
   [[nodiscard]] bool weigh_exactly(const TargetPlace& place);
@@ -57,7 +63,7 @@ class SibsonKernel : public NaturalKernel {
   explicit SibsonKernel(const Ground& ground) : NaturalKernel(ground, NaturalMethod::sibson) {}
 };
 
-// For interpolation with gradients.
+// Sibson's method in the stereographic plane, for interpolation with gradients (hermite.h).
 class PlanarSibsonKernel : public NaturalKernel {
  public:
   explicit PlanarSibsonKernel(const Ground& ground)

@@ -1,17 +1,25 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cell that a target u gets from its natural neighbors, in a plane with u in the origin
-// (docs/theory/interpolation.md). Neighbor i bounds it by the line g.p_i = s_i:
+// The cell that a target u gets from its natural neighbors, in a plane with the origin at u
+// (docs/theory/interpolation.md).
+//
+// in    one bisector a neighbor, in ring order; for Sibson's method the faces of the conflict
+//       region
+// out   one share a neighbor; the weights are the shares over their sum
+// index neighbors by their position in the ring (natural_region.h)
+//
+// Neighbor i bounds the cell by the line g.p_i = s_i:
 //
 //     gnomonic        p = the tangential part of x - u,           s = |x - u|^2 / 2
 //     stereographic   p / (1 - s/2),                              s / (1 - s/2)
 //
-// Its corner v_i lies on the lines of i and i+1. The vertex w that the diagram had before for a face
-// (a, b, c) fulfills w.(p_b - p_a) = s_b - s_a and w.(p_c - p_a) = s_c - s_a.
+// The corner v_i of the cell lies on the lines of i and i+1. The Voronoi vertex w of a face (a, b,
+// c) of the diagram without u satisfies w.(p_b - p_a) = s_b - s_a and w.(p_c - p_a) = s_c - s_a.
 //
-// T is a double, a DoubleDouble or a Ball. Any two vectors across u serve as a basis of the plane if they are
-// perpendicular and equally long: a factor of all p divides all of the plane, and ratios stay.
+// T is a double, a DoubleDouble or a Ball. Any two perpendicular tangent vectors at u of equal
+// length serve as a basis of the plane: a common factor of all p scales the plane and changes no
+// ratio.
 #pragma once
 
 #include <algorithm>
@@ -28,11 +36,12 @@
 
 namespace rondel::interpolation {
 
+// Returns an approximation of the number as a double.
 inline double leading(double a) { return a; }
 inline double leading(const exact::DoubleDouble& a) { return a.hi; }
 
 inline double quotient(double a, double b) { return a / b; }
-// To a relative 2^-100: after the first quotient, a - q b is known to 2^-105 a.
+// The relative error is 2^-100: after the first quotient, a - q b is known to 2^-105 a.
 inline exact::DoubleDouble quotient(const exact::DoubleDouble& a, const exact::DoubleDouble& b) {
   const double q = a.hi / b.hi;
   const double rest = (a - b * q).hi / b.hi;
@@ -46,7 +55,7 @@ double leading(const exact::Ball<N>& a) {
   return a.midpoint().sign() == Sign::negative ? -size : size;
 }
 
-// Nothing is known of what is divided by something that may be zero.
+// If the divisor may be zero, the result is a ball that contains everything.
 template <std::size_t N>
 exact::Ball<N> quotient(const exact::Ball<N>& a, const exact::Ball<N>& b) {
   constexpr exact::Magnitude unknown = 1 << 20;
@@ -64,7 +73,7 @@ exact::Ball<N> half(const exact::Ball<N>& a) {
   return a.times_power_of_two(-1);
 }
 
-// A point of the plane.
+// A point of the tangent plane.
 template <class T>
 struct Planar {
   T x;
@@ -83,15 +92,16 @@ double size_of(const Planar<T>& a) {
   return std::abs(leading(a.x)) + std::abs(leading(a.y));
 }
 
+// The line g.p = s between the target and a neighbor.
 template <class T>
 struct Bisector {
   Planar<T> p;
   T s;
-  double size = 0;  // of p
+  double size = 0;  // |p|, approximately
 };
 
-// Coordinates in the plane across u, whose coordinate `axis` is the smallest: along axis x u and, the
-// other way, u x (axis x u), which are equally long.
+// A basis of the tangent plane at u: with `axis` the smallest coordinate of u, the vectors axis x u
+// and u x (axis x u), which are equally long after scaling.
 class TangentBasis {
  public:
   explicit TangentBasis(const Point& u) {
@@ -100,7 +110,8 @@ class TangentBasis {
     if (size[2] < size[axis_]) axis_ = 2;
   }
 
-  // Of the step d from u to a site. u.d = -s, so that the part of d along u is -s u.
+  // Returns the bisector of u and the site u + d in the gnomonic plane. Since u.d = -s, the part of
+  // d along u is -s u.
   template <class T>
   [[nodiscard]] Bisector<T> bisector(const exact::Vector3<T>& u, const exact::Vector3<T>& d) const {
     const T s = half(dot(d, d));
@@ -121,7 +132,7 @@ class TangentBasis {
   std::size_t axis_ = 0;
 };
 
-// The same in the stereographic plane.
+// Changes bisectors of the gnomonic plane to those of the stereographic plane.
 template <class T>
 void make_stereographic(std::span<Bisector<T>> bisectors) {
   for (Bisector<T>& b : bisectors) {
@@ -136,15 +147,17 @@ class NaturalCell {
  public:
   std::vector<Bisector<T>>& bisectors() { return bisectors_; }
 
-  // Both return an estimate of the error of a weight, in units of the relative error of the bisectors;
-  // infinity where the cell is not bounded, as far as T can tell.
+  // laplace() and sibson() compute the shares. They return an estimate of the error of a weight, in
+  // units of the relative error of the bisectors; infinity if the cell may be unbounded, as far as
+  // T can tell.
 
-  // L_i / |p_i|, L_i being the length of the side on line i: p_i x (v_i - v_{i-1}) / |p_i|^2.
+  // The share is L_i / |p_i|, where L_i is the length of the side on line i: p_i x (v_i - v_{i-1})
+  // / |p_i|^2.
   double laplace();
-  // The areas of what the cell takes from those of the neighbors, twice.
+  // The share is twice the area that the new cell takes from the cell of neighbor i.
   double sibson(std::span<const RegionFace> faces);
 
-  // Of each neighbor. The weights are these over their sum.
+  // Returns the share of each neighbor. The weights are the shares over their sum.
   [[nodiscard]] const std::vector<T>& shares() const { return shares_; }
 
  private:
@@ -163,7 +176,8 @@ class NaturalCell {
   [[nodiscard]] std::size_t before(std::size_t i) const {
     return (i > 0 ? i : bisectors_.size()) - 1;
   }
-  // The area between the origin and the edge from one vertex to another goes from one cell to another.
+  // Moves the area of the triangle of the origin, `from` and `to` from the share of `giver` to that
+  // of `taker`.
   void move(const Planar<T>& from, const Planar<T>& to, std::size_t taker, std::size_t giver) {
     const T area = cross(from, to);
     shares_[taker] = shares_[taker] + area;

@@ -25,7 +25,7 @@ std::optional<BallVector<N>> unit(const Point& p, const Point& center) {
   return BallVector<N>{ray.x * *inverse, ray.y * *inverse, ray.z * *inverse};
 }
 
-// Whether N words were enough.
+// Returns true if N words were enough.
 template <std::size_t N>
 bool weigh(NaturalMethod method, const Point& target, std::span<const Point> sites,
            const Point& center, std::span<const RegionFace> faces, std::vector<double>& weights) {

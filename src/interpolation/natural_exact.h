@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights of natural neighbors with as many digits as it takes.
+// Natural neighbor weights in arbitrary precision, for targets where fixed precision does not
+// suffice.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,14 @@
 namespace rondel::interpolation {
 
 enum class NaturalMethod : std::uint8_t {
-  laplace,        // sides of the new cell over distances, in the gnomonic plane of u
-  sibson,         // stolen areas, in the gnomonic plane of u
-  planar_sibson,  // stolen areas, in the stereographic plane from -u
+  laplace,        // side of the new cell over the distance, in the gnomonic plane of u
+  sibson,         // stolen area, in the gnomonic plane of u
+  planar_sibson,  // stolen area, in the stereographic plane of u (projection from -u)
 };
 
-// The weights of `sites`, the neighbors of a target in the order of the ring; within 2^-50, whatever
-// they are. False if several thousand digits do not tell whether the cell of the target is bounded.
+// Computes the weights of `sites`, the natural neighbors of the target in ring order, with a
+// relative error of at most 2^-50. `faces` are those of the conflict region (natural_region.h).
+// Returns false if several thousand bits do not decide whether the cell of the target is bounded.
 bool exact_natural_weights(NaturalMethod method, const Point& target, std::span<const Point> sites,
                            const Point& center, std::span<const RegionFace> faces,
                            std::vector<double>& weights);

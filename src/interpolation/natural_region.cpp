@@ -18,7 +18,8 @@ void NaturalRegion::find(const TargetPlace& place) {
       ground_.mesh()[topology::face_of(first->outside)].opposite[topology::edge_of(first->outside)];
 }
 
-// From both ends, so that no more steps are taken than the smaller part has: k log k in all.
+// Searches from both ends, so that it takes no more steps than the smaller part has: O(k log k) in
+// total.
 Index NaturalRegion::position_between(Index a, Index b, Index vertex) const {
   Index low = a + 1;
   Index high = b - 1;
@@ -30,8 +31,8 @@ Index NaturalRegion::position_between(Index a, Index b, Index vertex) const {
   return low;
 }
 
-// Depth first. Edge i of a face runs from corner i+1 to corner i+2, and the apex is opposite to the
-// edge across which it was entered.
+// Goes depth first. Edge i of a face runs from corner i+1 to corner i+2, and the apex is opposite
+// to the edge across which the face was entered.
 void NaturalRegion::list_faces() {
   const topology::Mesh& mesh = ground_.mesh();
   const auto size = static_cast<Index>(ring_.size());

@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The natural neighbors of a target: the vertices around its conflict region, and the faces of that.
+// The natural neighbors of a target: the vertices around its conflict region, and the faces of the
+// region.
 //
-//              4 ---- 3            Positions in the ring: 0, 1, ..., k-1 counterclockwise, 0 the lowest
-//            /  \    / \           vertex; k stands for 0 again. A face (a, apex, b), counterclockwise,
-//          5 --- \  /   2          was entered across its edge b -> a: of the first one that is the
-//            \    \/   /           horizon's edge 0 -> 1. Edges between next positions are those of the
-//             0 -- 1 -             horizon, because the region has no inner vertex.
+// in    the location of a target
+// out   a ring of vertices; faces as triples of positions in the ring
+// index vertices by spatial rank; positions in the ring as drawn
 //
-// All that depends on nothing but the set of sites and the target.
+//              4 ---- 3            Positions in the ring are 0, 1, ..., k-1 counterclockwise from the
+//            /  \    / \           lowest vertex; k stands for 0 again. A face (a, apex, b),
+//          5 --- \  /   2          counterclockwise, was entered across its edge b -> a; the first one
+//            \    \/   /           was entered across the horizon's edge 0 -> 1. The edges between
+//             0 -- 1 -             successive positions are the horizon, as the region has no inner vertex.
+//
+// The result depends only on the set of sites and the target.
 #pragma once
 
 #include <span>
@@ -25,16 +30,17 @@ struct RegionFace {
   Index a;
   Index apex;  // a < apex < b
   Index b;
-  Index parent;  // the face behind the edge b -> a, among those before; none: no_index
+  Index parent;  // index of the face behind the edge b -> a, which comes before this one; no_index
+                 // for the first
 };
 
 class NaturalRegion {
  public:
   explicit NaturalRegion(const Ground& ground) : ground_(ground) {}
 
-  // Of a target that is no vertex.
+  // Finds the ring. Precondition: the target is not at a vertex.
   void find(const TargetPlace& place);
-  // Of the same target.
+  // Lists the faces, after find() for the same target.
   void list_faces();
 
   [[nodiscard]] std::span<const Index> ring() const { return ring_; }
@@ -48,7 +54,7 @@ class NaturalRegion {
     Index parent;
   };
 
-  // Of a vertex that is there.
+  // Returns the position of a vertex of the ring that lies between positions a and b.
   [[nodiscard]] Index position_between(Index a, Index b, Index vertex) const;
 
   const Ground& ground_;

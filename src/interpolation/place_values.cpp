@@ -12,8 +12,8 @@
 namespace rondel::interpolation {
 namespace {
 
-// A value in order is worth a read out of order if it is read so many times, and so many fields fit the
-// caches beside it.
+// Copying values into vertex order pays if there is a target for at least this many vertices, and
+// if at most this many fields fit the caches beside it.
 constexpr std::size_t vertices_a_target = 8;
 constexpr std::size_t most_gathered_fields = 8;
 constexpr std::size_t vertices_per_piece = 8192;

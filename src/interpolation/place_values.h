@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Values of fields at vertices, whatever their order outside and however many sites share a place.
+// The values of fields at vertices, whatever the order of the sites is and however many sites share
+// a place.
+//
+// in    fields by site, and what counts where several sites share a place
+// out   the value of field f at a vertex
+// index fields; vertices by spatial rank; sites
 #pragma once
 
 #include <cstddef>
@@ -14,28 +19,29 @@
 
 namespace rondel::interpolation {
 
-// The sites of a vertex that has several, in increasing order.
+// The sites of a vertex that has several sites, in increasing order.
 struct SharedSites {
   Index vertex;
   std::vector<Index> sites;
 };
-// In the order of the vertices.
+// Returns all vertices with several sites, in increasing order.
 std::vector<SharedSites> shared_places(const Ground& ground);
 
-// Where the numbers of fields are: that of field f and site i at data[starts[f] + i * step].
+// Says where values are stored: that of field f at site i is data[starts[f] + i * step].
 struct FieldLayout {
   const double* data;
   std::vector<std::size_t> starts;
   std::size_t step;
 };
+// Returns the layout of fields of doubles, one after the other.
 FieldLayout scalar_fields(std::span<const double> field, std::size_t num_sites);
-// Three fields for each.
+// Returns the layout of fields of vectors: each has three fields, one a coordinate.
 FieldLayout vector_fields(std::span<const Point> field, std::size_t num_sites);
 
 class PlaceValues {
  public:
-  // Refers to the fields. They are brought into the order of the vertices if that pays for so many
-  // targets.
+  // Refers to the fields. They are copied into the order of the vertices if that saves time for
+  // `num_targets` targets, or if values of a place are averaged (SharedPlace::mean).
   PlaceValues(const Ground& ground, FieldLayout fields, SharedPlace shared, std::size_t num_targets,
               unsigned threads);
 
@@ -50,8 +56,9 @@ class PlaceValues {
   void take_means(const Ground& ground);
 
   FieldLayout layout_;
-  const Index* names_;             // none: the values lie as the vertices do
-  LargeVector<double> by_vertex_;  // all fields of a vertex together
+  const Index* names_;             // the site of each vertex; null if the values are stored by
+                                   // vertex
+  LargeVector<double> by_vertex_;  // the fields of a vertex are adjacent
 };
 
 }  // namespace rondel::interpolation

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a kernel is told of one target and what it answers. A kernel is a method of interpolation:
+// The input and output of a kernel for one target. A kernel is a method of interpolation:
 //
 //     void operator()(const TargetPlace& place, Row& row);
 //
-// 1. It fills an empty row, or leaves it empty where its method has no value.
-// 2. The order of a row depends on the places of the sites alone: vertices have ranks, not indices,
-//    and begin with the lowest where they form a ring. So do all sums.
-// 3. The weights sum up to 1, but for those of Normalization::homogeneous, which the caller makes.
-// 4. It is never asked about a vertex, nor where no solid face is.
-// 5. One belongs to one thread.
+// 1. It fills an empty row, or leaves it empty where the method has no value.
+// 2. The order of the entries depends only on the places of the sites: vertices are spatial ranks,
+//    not sites, and a ring begins with its lowest vertex. So does the order of sums.
+// 3. The weights sum up to 1; for Normalization::homogeneous the caller divides them afterwards.
+// 4. It is never called for a target at a vertex, nor outside of all solid faces.
+// 5. Each thread has its own kernel.
 #pragma once
 
 #include <concepts>
@@ -26,17 +26,18 @@ namespace rondel::interpolation {
 struct TargetPlace {
   Point point;             // as given
   exact::SplitPoint unit;  // u, its direction from the center
-  Location location;       // its `sites` are ranks
+  Location location;       // with ranks in `sites`
 };
 
-// What is taken of the value at a vertex.
+// The weight of the value at a vertex.
 struct Share {
-  Index vertex = no_index;  // its rank
+  Index vertex = no_index;  // spatial rank
   double weight = 0;
 };
 using Row = std::vector<Share>;
 
-// What is taken of the value at a vertex and, by a scalar product, of its tangent gradient.
+// The weight of the value at a vertex and, as a vector, that of its tangent gradient: the entry
+// contributes weight * value + slope . gradient.
 struct SlopeShare {
   Index vertex = no_index;
   double weight = 0;
@@ -44,16 +45,18 @@ struct SlopeShare {
 };
 using SlopeRow = std::vector<SlopeShare>;
 
+// A kernel whose rows have weights of values only.
 template <class K>
 concept Kernel = requires(K& kernel, const TargetPlace& place, Row& row) {
   kernel(place, row);
 };
-// Works on K::group targets at once.
+// A kernel that computes K::group targets at once.
 template <class K>
 concept GroupKernel = requires(K& kernel, const TargetPlace& place) {
   kernel.begin();
   kernel.expect(K::group, place);
 };
+// A kernel whose rows have weights of gradients too.
 template <class K>
 concept SlopeKernel = requires(K& kernel, const TargetPlace& place, SlopeRow& row) {
   kernel(place, row);

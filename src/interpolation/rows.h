@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The rows of many targets: what the location decides, what a kernel adds, what becomes of targets that
-// have no value.
+// Computes the rows of many targets: combines what the location decides with what a kernel returns,
+// and handles targets that have no value.
+//
+// in    targets, a kernel, what to do outside
+// out   one row for each target, given to a taker (takers.h)
+// index targets; vertices by spatial rank
 #pragma once
 
 #include <algorithm>
@@ -26,7 +30,7 @@
 
 namespace rondel::interpolation {
 
-// The lowest index of the targets that have no value, whichever thread comes to it.
+// The lowest index of all targets without a value, which several threads may report.
 class FirstOutside {
  public:
   void add(Index target) {
@@ -34,18 +38,19 @@ class FirstOutside {
     while (target < first && !first_.compare_exchange_weak(first, target)) {
     }
   }
-  // no_index: none.
+  // Returns no_index if all targets have values.
   [[nodiscard]] Index get() const { return static_cast<Index>(first_.load()); }
 
  private:
   std::atomic<std::uint64_t> first_ = no_index;
 };
 
-// Below it r, in a face next to which the center lies, is hardly more than rounding errors. Natural
-// neighbors beyond 90 degrees can make it negative, too.
+// A lower bound of r. In a face next to which the center lies, smaller values of r are hardly more
+// than rounding errors; natural neighbors beyond 90 degrees can make r negative.
 constexpr double least_r = 0x1p-20;
 
-// Divides by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2, or leaves nothing.
+// Divides the weights by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2, or clears the row
+// if r is too small.
 inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, Row& row) {
   double lacking = 0;
   for (const auto& [v, weight] : row) {
@@ -56,7 +61,7 @@ inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, R
   if (!(r >= least_r)) row.clear();
   for (Share& share : row) share.weight /= r;
 }
-// The kernel has divided.
+// Clears the row if its weights, which the kernel has divided by r, are too large.
 inline void make_homogeneous(const Ground& /*ground*/, const exact::SplitPoint& /*u*/,
                              SlopeRow& row) {
   const bool is_sound = std::ranges::all_of(
@@ -64,6 +69,7 @@ inline void make_homogeneous(const Ground& /*ground*/, const exact::SplitPoint& 
   if (!is_sound) row.clear();
 }
 
+// Rows of one entry: the nearest vertex.
 class NearestRows {
  public:
   using RowType = Row;
@@ -85,7 +91,7 @@ class NearestRows {
   Index nearest_ = no_index;
 };
 
-// So many targets a kernel works on at once.
+// The number of targets that a kernel computes at once.
 template <class K>
 inline constexpr std::size_t group_of = 1;
 template <GroupKernel K>
@@ -101,7 +107,7 @@ class KernelRows {
              K kernel)
       : ground_(ground), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
 
-  // Up to `group` targets are expected, and then asked for.
+  // Call begin(), then expect() for up to `group` targets, then operator() for each of them.
   void begin() {
     if constexpr (GroupKernel<K>) kernel_.begin();
   }
@@ -133,13 +139,13 @@ class KernelRows {
   }
 
  private:
-  // Not a vertex, whose row is simple, nor nothing.
+  // True if the kernel decides: the target is not at a vertex, and not outside.
   static bool has_weights(const TargetPlace& place) {
     return place.location.where == Where::edge || place.location.where == Where::face;
   }
 
-  // Of sites that are as close as numbers can be, products of slopes may leave the range of doubles:
-  // linear there.
+  // Where sites are so close that products of slopes leave the range of doubles, replaces the row
+  // by linear weights.
   void make_finite(const TargetPlace& place, SlopeRow& row) const {
     double sum = 0;
     for (const SlopeShare& share : row) {
@@ -167,8 +173,9 @@ class KernelRows {
   std::array<TargetPlace, group> places_;
 };
 
-// make_rows() and make_taker() for each range of targets; taker.expect(target) some time before
-// taker.take(target, u, row), and taker.finish() at the end. Precondition: there is a vertex.
+// Computes the rows of all targets in parallel. make_rows() and make_taker() are called for each
+// range of targets; taker.expect(target) comes some time before taker.take(target, u, row), and
+// taker.finish() at the end of the range. Precondition: there is a vertex.
 template <class MakeRows, class MakeTaker>
 void for_each_row(const Ground& ground, std::span<const Point> targets, const Execution& execution,
                   const MakeRows& make_rows, const MakeTaker& make_taker) {

@@ -22,10 +22,10 @@ constexpr std::array<std::array<double, 8>, 8> binomials = {{{1},
                                                              {1, 6, 15, 20, 15, 6, 1},
                                                              {1, 7, 21, 35, 35, 21, 7, 1}}};
 
-// The highest degree of the monomials whose excess is bounded.
+// The highest degree D of monomials for which E_D is bounded.
 constexpr std::size_t highest_excess = 4;
 
-// The least number of neighbors for a polynomial of one variable, by its degree.
+// By degree: the least number of neighbors for a polynomial of one variable.
 constexpr std::array<std::size_t, 4> least_on_line = {0, 1, 4, 6};
 
 double power(double x, std::size_t n) {
@@ -38,7 +38,8 @@ double moment(const FitMoments& moments, std::size_t degree, std::size_t power_o
   return moments[degree * (degree + 1) / 2 - 3 + power_of_b];
 }
 
-// The excess for the monomials in the plane's coordinates over the radius, from the sums for those in a and b.
+// Returns the excess for the monomials in the plane's coordinates over the radius, from the sums
+// for those in a and b.
 double excess_of_sums(const SettledFit& fit, std::span<const double> of_a,
                       std::span<const double> of_b) {
   const std::size_t degree = of_a.size() - 1;
@@ -62,7 +63,7 @@ double excess_of_sums(const SettledFit& fit, std::span<const double> of_a,
   return std::sqrt(square);
 }
 
-// The excess of one degree.
+// Returns E_D for one degree D.
 double excess(const SettledFit& fit, std::size_t degree) {
   std::array<double, 5> of_a{};
   std::array<double, 5> of_b{};
@@ -84,7 +85,8 @@ bool is_determined(const SettledFit& fit) {
   return gain(fit) <= most_gain;
 }
 
-// Normal equations of up to five terms, by L D L^T. False if a pivot is too small.
+// Solves normal equations of up to five terms by L D L^T; the constructor stops at a pivot that is
+// too small.
 class NormalEquations {
  public:
   template <class Entry>
@@ -110,7 +112,7 @@ class NormalEquations {
     return true;
   }
 
-  // The solution for the right side that is 1 in one place and 0 in others.
+  // Returns the solution for the right side that is 1 in one place and 0 in the others.
   [[nodiscard]] std::array<double, 5> solution(std::size_t place) const {
     std::array<double, 5> x{};
     x[place] = 1;
@@ -148,13 +150,13 @@ bool solve_plane(SettledFit& fit, std::size_t num_terms) {
   return true;
 }
 
-// A coordinate of the plane over the radius: by_a a + by_b b.
+// A coordinate of the plane in units of the radius: by_a a + by_b b.
 struct LineCoordinate {
   double by_a;
   double by_b;
 };
 
-// The coordinates along the direction in which the cloud is longest, and across it.
+// Returns the coordinates along the direction in which the cloud is longest, and across it.
 std::array<LineCoordinate, 2> axes_of_cloud(const SettledFit& fit) {
   const double a = 1 / fit.round_a;
   const double b = 1 / fit.round_b;
@@ -174,7 +176,7 @@ std::array<LineCoordinate, 2> axes_of_cloud(const SettledFit& fit) {
   return {{{(x + fit.shear * y) * unit_a, y * unit_b}, {(fit.shear * x - y) * unit_a, x * unit_b}}};
 }
 
-// Sums of weight s^n, s the coordinate.
+// Returns the sum of weight s^n, where s is the coordinate.
 double line_moment(const SettledFit& fit, const LineCoordinate& s, std::size_t n) {
   double sum = 0;
   for (std::size_t i = 0; i <= n; ++i) {
@@ -183,7 +185,7 @@ double line_moment(const SettledFit& fit, const LineCoordinate& s, std::size_t n
   return sum;
 }
 
-// Sums of weight s^n t.
+// Returns the sum of weight s^n t.
 double mixed_moment(const SettledFit& fit, const LineCoordinate& s, const LineCoordinate& t,
                     std::size_t n) {
   double sum = 0;
@@ -194,7 +196,7 @@ double mixed_moment(const SettledFit& fit, const LineCoordinate& s, const LineCo
   return sum;
 }
 
-// The polynomial c_0 s + c_1 s^2 + c_2 s^3 in terms of a and b.
+// Returns the polynomial c_0 s + c_1 s^2 + c_2 s^3 in terms of a and b.
 FitTerms terms_of_line(const LineCoordinate& s, std::span<const double> c) {
   const double u = s.by_a;
   const double v = s.by_b;
@@ -241,7 +243,8 @@ double excess_of_cubic(const SettledFit& fit, const CubicExcess& sums) {
   return excess_of_sums(fit, sums.of_a, sums.of_b);
 }
 
-// For values with the variances 1 / weight the slopes along a and b have the variances by_a[0] and by_b[1], and the covariance by_a[1].
+// For values with the variances 1 / weight, the slopes along a and b have the variances by_a[0] and
+// by_b[1] and the covariance by_a[1].
 double gain(const SettledFit& fit) {
   const double of_a = fit.round_a * fit.round_a * fit.by_a[0];
   const double of_both = fit.round_a * fit.round_b * fit.shear * fit.by_a[1];

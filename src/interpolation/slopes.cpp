@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t vertices_at_once = 2048;
 
-// The gradients of all fields of the vertices from `begin` on, those of a vertex together, and whether
-// there are any.
+// Estimates the gradients of all fields at the vertices of a range, which begins at `begin`. The
+// gradients of a vertex are adjacent; has_gradient says whether it has any.
 void estimate_blocks(GradientBlocks& blocks, const PlaceValues& values, std::size_t begin,
                      Point* gradients, std::uint8_t* has_gradient) {
   const std::size_t num_fields = values.num_fields();
@@ -157,7 +157,7 @@ Weights gradient_weights(const Ground& ground, const GradientRows& rows, unsigne
   return weights;
 }
 
-// What is added up for one vertex is added in the order of the row.
+// Terms of one vertex are added up in the order of the row.
 const Row& SlopeJoiner::operator()(const SlopeRow& row) {
   shares_.clear();
   for (const auto& [vertex, weight, slope] : row) {

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Gradients where rows ask for them: as numbers of given fields, or as weights of their values.
+// Gradients for the rows that need them: as vectors for given fields, or as weights of values.
+//
+// in    rows of gradients at vertices (gradient.h), or given gradients by site
+// out   gradients by vertex; rows of weights of values alone
+// index vertices by spatial rank; sites in Weights
 #pragma once
 
 #include <cstddef>
@@ -19,21 +23,21 @@
 
 namespace rondel::interpolation {
 
-// Whether each vertex has one; empty if all have.
+// Returns for each vertex 1 if it has a gradient, or an empty vector if all have one.
 std::vector<std::uint8_t> vertices_with(const GradientRows& rows);
 
-// A gradient of a field at each site: three rows of it.
+// Returns the weights of the gradient at each site: three rows (x, y, z) a site.
 Weights gradient_weights(const Ground& ground, const GradientRows& rows, unsigned threads);
 
-// Of each field at each vertex.
+// The gradient of each field at each vertex.
 class PlaceGradients {
  public:
-  // Estimated ones; those that cannot be had are zero. By their rows or, to the same bytes, without;
-  // then `has_gradient` becomes what vertices_with() gives.
+  // Estimates the gradients; where there is none, it is zero. The second constructor has the same
+  // results without storing rows, and sets `has_gradient` to what vertices_with() returns.
   PlaceGradients(const GradientRows& rows, const PlaceValues& values, unsigned threads);
   PlaceGradients(const Ground& ground, const GradientOptions& options, const PlaceValues& values,
                  unsigned threads, std::vector<std::uint8_t>& has_gradient);
-  // Given ones, of one field after the other.
+  // Takes gradients that are given by site, one field after the other.
   PlaceGradients(const Ground& ground, std::span<const Point> given, SharedPlace shared,
                  unsigned threads);
 
@@ -48,13 +52,14 @@ class PlaceGradients {
   LargeVector<Point> by_vertex_;
 };
 
-// Turns rows with slopes into rows of values, in the order of the ranks. One for each thread.
+// Replaces the gradients in rows by their weights of values; the entries come in the order of
+// ranks. Each thread has its own.
 class SlopeJoiner {
  public:
-  // None: for rows without slopes.
+  // `gradients` is null for rows without gradients.
   SlopeJoiner(const GradientRows* gradients, Normalization normalization)
       : gradients_(gradients), normalization_(normalization) {}
-  // The result lives until the next call.
+  // The result is valid until the next call.
   const Row& operator()(const SlopeRow& row);
 
  private:

@@ -12,10 +12,10 @@
 namespace rondel::interpolation {
 namespace {
 
-// So many vertices are one thread's work at a time.
+// The number of vertices that one thread takes at a time.
 constexpr std::size_t stars_per_piece = 4096;
 
-// Some corner of each vertex.
+// Returns one corner (a halfedge) of each vertex.
 std::vector<topology::Halfedge> corners_of(const Ground& ground) {
   const topology::Mesh& mesh = ground.mesh();
   std::vector<topology::Halfedge> corners(ground.num_vertices());
@@ -25,7 +25,7 @@ std::vector<topology::Halfedge> corners_of(const Ground& ground) {
   return corners;
 }
 
-// Appends the other ends of the edges that a solid face has, counterclockwise.
+// Appends the other ends of the edges of solid faces around a vertex, counterclockwise.
 void append_star(const Ground& ground, topology::Halfedge first, std::vector<Index>& star) {
   const topology::Mesh& mesh = ground.mesh();
   topology::Halfedge h = first;
@@ -66,8 +66,8 @@ SolidStars::SolidStars(const Ground& ground, unsigned threads) {
   }
 }
 
-// About every second end has been found before, in no order that a processor could guess: without a
-// branch for it.
+// About every second vertex has been found before, in no order that a processor could predict, so
+// the loop has no branch for it.
 void SolidRings::add_star(Index v) {
   const std::span<const Index> star = stars_[v];
   if (size_ + star.size() > found_.size()) found_.resize(2 * (size_ + star.size()));

@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The vertices around a vertex, ring by ring, along edges of solid faces only: ghost faces join what is
-// far apart.
+// The vertices around a vertex, ring by ring, along edges of solid faces only, since ghost faces
+// join vertices that are far apart.
 //
-// The order depends on places alone: a star goes counterclockwise from its lowest rank, and the next
-// ring follows the stars of this one.
+// in    a prepared triangulation, a vertex, a number of rings
+// out   vertices
+// index spatial ranks
+//
+// The order depends only on the places: a star goes counterclockwise from its lowest rank, and each
+// ring follows the stars of the ring before.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +22,7 @@
 
 namespace rondel::interpolation {
 
-// The first ring of every vertex, for all threads.
+// The first ring of every vertex; all threads share it.
 class SolidStars {
  public:
   // Precondition: dimension 2.
@@ -34,21 +38,23 @@ class SolidStars {
   std::vector<Index> ends_;
 };
 
-// Finds several rings. One a thread: it has a place for every vertex, which takes time to make.
+// Finds several rings around a vertex. Each thread has its own, since it has an entry for every
+// vertex.
 class SolidRings {
  public:
   explicit SolidRings(const SolidStars& stars) : stars_(stars), times_(stars.size(), 0) {}
 
-  // All vertices at most so many edges from v, without v itself; until the next call.
+  // Returns all vertices that are at most `rings` edges away from v, without v. Valid until the
+  // next call.
   std::span<const Index> find(Index v, unsigned rings);
 
  private:
   void add_star(Index v);
 
   const SolidStars& stars_;
-  std::vector<Index> found_ = {no_index};  // the first size_ of them, v itself before all
+  std::vector<Index> found_ = {no_index};  // the first size_ vertices found, beginning with v
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> times_;  // when each vertex was found
+  std::vector<std::uint32_t> times_;  // by vertex: the time at which it was found
   std::uint32_t time_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is made of rows as they come (rows.h): values, tangent vectors, weights.
+// Sinks for rows (rows.h): they compute values, tangent vectors, or collect weights.
 #pragma once
 
 #include <cmath>
@@ -19,10 +19,10 @@
 
 namespace rondel::interpolation {
 
-// The sums of rows over fields, in the order of the row.
+// Sums up a row times the values of a field, in the order of the row.
 class FieldSums {
  public:
-  // `gradients`: for rows with slopes.
+  // `gradients` may be null for rows without slopes.
   FieldSums(const PlaceValues& values, const PlaceGradients* gradients)
       : values_(values), gradients_(gradients) {}
 
@@ -32,7 +32,7 @@ class FieldSums {
     for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
     return std::isfinite(sum) ? sum : small_sum(f, row) / scale_of_large;
   }
-  // At a site its gradient does not count, whatever it is.
+  // The gradient at a vertex with slope 0 is not read, so that it may be anything.
   [[nodiscard]] double operator()(std::size_t f, const SlopeRow& row) const {
     double sum = 0;
     for (const auto& [vertex, weight, slope] : row) {
@@ -43,6 +43,7 @@ class FieldSums {
   }
 
  private:
+  // The same sum, times scale_of_large, of values that are multiplied by it first.
   [[nodiscard]] double small_sum(std::size_t f, const Row& row) const {
     double sum = 0;
     for (const auto& [vertex, weight] : row) sum += weight * (scale_of_large * values_(f, vertex));
@@ -61,7 +62,8 @@ class FieldSums {
   const PlaceGradients* gradients_;
 };
 
-// Writes values of the shape (num_fields, num_targets); those of empty rows stay.
+// Writes values of the shape (num_fields, num_targets). The values of targets with empty rows are
+// not changed.
 class ValuesTaker {
  public:
   ValuesTaker(const FieldSums& sums, std::span<double> values)
@@ -83,7 +85,8 @@ class ValuesTaker {
   std::size_t num_targets_;
 };
 
-// Writes tangent vectors of the shape (num_fields / 3, num_targets); the fields are coordinates.
+// Writes tangent vectors of the shape (num_fields / 3, num_targets); each three fields are
+// coordinates.
 class VectorsTaker {
  public:
   VectorsTaker(const FieldSums& sums, std::span<Point> vectors)
@@ -108,9 +111,10 @@ class VectorsTaker {
   std::size_t num_targets_;
 };
 
+// Collects the rows as weights of values.
 class WeightsTaker {
  public:
-  // `gradients`: of rows with slopes.
+  // `gradients` are needed for rows with slopes.
   WeightsTaker(CollectedRows& rows, const GradientRows* gradients, Normalization normalization)
       : rows_(rows), join_(gradients, normalization) {}
 

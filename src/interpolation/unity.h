@@ -10,15 +10,16 @@
 
 namespace rondel::interpolation {
 
-// Weights from 0 to 1 become multiples of 2^-53, of which sums up to 1 are exact.
+// Rounds weights between 0 and 1 to multiples of 2^-53, for which sums up to 1 are exact.
 template <class R>
 void round_to_exact_sums(R& row) {
   for (auto& share : row) share.weight = std::rint(share.weight * 0x1p53) * 0x1p-53;
   std::erase_if(row, [](const auto& share) { return share.weight == 0; });
 }
 
-// Makes the sum 1 of weights that rounding has brought off it: the largest takes what is missing. Where
-// large weights cancel, all are rounded to multiples of one power of two before, of which sums are exact.
+// Corrects weights whose sum is not 1 because of rounding: the largest weight takes the difference.
+// Where large weights cancel, all are first rounded to multiples of one power of two, for which
+// sums are exact.
 template <class R>
 void take_up_rounding(R& row) {
   constexpr double much = 1.5;

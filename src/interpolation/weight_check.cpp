@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// check_weights: one pass over the entries, one over the cells of each side.
+// check_weights() takes one pass over the entries and one over the cells of each side.
 #include "rondel/weight_check.h"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ namespace rondel {
 namespace interpolation {
 namespace {
 
-// See the header.
+// A sum may differ from the wanted one by the first number, and by the rounding errors of as many
+// areas as it has terms, relative to the area of the cell.
 constexpr double least_tolerance = 1e-9;
 constexpr double error_of_area = 8 * std::numbers::pi * 0x1p-52;
 
@@ -43,7 +44,7 @@ bool has_word(const std::string& text, std::string_view word) {
   return text.find(word) != std::string::npos;
 }
 
-// What the name of a method tells.
+// What the name of a method says about its weights.
 struct MethodFacts {
   explicit MethodFacts(const std::string& method) {
     const std::string name = lower_case(method);
@@ -59,11 +60,12 @@ struct MethodFacts {
         has_word(name, "d2s") || has_word(name, "dtos") || has_word(name, "destination to source");
   }
   bool is_conservative = false;
-  bool gives_sources_away = false;  // each to one target, which has the sum of what it gets
+  bool gives_sources_away = false;  // each source goes to one target, whose value is the sum of
+                                    // what it receives
   bool is_never_negative = false;
 };
 
-// The faults of one kind.
+// Counts the faults of one kind and keeps the first one.
 class FaultCounter {
  public:
   FaultCounter(std::string kind, std::string one, std::string many)
@@ -94,7 +96,7 @@ class WeightChecker {
     report_.sums_are_of_columns = method_.gives_sources_away;
     report_.sums_are_fractions = file.normalization == "destarea" &&
                                  !file.target.fractions.empty() && !method_.gives_sources_away;
-    // What lies beside the sources is a part that is not known.
+    // The part of a target that lies outside of the sources is not known.
     is_at_most_wanted_ = method_.is_conservative && file.target.fractions.empty() &&
                          file.normalization != "fracarea";
     const std::string wanted = is_at_most_wanted_           ? "more than 1"
@@ -180,7 +182,7 @@ class WeightChecker {
     }
   }
 
-  // Cells that share pieces with those of an area have one.
+  // A cell that shares pieces with cells that have areas must have an area too.
   void check_areas_of_one_side() {
     if (!method_.is_conservative) return;
     const bool is_of_targets = file_.target.areas.empty();
@@ -194,7 +196,7 @@ class WeightChecker {
     faults.move_to(side_faults_);
   }
 
-  // What all targets take of a source is the part of it that they cover.
+  // The area that all targets take of a source is the part of the source that they cover.
   void check_columns() {
     const std::vector<double>& to = file_.target.areas;
     const std::vector<double>& from = file_.source.areas;

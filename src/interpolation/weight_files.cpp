@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_weights and read_weights: which format, and whether the content fits together.
+// write_weights() and read_weights() pick the format and check that the sizes of the content agree.
 #include "rondel/weight_files.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr std::array<WeightWriter, 5> weight_writers = {
      {".esmf", &interpolation::write_esmf},
      {".scrip", &interpolation::write_scrip}}};
 
-// The variables of a netCDF file tell which of the formats it has.
+// The variables of a netCDF file tell which of the netCDF formats it has.
 constexpr std::array<std::string_view, 7> weight_endings = {".nc",  ".nc4",  ".cdf",  ".ncf",
                                                             ".npz", ".esmf", ".scrip"};
 
@@ -59,7 +59,7 @@ void require_side(const WeightSide& side, std::size_t size) {
   require_number("the points of the shape", product == 0 ? ~std::size_t{0} : product, size);
 }
 
-// apply() to no field checks the weights alone.
+// apply() with no field only checks the weights.
 void require_content(const WeightFile& content) {
   apply(content.weights, {}, {}, 0);
   require_side(content.source, content.weights.num_columns);
@@ -91,7 +91,7 @@ WeightFile read_weights(const FileName& file) {
     }
     if (!is_known) io::throw_unknown_ending(file, "weights are read from", weight_endings);
     if (ending == ".npz") return interpolation::read_weights_npz(bytes.text());
-    return interpolation::read_weights_netcdf(io::NetcdfReader(bytes));  // which says what is wrong
+    return interpolation::read_weights_netcdf(io::NetcdfReader(bytes));  // throws with the reason
   });
 }
 
@@ -100,7 +100,7 @@ std::vector<LonLat> lonlats(std::span<const Point> points) {
   std::vector<LonLat> result;
   result.reserve(points.size());
   for (const Point& point : points) {
-    if (point == Point{0, 0, 0}) {  // no ray goes through it
+    if (point == Point{0, 0, 0}) {  // no ray goes through the origin
       constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
       result.push_back({no_place, no_place});
       continue;

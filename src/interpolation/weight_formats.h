@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The formats of weights, one function each way.
+// Readers and writers of weights, one function a format and direction, and what the netCDF formats
+// share.
+//
+// in    WeightFile: weights and a description of the points or cells of both sides
+// out   a file; or the same from a file
+// index rows are targets, columns are sources; files count from 1, `Weights` from 0
 #pragma once
 
 #include <cstdint>
@@ -21,19 +26,19 @@ struct WeightsToWrite {
   const WeightFile& content;
   NetcdfOptions netcdf;
 };
-// Each writes the whole file. Precondition: the content fits together.
+// Each of these writes the whole file. Precondition: the sizes in the content agree.
 void write_esmf(io::AtomicFile& file, const WeightsToWrite& job);
 void write_scrip(io::AtomicFile& file, const WeightsToWrite& job);
 void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job);
 
-// Each reads the content of a file. Throws BadValue.
+// Each of these reads the content of a file. They throw BadValue if it is not as the format says.
 WeightFile read_weights_netcdf(const io::NetcdfReader& file);
 WeightFile read_weights_npz(std::string_view bytes);
 
 WeightFile read_esmf(const io::NetcdfReader& file);
 WeightFile read_scrip(const io::NetcdfReader& file);
 
-// The row of each entry, counted from 1: what both netCDF formats have in place of offsets.
+// Writes the row of each entry, counted from 1, which both netCDF formats have in place of offsets.
 template <typename T>
 void write_row_numbers(io::NetcdfWriter& out, const Weights& weights) {
   std::size_t row = 0;
@@ -43,54 +48,57 @@ void write_row_numbers(io::NetcdfWriter& out, const Weights& weights) {
   });
 }
 
-// Values of an array, or `otherwise` for all of one that is not there.
+// Writes the values of an array, or `otherwise` for each element if the array is empty.
 template <typename T, typename Values>
 void write_or(io::NetcdfWriter& out, const Values& values, std::size_t size, T otherwise) {
   out.write_values<T>(
       size, [&](std::size_t i) { return values.empty() ? otherwise : static_cast<T>(values[i]); });
 }
 
-// The fraction of a target of which nothing is known.
+// Returns the fraction of a target for which none is given: 1 if its row has entries, else 0.
 inline double fraction_of(const Weights& weights, std::size_t row) {
   return weights.offsets[row] < weights.offsets[row + 1] ? 1 : 0;
 }
 
-// The shape of a side, or its size if there is none.
+// Returns the shape of a side, or its size if the shape is not known.
 std::vector<std::uint64_t> shape_or(const WeightSide& side, std::size_t size);
 
-// int64 where int32 cannot count so many.
+// Returns int64 if int32 cannot count `size` elements.
 inline io::NetcdfType index_type(std::size_t size) {
   return size > 0x7fff'ffff ? io::NetcdfType::int64 : io::NetcdfType::int32;
 }
 
-// A variable with attributes of text.
+// Makes a variable with attributes of text.
 io::NetcdfVariable variable(
     std::string name, io::NetcdfType type, std::vector<std::size_t> dimensions,
     std::initializer_list<std::pair<const char*, const char*>> attributes = {});
 
-// The attributes that say what nobody else's file does: hashes and the method.
+// Writes and reads the attributes that only files of this library have: hashes, method, tables.
 void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content);
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content);
 // Whether the file says the method as this library writes it.
 bool has_own_method(const io::NetcdfReader& file);
 
-// What a netCDF file says of a side: the names of the variables.
+// The names that a netCDF format has for the variables and dimensions of one side.
 struct SideNames {
   std::string lon, lat, area, fraction, mask, dims;
-  std::string corners;  // a dimension
+  std::string corners;  // name of the dimension
   std::string corner_lon, corner_lat;
-  // NCO wants ESMF's dimension of corners also where it reads none; CDO wants SCRIP's only with corners.
+  // NCO expects ESMF's dimension of corners even where it reads no corners; CDO expects SCRIP's
+  // only with corners.
   bool needs_corners;
 };
-// Defines them, of a side of `size` points: `cells` and `rank` are dimensions.
+// Defines the variables of a side of `size` points. `cells` and `rank` are dimensions.
 void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
               std::size_t size, std::size_t cells, std::size_t rank);
-// The corners that the file has: those of the side, of points that are no cells these themselves.
+// Returns the corners to write: those of the side, or the points themselves if they are no cells
+// and the format needs corners.
 inline std::span<const LonLat> written_corners(const SideNames& names, const WeightSide& side) {
   const bool are_points = names.needs_corners && side.areas.empty() && side.shape.size() < 2;
   return side.corners.empty() && are_points ? side.points : side.corners;
 }
-// Their values; `fraction` says what the fractions are where there are none.
+// Writes the values of a side. `fraction(i)` is the fraction of point i if the side has no
+// fractions.
 template <typename Fraction>
 void write_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
                 std::size_t size, Fraction fraction) {
@@ -115,12 +123,14 @@ void write_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide&
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side);
 
-// Entries in any order as compressed rows; rows and columns count from 1. Throws BadValue.
+// Sorts entries in any order into compressed rows. Rows and columns count from 1. Throws BadValue
+// if one is out of range.
 Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std::int64_t> columns,
                         std::span<const double> values, std::size_t num_rows,
                         std::size_t num_columns);
 
-// The size of a dimension. Throws BadValue, also if it is larger than the file.
+// Returns the size of a dimension. Throws BadValue if it is missing or larger than the file could
+// hold.
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name);
 
 }  // namespace rondel::interpolation

@@ -19,10 +19,10 @@
 namespace rondel {
 namespace {
 
-// So many rows are one thread's work at a time.
+// The number of rows that one thread takes at a time.
 constexpr std::size_t rows_per_piece = 8192;
 
-// FNV-1a (http://www.isthe.com/chongo/tech/comp/fnv).
+// The constants of FNV-1a (http://www.isthe.com/chongo/tech/comp/fnv).
 constexpr std::uint64_t fnv_offset = 0xcbf29ce484222325U;
 constexpr std::uint64_t fnv_prime = 0x100000001b3U;
 
@@ -38,7 +38,7 @@ void require_length(std::string_view name, std::size_t length, std::size_t wante
                      std::to_string(wanted));
 }
 
-// The numbers of so many fields.
+// Returns the number of values of so many fields; throws InvalidInput if it overflows.
 std::size_t product(std::size_t num_fields, std::size_t length) {
   if (length == 0 || num_fields <= std::numeric_limits<std::size_t>::max() / length)
     return num_fields * length;

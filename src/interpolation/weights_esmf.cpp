@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights as ESMF's offline regridding writes them: "Regrid Interpolation File Format" of
+// Weights as ESMF's offline regridding writes them: "Regrid Interpolation File Format" in
 // https://earthsystemmodeling.org/docs/release/latest/ESMF_refdoc/node3.html
 #include "interpolation/weight_formats.h"
 #include "io/cf_reader.h"
@@ -55,7 +55,8 @@ void write_esmf(io::AtomicFile& file, const WeightsToWrite& job) {
   const NetcdfType index = index_type(std::max(num_sources, num_targets));
   for (const char* name : {"col", "row"}) {
     io::NetcdfVariable entries = variable(name, index, {n_s});
-    // UXarray guesses it from the greatest entry otherwise: wrong where the last point has no weight.
+    // Without it UXarray guesses it from the greatest entry, wrongly if the last point has no
+    // weight.
     entries.attributes.push_back({"start_index", NetcdfType::int32, {}, {1}});
     out.add_variable(std::move(entries));
   }

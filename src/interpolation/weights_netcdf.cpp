@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the two netCDF formats of weights share.
+// The parts that the ESMF and SCRIP formats of weights share.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -39,9 +39,10 @@ std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
   return hash;
 }
 
-// Texts of cells are a table in one attribute: the classic formats know no strings.
+// Writes the texts of cells as one table in an attribute, since the classic formats have no
+// strings.
 void add_table(io::NetcdfWriter& out, const char* name, const WeightSide& side) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 28U;  // an attribute is read at once
+  constexpr std::size_t most_bytes = std::size_t{1} << 28U;  // readers load an attribute at once
   const std::string table = io::csv_of(side.columns);
   if (!table.empty() && table.size() <= most_bytes) out.add_attribute(name, table);
 }
@@ -75,7 +76,8 @@ std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& 
 
 using NamesOfPair = std::array<std::string, 2>;
 
-// The longitudes and latitudes of the first pair. What has no units has those of the other one of its kind, or else of any of the four.
+// Returns the longitudes and latitudes of the first pair in degrees. A variable without units has
+// those of the other one of its kind, or else of any of the four.
 std::array<std::vector<double>, 2> degrees_of_pair(const io::NetcdfReader& file,
                                                    const NamesOfPair& wanted,
                                                    const NamesOfPair& related) {
@@ -170,7 +172,8 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   read_table(file, target_table_name, content.weights.num_rows(), content.target);
   content.normalization = io::netcdf_text(file.attributes(), "normalization");
   content.method = io::netcdf_text(file.attributes(), method_name);
-  // ESMF writes "Conservative remapping" into map_method for both orders.
+  // ESMF writes "Conservative remapping" into map_method for both orders, so its own attribute
+  // comes first.
   for (const char* name : {"ESMF_regrid_method", "map_method"}) {
     if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), name);
   }
@@ -237,7 +240,8 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.name != name) continue;
-    // Every format has a value for each point: a larger size is a lie, and would take memory.
+    // Every format has a value for each point, so a larger size is wrong, and allocating it would
+    // exhaust memory.
     if (dimension.size > file.most_values()) {
       throw io::BadValue("dimension " + io::in_quotes(name) + " of " +
                          std::to_string(dimension.size) + " in a file of " +

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights as scipy.sparse.save_npz() stores a matrix in compressed sparse rows.
+// Weights as scipy.sparse.save_npz() stores a matrix in compressed sparse rows (CSR).
 #include <array>
 #include <limits>
 #include <optional>
@@ -76,7 +76,7 @@ class NpzArray {
   std::endian order_ = std::endian::little;
 };
 
-// A text as bytes or, by old versions of SciPy, in four bytes a letter.
+// Returns a text that is stored as bytes or, by old versions of SciPy, in four bytes a letter.
 std::string text_of_member(std::string_view archive, std::string_view name) {
   const std::string bytes = io::zip_member(archive, name);
   const io::NpyHeader header = io::parse_npy_header(bytes);
@@ -95,8 +95,8 @@ void require_csr(std::string_view archive) {
   }
 }
 
-// What this library adds to a matrix, which SciPy leaves alone. Without it weights that cover a part of a target cannot be
-// told from wrong ones.
+// Adds what this library stores beside a matrix, which SciPy ignores. Without it, weights that
+// cover a part of a target could not be told from wrong ones.
 void add_facts(io::ZipWriter& zip, const WeightFile& content) {
   const auto add_text = [&](const char* name, const std::string& text) {
     if (text.empty()) return;
@@ -137,7 +137,7 @@ void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job) {
   const auto length = [](const auto& values) {
     return std::array<std::uint64_t, 1>{values.size()};
   };
-  // SciPy computes with signed indices, of one width.
+  // SciPy computes with signed indices of one width.
   const std::vector<std::int64_t> columns(weights.columns.begin(), weights.columns.end());
   const std::vector<std::int64_t> offsets(weights.offsets.begin(), weights.offsets.end());
   const std::array<std::int64_t, 2> shape = {static_cast<std::int64_t>(weights.num_rows()),

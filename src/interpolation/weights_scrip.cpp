@@ -22,7 +22,7 @@ SideNames names_of(const std::string& grid) {
           start + "corner_lat", false};
 }
 
-// Programs know a few methods by their names; all others are weighted means to them.
+// Returns one of the methods that programs know by name; they treat all others as weighted means.
 std::string known_method(const std::string& method) {
   for (const char* known : {"Conservative", "Bilinear", "Bicubic", "Distance", "Largest"}) {
     if (method.starts_with(known)) return method;
@@ -86,7 +86,7 @@ void write_scrip(io::AtomicFile& file, const WeightsToWrite& job) {
   add_own_attributes(out, content);
   add_side(out, names_of("src"), content.source, num_sources, src_size, src_rank);
   add_side(out, names_of("dst"), content.target, num_targets, dst_size, dst_rank);
-  // SCRIP's own integers: CDO refuses others.
+  // These are of SCRIP's integer type, since CDO refuses others.
   out.add_variable(variable("src_address", index_type(num_sources), {links}));
   out.add_variable(variable("dst_address", index_type(num_targets), {links}));
   out.add_variable(variable("remap_matrix", io::NetcdfType::float64, {links, wgts}));

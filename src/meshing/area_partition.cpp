@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cell of site i is {x : x.p_i >= x.p_j for all j}, p_i = w_i q_i: the directions in which p_i is the
-// farthest corner of the hull. With t the angle between the ends v, v' of the wall of i and j,
+// The cell of site i is {x : x.p_i >= x.p_j for all j} with p_i = w_i q_i: the directions in which
+// p_i is the farthest corner of the hull. With t the angle between the ends v, v' of the wall of i
+// and j,
 //
 //     d area_i / d log w_j = - tan(t/2) p_i.(v + v') / |p_i - p_j|,
 //
-// negative, and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives are those of a graph's
-// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). Weights have twice double precision, and so, nearly, have
-// the lengths of the p_i that stand for them (placed_pole.h); their least is 1.
+// which is negative and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives form a
+// graph Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). Weights have twice
+// double precision, and the lengths of the p_i that represent them nearly so (placed_pole.h); the
+// least weight is 1.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +51,7 @@ struct Weighted {
   std::vector<double> areas;
   double smallest_area = 0;
   double square_error = 0;
-  double largest_error = 0;  // relative
+  double largest_error = 0;  // largest relative error of an area
   Index worst = no_index;
 };
 
@@ -70,7 +72,8 @@ class Newton {
     least_target_ = *std::ranges::min_element(targets_);
   }
 
-  // With poles near those given. None if a cell is empty or the hull does not surround the center.
+  // Returns the cells of weighted sites near those given, or nothing if a cell is empty or the hull
+  // does not surround the center.
   [[nodiscard]] std::optional<Weighted> measure(const FineWeights& weights,
                                                 const std::vector<Point>& near) const {
     Weighted now;
@@ -96,11 +99,11 @@ class Newton {
   }
 
   struct NewtonStep {
-    std::vector<double> of_log;  // of log w
-    double
-        rounding;  // the relative error of an area that would be left by weights that are doubles
+    std::vector<double> of_log;  // change of log w
+    double rounding;  // relative error of areas that comes from rounding weights to doubles
   };
-  // What Newton's method makes. Doubles are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
+  // Returns Newton's step. The rounding errors are 2^-53 of the weights of a cell and of its
+  // neighbors.
   [[nodiscard]] NewtonStep step_from(const Weighted& now) const {
     std::vector<double> right(sites_.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) right[i] = targets_[i] - now.areas[i];
@@ -145,8 +148,8 @@ class Newton {
     return graph;
   }
 
-  // Each edge comes from both of its faces, with the ends in the other order; sums of two numbers are
-  // the same both ways.
+  // Each edge comes from both of its faces, with its ends exchanged; sums of two numbers do not
+  // depend on their order.
   [[nodiscard]] static double wall(const Weighted& now, Index i, Index j, const Point& v,
                                    const Point& w) {
     const Index low = std::min(i, j);
@@ -156,7 +159,7 @@ class Newton {
     const auto a = to_vector(v);
     const auto b = to_vector(w);
     const double half_tangent = norm(a - b) / norm(a + b);
-    // A wall of no length would leave a row of the graph empty.
+    // A wall of length 0 would leave a row of the graph empty.
     return std::max(half_tangent * dot(p, a + b) / norm(difference), 0x1p-60);
   }
 
@@ -166,7 +169,7 @@ class Newton {
   double least_target_ = 0;
 };
 
-// By a factor whose least weight becomes 1.
+// Scales the weights such that the least one is 1.
 void scale_to_one(FineWeights& weights) {
   const double least = std::ranges::min_element(weights, {}, &DoubleDouble::hi)->hi;
   for (DoubleDouble& w : weights) {
@@ -240,7 +243,7 @@ void require_distinct(std::span<const Point> sites, const Execution& execution) 
 void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   for (const DoubleDouble& weight : weights) {
     result.weights.push_back(weight.hi);
-    // The radius has the cosine 1 / weight.
+    // The cosine of the radius is 1 / weight.
     const double tangent = std::sqrt(std::max(0.0, (weight.hi - 1) + weight.lo) * (weight.hi + 1));
     result.radii_deg.push_back(180 / std::numbers::pi * exact::argument(tangent, 1));
   }
@@ -264,7 +267,8 @@ constexpr const char* one_hemisphere =
 constexpr const char* no_step =
     "no step brings the areas nearer to those that are wanted and leaves each cell its place";
 
-// The cells of given weights, where there are no steps. If the weights are not those that are wanted, `reason` says why.
+// Returns the cells of given weights, without steps. `reason` says why the areas are not those that
+// are wanted; it is null if they are, up to rounding.
 AreaPartition without_steps(const std::vector<Point>& units, const std::vector<double>& targets,
                             const std::vector<double>& weights, const char* reason,
                             const AreaPartitionOptions& options, const Execution& execution) {
@@ -282,7 +286,7 @@ AreaPartition without_steps(const std::vector<Point>& units, const std::vector<d
   measure_errors(now, targets);
   AreaPartition result;
   finish(result, fine, std::move(now));
-  // An error that is larger is not what rounding of weights that differ little makes.
+  // A larger error does not come from rounding weights that differ little.
   constexpr double most_rounding = 1e-6;
   const bool is_rounding = reason == nullptr && result.largest_error <= most_rounding;
   if (result.largest_error > options.tolerance) {
@@ -293,7 +297,7 @@ AreaPartition without_steps(const std::vector<Point>& units, const std::vector<d
   return result;
 }
 
-// Sites on a great circle, whose cells are lunes, and two sites or one.
+// Handles sites on a great circle, whose cells are lunes, and fewer than three sites.
 AreaPartition lune_partition(const std::vector<Point>& units, const std::vector<double>& targets,
                              const AreaPartitionOptions& options, const Execution& execution) {
   const std::vector<double> equal(units.size(), 1);
@@ -360,14 +364,14 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
       tried = stepped(weights, step.of_log, length);
       next = newton.measure(tried, now->poles);
       const double fall = 1 - length / 2;
-      // In the end rounding is most of the sum of squares, and few cells have larger errors.
+      // Near the end, rounding is most of the sum of squares, and few cells have larger errors.
       if (next && next->smallest_area >= least_area &&
           (next->square_error <= fall * fall * now->square_error ||
            next->largest_error <= fall * now->largest_error)) {
         break;
       }
       next.reset();
-      // Nothing shorter helps where rounding is all that is left.
+      // A shorter step does not help if only rounding is left.
       if (now->largest_error <= step.rounding) break;
     }
     if (!next) {

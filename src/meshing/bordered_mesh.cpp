@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t border_grain = 4096;
 
-// In the plane of the center, v and w.
+// Returns p reflected in the plane through the center, v and w.
 Point reflected(const Point& p, const Point& v, const Point& w) {
   const Point normal = normalized(cross(v, w - v));
   return normalized(p - 2 * dot(p - v, normal) * normal);
@@ -74,7 +74,8 @@ class BorderedMeshMaker {
     });
   }
 
-  // The kite of a cell where two of its edges meet: the triangles of its site and the corner with their middles.
+  // Sets kites and cell areas. A kite of a cell lies where two of its edges meet: two triangles of
+  // the site, the corner and the midpoint of an edge.
   void set_areas() {
     const double square = options_.radius * options_.radius;
     const std::size_t size = from_.sites.size();
@@ -134,8 +135,10 @@ void refuse_cell(std::size_t cell) {
   throw io::BadValue("cell " + std::to_string(cell) + " is not the Voronoi cell of its center");
 }
 
-// Each side runs counterclockwise around the site by less than half a turn; together they make one, if one side alone
-// comes to the direction of the last corner, or past it, from the right.
+// Each side runs counterclockwise around the site by less than half a turn. Together they make one
+// turn if exactly one side reaches the direction of the last corner, or passes it, from the right.
+// Doubles suffice, since corners are far more than rounding errors away from each other's
+// directions.
 void require_rings_around_sites(const RingsAndSites& from) {
   for (std::size_t i = 0; i < from.sites.size(); ++i) {
     const Point& site = from.sites[i];

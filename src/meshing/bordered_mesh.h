@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A mesh with a border, of its sites and the rings of corners around them. A cell of Voronoi that is gone had its site where
-// that of a cell of the border is reflected in their edge.
+// Makes a mesh with a border from its sites and the rings of corners around them. Across an edge of
+// the border, the missing Voronoi cell had its site at the reflection of the cell's site in that
+// edge.
+//
+// in    cells of one ring each, how they meet, their sites
+// out   the arrays of a mesh
+// index cells and their sites; sides of rings (ring_surface.h)
 #pragma once
 
 #include <cstddef>
@@ -16,8 +21,9 @@
 
 namespace rondel::meshing {
 
-// Of the spacing: how far a corner of a file may be from that of the mesh. Files have single precision, too, and
-// programs find circumcenters in the plane.
+// The distance that a corner of a file may have from the corner of the mesh, in units of the
+// spacing. It allows for files of single precision and for programs that compute circumcenters in
+// the plane.
 inline constexpr double corner_tolerance = 1e-3;
 
 struct RingsAndSites {
@@ -27,18 +33,19 @@ struct RingsAndSites {
   const Locator& locator;
 };
 
-// Throws BadValue: not the Voronoi cell of its center.
+// Throws BadValue with the number of a cell that is not the Voronoi cell of its center.
 [[noreturn]] void refuse_cell(std::size_t cell);
 
-// Throws BadValue for a ring that does not run around its site, once and counterclockwise.
+// Throws BadValue for the first ring that does not run around its site once and counterclockwise.
 void require_rings_around_sites(const RingsAndSites& from);
 
-// Two cells of which one has its site across an edge of the other that is one of the border: what they have in common they
-// say differently. Precondition: rings run around their sites.
+// Returns two cells of which one has its site across a border edge of the other, so that they share
+// an edge but state it differently. Precondition: rings run around their sites.
 std::optional<std::pair<Index, Index>> cells_that_differ(const RingsAndSites& from,
                                                          const Execution& execution);
 
-// Precondition: as above. Throws BadValue where a corner has a site nearer than those of its cells.
+// Makes the mesh. Precondition: rings run around their sites. Throws BadValue if some site is
+// nearer to a corner than the sites of the corner's cells.
 mesh::MeshArrays bordered_mesh(const RingsAndSites& from, const mesh::MeshOptions& options,
                                const Execution& execution);
 

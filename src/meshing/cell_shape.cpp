@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The moment of a cell, the integral of the position x over it, from its corners' offsets d from the site z as in
-// dual/centroids.cpp:
+// The moment of a cell, which is the integral of the position x over it, follows from its corners'
+// offsets d from the site z, as in dual/centroids.cpp:
 //
 //     M = 1/2 sum over the edges of (d x d') + (t / sin(t) - 1) (z x (d' - d) + d x d').
 //
-// The center of mass lies along M, and as |x - z|^2 = 2 - 2 x.z, the energy is 2 area - 2 M.z. In small cells
-// 2 area - 2 M.z cancels down to area^2, so the energy has about 32 - 2 log2(1 / spacing) right bits less than a number: still
-// nine digits at a spacing of one kilometre.
+// The center of mass lies along M, and as |x - z|^2 = 2 - 2 x.z, the energy is 2 area - 2 M.z. In
+// small cells the two terms cancel down to area^2, so the energy loses about 2 log2(1 / spacing)
+// bits: nine digits are left at a spacing of one kilometer.
 
 #include "meshing/cell_shape.h"
 
@@ -25,7 +25,7 @@ namespace {
 
 using Vec = exact::Vector3<double>;
 
-// The corners of a cell on the unit sphere, relative to its site.
+// Returns the corners of a cell on the unit sphere, relative to its site.
 struct Offsets {
   const mesh::MeshArrays& arrays;
   Point site;
@@ -35,7 +35,7 @@ struct Offsets {
   }
 };
 
-// Whether the densities of the cell and its neighbors differ.
+// True if the densities of the cell and its neighbors differ.
 bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
   if (arrays.density.empty()) return false;
   for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
@@ -45,7 +45,8 @@ bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
   return false;
 }
 
-// The density of the mean spacing of the cells around: spacings are its power -1/4.
+// Returns the density that belongs to the mean spacing of the cells around a vertex; spacings are
+// its power -1/4.
 double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
   double sum = 0;
   double count = 0;
@@ -58,8 +59,9 @@ double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
   return square * square;
 }
 
-// The vector by which the center of mass moves from that of density 1. The density is linear in each triangle of the site and
-// two corners. The triangles are taken as plane ones, since the shift itself is small.
+// Returns how far the center of mass moves from that of constant density. The density is linear in
+// each triangle of the site and two corners. The triangles are treated as planar, since the shift
+// itself is small.
 Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the reports on quality ask of a cell, on the unit sphere.
+// The quantities of one cell that reports on quality need, on the unit sphere.
+//
+// in    the arrays of a mesh, a cell or an edge
+// out   numbers without unit, but for the spacing (radians) and the energy
 #pragma once
 
 #include <cstddef>
@@ -10,11 +13,13 @@
 
 namespace rondel::meshing {
 
+// The shape of a cell; mesh::CellQuality (rondel/mesh_quality.h) documents the ratios.
 struct CellShape {
   double spacing = 0;
   double centroid_offset =
-      0;              // in spacings; the center of mass is that of the density of the cells
-  double energy = 0;  // the integral of the squared distance from the site
+      0;              // distance of site and center of mass over the spacing; mass has the density
+                      // of the cells
+  double energy = 0;  // integral of the squared distance from the site over the cell
   double least_edge_ratio = 0;
   double side_ratio = 0;
   double distance_ratio = 0;
@@ -23,7 +28,8 @@ struct CellShape {
 
 CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell);
 
-// The difference of the spacings of the cells of an edge over their mean; 0 at the border.
+// Returns the difference of the spacings of the two cells of an edge over their mean; 0 at the
+// border.
 double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge);
 
 }  // namespace rondel::meshing

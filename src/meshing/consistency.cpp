@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether arrays of a mesh, which anybody may fill, can be walked through.
+// Checks that the arrays of a mesh, which callers may have filled, have the right sizes and indices
+// in range.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ void require_points(const char* name, unsigned threads, const std::vector<Point>
   });
 }
 
-// Whether no_index may be there: at the border of a mesh.
+// Whether an array may contain no_index, as at the border of a mesh.
 enum class None : std::uint8_t { refused, allowed };
 
 void require_size(const char* name, std::size_t size, std::size_t wanted) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A mesh without some of its cells: which edges and vertices stay, and the numbers of what does.
+// Removes cells from a mesh: decides which edges and vertices stay, and renumbers what stays.
 
 #include <algorithm>
 #include <array>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t cull_grain = 4096;
 
-// Numbers those that stay, whose entry is 0 before, in their order; returns how many.
+// Numbers the elements that stay, whose entry is not no_index before, in their order; returns how
+// many.
 std::size_t number_kept(std::vector<Index>& numbers) {
   Index next = 0;
   for (Index& number : numbers) {
@@ -62,7 +63,7 @@ class Culler {
     }
   }
 
-  // Calls keep(before, now) for all that stays of these.
+  // Calls keep(before, now) with the old and new number of each element that stays.
   template <class Keep>
   void for_each_kept(const std::vector<Index>& numbers, const Keep& keep) const {
     system::parallel_for(threads_, numbers.size(), cull_grain,

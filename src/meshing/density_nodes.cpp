@@ -11,7 +11,8 @@
 namespace rondel::mesh {
 namespace {
 
-// The rule of degree 4 with 6 nodes (Dunavant 1985): weights of sum 1, nodes (a, a, 1 - 2a) in any order.
+// The rule of degree 4 with 6 nodes (Dunavant 1985): the weights sum up to 1, the nodes are the
+// permutations of (a, a, 1 - 2a).
 struct Orbit {
   double weight;
   double a;
@@ -33,7 +34,8 @@ inline void DensityNodes::find_solids() {
   }
 }
 
-// The nodes at these parts of the corners, and the squares of the raster that they lie in.
+// Computes the nodes with these barycentric coordinates, and the squares of the raster in which
+// they lie.
 inline void DensityNodes::place_nodes(double of_first, double of_second) {
   const double scale = 0.5 * static_cast<double>(raster_.cube.steps);
   const auto last = static_cast<std::int32_t>(raster_.cube.steps - 1);
@@ -109,7 +111,7 @@ void DensityNodes::integrate() {
     const std::array<std::array<double, 2>, 3> places = {
         {{orbit.a, orbit.a}, {b, orbit.a}, {orbit.a, b}}};
     for (const auto& place : places) {
-      // By name: Clang 14 captures no structured bindings.
+      // Named variables are captured, since Clang 14 captures no structured bindings.
       const double of_first = place[0];
       const double of_second = place[1];
       system::with_wide_vectors([=, this]()

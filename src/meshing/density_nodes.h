@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Integrals over triangles from a site z to two corners of its cell, of a density: many triangles at once, in loops that
-// become vector code. The nodes are those of a rule of degree 4 in the plane triangle, moved to the sphere: where
-// x = p / |p|, the solid angle is det(z, a, b) / |p|^3 times that of the triangle's own coordinates.
+// Integrates a density over triangles between a site z and two corners of its cell, many triangles
+// at once, in loops that compilers vectorize. The nodes are those of a rule of degree 4 in the
+// plane triangle, projected to the sphere: at x = p / |p| the solid angle is det(z, a, b) / |p|^3
+// times the area element of the triangle's coordinates.
+//
+// in    for each lane a site and two corners relative to it; a size function
+// out   for each lane four integrals
+// index lanes
 #pragma once
 
 #include <array>
@@ -15,12 +20,12 @@
 
 namespace rondel::mesh {
 
-// Of a cell or a part of it, of the density rho.
+// Integrals over a cell or a part of it, with the density rho.
 struct CellSums {
-  exact::Vector3<double> moment;  // the integral of rho (x - z); of constant density: of x
+  exact::Vector3<double> moment;  // of rho (x - z); for constant density of x
   double mass;                    // of rho
   double area;                    // of 1
-  double energy;                  // of rho |x - z|^2; of constant density: z.M
+  double energy;                  // of rho |x - z|^2; for constant density z.moment
 };
 
 class DensityNodes {
@@ -29,13 +34,14 @@ class DensityNodes {
 
   explicit DensityNodes(const SizeFunction& size);
 
-  // The triangle of a lane: its site, and its corners relative to the site.
+  // Sets the triangle of a lane: its site, and its two other corners relative to the site.
   void set(std::size_t lane, const exact::Vector3<double>& site, const exact::Vector3<double>& a,
            const exact::Vector3<double>& b) {
     sites_.set(lane, site);
     first_.set(lane, a);
     second_.set(lane, b);
   }
+  // Computes the integrals of all lanes; operator[] returns them.
   void integrate();
   [[nodiscard]] CellSums operator[](std::size_t lane) const {
     return {moments_[lane], masses_[lane], areas_[lane], energies_[lane]};
@@ -65,12 +71,13 @@ class DensityNodes {
   const SizeFunction::Raster& raster_;
   VectorLanes sites_, first_, second_;
   alignas(64) Numbers solids_;
-  // Of one node in each triangle.
+  // The data of one node in each triangle.
   VectorLanes to_node_;
   alignas(64) Numbers inverse_;
-  alignas(64) Numbers s_, t_;  // where in the square of the raster
+  alignas(64) Numbers s_, t_;  // position of the node in its raster square, 0 to 1
   std::array<std::uint32_t, lanes> squares_;
-  alignas(64) std::array<std::array<float, lanes>, 4> corners_;  // of the raster
+  alignas(64) std::array<std::array<float, lanes>, 4> corners_;  // values of the raster at the
+                                                                 // corners of the square
   VectorLanes moments_;
   alignas(64) Numbers masses_, areas_, energies_;
 };

@@ -11,7 +11,8 @@ namespace rondel::mesh {
 namespace {
 
 constexpr std::size_t springs_grain = 1024;  // sites
-// Of the polynomial, and where its interval begins: below, softer waves are left to the sums over steps.
+// The degree of the polynomial, and the lower end of its interval. Softer waves are left to the
+// L-BFGS pairs.
 constexpr int springs_degree = 6;
 constexpr double softest_spring = 1.0 / (springs_degree * springs_degree);
 constexpr double springs_middle = 0.5 * (1 + softest_spring);

@@ -1,21 +1,26 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A model of the energy's second derivative that is never negative. The derivative itself is, with the wall between
-// the cells of i and j and its points x,
+// A model of the energy's second derivative that is never negative. The second derivative is, with
+// x the points on the wall between the cells of i and j,
 //
 //     H_ii = 2 mass_i - sum over j of W_ij,   H_ij = W_ij,
 //     W_ij = 2 density / |z_i - z_j| times the integral of x x' over the wall,
 //
-// and negative in some directions wherever edges are about to flip: a step that is solved with it goes far astray
-// there. Across the wall x is half an edge, along it x is little. Without what is along, each edge is a spring,
+// and it is negative in some directions wherever edges are about to flip, so that steps computed
+// with it are useless there. On a wall, the component of x across the wall is half an edge and the
+// component along it is small. Without the latter, each edge is a spring,
 //
 //     x.S x = sum over edges of k (e.(x_i - x_j))^2,   k = density |wall| |z_i - z_j| / 2,   e = its direction.
 //
-// In the lattice of hexagons S is 1.04 and 1.5 times H for long waves, along and across them. As (e.(x_i - x_j))^2
-// is at most 2 (x_i^2 + x_j^2), 0 <= S <= D with D = 2 sum k at each site, four times the mass of its cell. So a Chebyshev
-// polynomial in S / D stands in for the inverse of S: positive, without sums over all sites, and between Lloyd's step and
-// Newton's.
+// In the hexagonal lattice S is 1.04 and 1.5 times H for long waves, longitudinal and transverse.
+// As (e.(x_i - x_j))^2 is at most 2 (x_i^2 + x_j^2), 0 <= S <= D with D = 2 sum k at each site,
+// four times the mass of its cell. So a Chebyshev polynomial in S / D approximates the inverse of
+// S: it is positive, needs no sums over all sites, and its steps are between Lloyd's and Newton's.
+//
+// in    a tessellation; forces at the sites
+// out   displacements of the sites
+// index sites
 #pragma once
 
 #include <cstddef>
@@ -33,10 +38,12 @@ class EdgeSprings {
  public:
   explicit EdgeSprings(unsigned threads) : threads_(threads) {}
 
+  // Computes the springs of the tessellation.
   void measure(const MovingSurface& surface, std::span<const Point> sites,
                std::span<const SiteSums> sums);
 
-  // Forces become displacements, about S^-1 of them.
+  // Replaces forces by displacements, approximately S^-1 times the forces. `axes` are those of
+  // tangent.h.
   void yield(std::span<const Point> sites, std::span<const std::uint8_t> axes,
              std::span<TangentVector> forces);
 
@@ -49,7 +56,7 @@ class EdgeSprings {
   void relax(double keep, double gain);
 
   unsigned threads_;
-  std::vector<std::uint64_t> offsets_;  // of the springs of each site
+  std::vector<std::uint64_t> offsets_;  // by site: where its springs begin
   std::vector<Spring> springs_;
   std::vector<double> softness_;  // 1 / D
   std::vector<Vector> forces_;

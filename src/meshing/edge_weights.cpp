@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The weights of TRiSK. Around a cell, from an edge e counterclockwise to an edge e',
+// The weights of TRiSK (Thuburn et al. 2009). Around a cell, from an edge e counterclockwise to an
+// edge e',
 //
 //     w(e, e') = +-(1/2 - sum of the kites between e and e' / area of the cell) l(e') / d(e),
 //
-// l the length of the edge, d the distance of its cells. The sign is that with which the normal of e' leaves the
-// cell; and where the normal of e enters the cell, the opposite.
+// where l is the length of an edge and d the distance of its cells. The sign is positive if the
+// normal of e' points out of the cell, and is reversed if the normal of e points into the cell.
 
 #include "meshing/edge_weights.h"
 

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The rows of tangential_weights(), one by one: files are written without room for all.
+// The rows of tangential_weights(), one by one, so that files are written without memory for all of
+// them.
+//
+// in    the arrays of a mesh, an edge
+// out   the edges and weights of its row
 #pragma once
 
 #include <cstddef>
@@ -11,10 +15,10 @@
 
 namespace rondel::meshing {
 
-// How many entries the row of an edge has.
+// Returns how many entries the row of an edge has.
 std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge);
 
-// Writes the row of an edge to the first num_weights() places; either span may be empty.
+// Writes the row of an edge to the first num_weights() elements; either span may be empty.
 void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<Index> edges,
                    std::span<double> weights);
 

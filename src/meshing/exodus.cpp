@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Exodus II (https://sandialabs.github.io/seacas-docs/exodusII-new.pdf): cells as elements of a shell on the unit
-// sphere, a block for each number of corners. Numbers start at 1.
+// Exodus II (https://sandialabs.github.io/seacas-docs/exodusII-new.pdf): the cells are elements of
+// a shell on the unit sphere, in one block for each number of corners. Numbers start at 1.
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 namespace rondel::meshing {
 namespace {
 
-// What the library of Exodus reads into.
+// The lengths of the buffers into which the Exodus library reads.
 constexpr std::size_t exodus_name_length = 33;
 constexpr std::size_t exodus_line_length = 81;
 
@@ -26,7 +26,8 @@ void define_exodus_attributes(io::NetcdfWriter& out) {
   out.add_attribute("title", std::string("Rondel ") + version + ": Voronoi cells");
 }
 
-// All x, then all y and z: a file_size of 1 would have them in three variables, which TempestRemap does not read.
+// Defines one variable with all x, then all y, then all z. With a file_size of 1 the format has
+// three variables, which TempestRemap does not read.
 void define_coordinates(MeshFile& file, std::size_t axes, std::size_t nodes) {
   const mesh::MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();
@@ -37,7 +38,7 @@ void define_coordinates(MeshFile& file, std::size_t axes, std::size_t nodes) {
                });
 }
 
-// As TempestRemap names them.
+// Returns the name that TempestRemap gives to an element type.
 std::string element_type(std::size_t corners) { return "SHELL" + std::to_string(corners); }
 
 }  // namespace
@@ -97,11 +98,11 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
                    corners.visit(blocks.cells[begin + i],
                                  [&](Index v) { *out++ = static_cast<std::int32_t>(v + 1); });
                  });
-    // Of the Exodus library elem_num_map, of TempestRemap this.
+    // The Exodus library reads numbers of cells from elem_num_map, TempestRemap from this variable.
     file.indices(("global_id" + number).c_str(), in_block, {}, blocks.begins[b + 1] - begin,
                  [&blocks, begin](std::size_t i) { return blocks.cells[begin + i] + 1; });
   }
-  // Records come last.
+  // Record variables come last.
   file.numbers("time_whole", time, {}, 0, [](std::size_t) { return 0.0; });
 }
 

@@ -15,18 +15,19 @@ namespace {
 
 using dual::Vec;
 
-// Of a face: the circumcenter, and the p of each edge.
+// The circumcenter of a face, and the height p and length of each edge.
 struct FaceCenter {
   Vec normal;
   std::array<double, 3> heights;
   std::array<double, 3> lengths;
 };
 
-// Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
+// Differences of coordinates that are known to 2^-100 have a relative error of u/2 as long as their
+// square is above this bound.
 constexpr double least_square = 0x1p-90;
 
-// Flat faces and sites very close to each other: from the exact normal. There p is
-// n.(b x c) / |D|, with b x c = b x D.
+// Computes flat faces and faces of very close sites from the exact normal, where p = n.(b x c) /
+// |D| with b x c = b x D.
 FaceCenter careful_center(const dual::SplitSites& sites, const Triple& corners) {
   FaceCenter center{};
   center.normal =
@@ -98,7 +99,7 @@ double angle_of_chord(double length) {
   return 2 * exact::argument(half, std::sqrt((1 - half) * (1 + half)));
 }
 
-// The normal at the middle m is that of the plane of m and of the cross product a x b.
+// The normal of the edge at its midpoint m is that of the plane through m and a x b.
 EdgePlace edge_place(const Vec& a, const Vec& b) {
   const Vec m = normalized(a + b);
   const Vec to = b - a;

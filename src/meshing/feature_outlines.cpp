@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files cut polygons at longitude 180: one that crosses it becomes two, one with a side up the antimeridian, the other with a
-// side down it. The two sides need not have the same corners:
+// Files cut polygons at longitude 180. A polygon that crosses it becomes two: one has a side up the
+// antimeridian, the other a side down it. The two sides need not have the same corners:
 //
-//            |   b           the antimeridian is the half of a great circle where y = 0 and x <= 0; a place on it has
-//     a      |  ^ |          the number z / (1 - x), the tangent of half of its latitude. The sides that go up (of polygons
-//     |  up  v  | v down     to the west) and those that go down (to the east) are intervals of that number; the cuts are
-//     v      |               the common parts of both.
+//             |   b           The antimeridian is the half of a great circle where y = 0 and x <= 0. A point on it
+//      a      |  ^ |          has the number z / (1 - x), the tangent of half its latitude. The sides that go up
+//      |  up  v  | v down     (of polygons to the west) and those that go down (to the east) are intervals of that
+//      v      |               number; the cuts are the intersections of both.
 
 #include "meshing/feature_outlines.h"
 
@@ -34,7 +34,7 @@ struct MeridianPlace {
 };
 MeridianPlace meridian_place(const Point& p) { return {p.z / (1 - p.x), p}; }
 
-// Intervals without common parts, in order.
+// Disjoint intervals in increasing order.
 struct MeridianInterval {
   MeridianPlace low;
   MeridianPlace high;
@@ -70,7 +70,7 @@ MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b)
 
 class AntimeridianCut {
  public:
-  // The last point of each closed line is the first.
+  // Finds the cuts of closed lines, whose last point is their first one.
   explicit AntimeridianCut(const std::vector<OutlinePoints>& closed_lines) {
     MeridianIntervals up;
     MeridianIntervals down;
@@ -86,7 +86,8 @@ class AntimeridianCut {
     cuts_ = common(united(std::move(up)), united(std::move(down)));
   }
 
-  // Appends the part of a closed line that is no cut: the line itself to `whole`, or pieces of it to `parts`.
+  // Appends what is left of a closed line without the cuts: the line itself to `whole` if it has
+  // none, otherwise its pieces to `parts`.
   void append_rest(const OutlinePoints& line, std::vector<OutlinePoints>& whole,
                    std::vector<OutlinePoints>& parts) const {
     std::vector<OutlinePoints> found = {{}};
@@ -95,7 +96,7 @@ class AntimeridianCut {
       whole.push_back(line);
       return;
     }
-    // The line begins anywhere, so its first and last parts are one.
+    // A closed line may begin anywhere, so its first and last parts are joined.
     OutlinePoints& last = found.back();
     if (!last.empty() && !found.front().empty()) {
       last.insert(last.end(), found.front().begin() + 1, found.front().end());
@@ -109,13 +110,13 @@ class AntimeridianCut {
   }
 
  private:
-  // A new part begins behind each cut.
+  // Appends a side to the last part; after each cut a new part begins.
   void append_side(const Point& from, const Point& to, std::vector<OutlinePoints>& found) const {
     const auto append = [&](const Point& p, const Point& q) {
       if (found.back().empty()) found.back().push_back(p);
       found.back().push_back(q);
     };
-    if (from == to) return;  // all positions at a pole are one place
+    if (from == to) return;  // all positions at a pole are one point
     if (!is_on_antimeridian(from) || !is_on_antimeridian(to)) {
       append(from, to);
       return;
@@ -143,7 +144,8 @@ class AntimeridianCut {
   MeridianIntervals cuts_;
 };
 
-// Joins parts that end where others begin into one line, which is closed if it comes back.
+// Joins parts that end where others begin into lines, which are closed if they return to their
+// beginning.
 class PartJoin {
  public:
   explicit PartJoin(std::vector<OutlinePoints> parts) : parts_(std::move(parts)) {

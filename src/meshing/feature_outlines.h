@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Features of a file as lines that a mesh follows.
+//
+// in    points, lines and polygons of a table of features
+// out   lines as unit vectors
 #pragma once
 
 #include <vector>
@@ -12,14 +15,16 @@
 
 namespace rondel::meshing {
 
-// The lines and points of the features, and the outlines of their polygons, which are closed: the last point is the first.
+// Returns the points and lines of the features, and the outlines of their polygons, whose last
+// point is the first one.
 //
-// 1. Where one polygon, or closed line, ends at the antimeridian and another, or the same, begins, there is no outline:
-//    files cut polygons that cross it, and lead polygons around a pole along it. Outlines go on across the cut.
+// 1. Where one polygon or closed line ends at the antimeridian and another, or the same, begins,
+//    the side along it is no outline, since files cut polygons there, and lead polygons around a
+//    pole along it. The outlines continue across the cut.
 // 2. A point is a line of one position.
 std::vector<std::vector<Point>> outlines_of(const FeatureTable& features);
 
-// Whether the file has features, by its format or its ending; others have sites.
+// True if the file has features, by its format or its ending; other files have sites.
 bool is_geojson(const FileName& file);
 
 }  // namespace rondel::meshing

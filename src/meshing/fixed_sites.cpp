@@ -15,10 +15,10 @@
 namespace rondel::mesh {
 namespace {
 
-// Within 3 * 2^-53 of length 1, with the rounding of the square: what MovingSurface takes.
+// MovingSurface accepts lengths within 3 * 2^-53 of 1; the square adds a rounding error.
 bool is_unit(const Point& p) { return std::abs(dot(p, p) - 1) <= 4 * 0x1p-53; }
 
-// Unit vectors as they are, others shortened.
+// Returns the places as unit vectors; those that are unit vectors already stay bit by bit.
 std::vector<Point> kept_units(std::span<const Point> places) {
   std::vector<Point> units = unit_places(places);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -27,7 +27,8 @@ std::vector<Point> kept_units(std::span<const Point> places) {
   return units;
 }
 
-// No two places are in one, and after rounding none of their sites.
+// Throws InvalidInput if two places have the same direction, or get the same unit vector by
+// rounding.
 void require_apart(std::span<const Point> places, unsigned threads) {
   if (places.size() < 2) return;
   const Triangulation triangulation =
@@ -82,7 +83,7 @@ std::vector<Index> take_nearest(std::vector<Point>& sites, std::span<const Point
         taken.push_back(*at);
         break;
       }
-      // The other sites are duplicates, which relaxing refuses.
+      // The remaining sites are duplicates, which relaxed() refuses.
       if (k >= num_vertices) throw InvalidInput("the sites have duplicates");
     }
   }

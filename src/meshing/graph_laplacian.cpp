@@ -14,9 +14,11 @@ namespace rondel::mesh {
 namespace {
 
 constexpr std::size_t coarsest_size = 40;
-// Jacobi's step: L of a triangulation has eigenvalues below 2 diagonal, these smooth the upper half.
+// The factor of Jacobi's step: L of a triangulation has eigenvalues below twice its diagonal, and
+// this factor damps the upper half of them.
 constexpr double damping = 0.6;
-// Constant values of a group understate what a coarse correction is worth (Braess, Computing 55, 1995).
+// Piecewise constant corrections are too small (Braess, Computing 55, 1995), so they are multiplied
+// by this.
 constexpr double overcorrection = 1.6;
 constexpr int coarsest_sweeps = 60;
 
@@ -35,8 +37,8 @@ void take_mean_off(std::vector<double>& x) {
   for (double& value : x) value -= mean;
 }
 
-// A vertex that no group has yet begins one, with its neighbors that have none; where only few are
-// left, it goes to the group of the neighbor that it is tied to most.
+// Groups vertices: a vertex that has no group begins one with its neighbors that have none; if
+// these are few, it joins the group of the neighbor with the largest weight.
 std::vector<Index> groups_of(const WeightedGraph& graph, Index& num_groups) {
   std::vector<Index> group(graph.size(), no_index);
   num_groups = 0;
@@ -79,7 +81,7 @@ WeightedGraph coarse_graph(const WeightedGraph& fine, const std::vector<Index>& 
 
   WeightedGraph coarse;
   coarse.offsets.push_back(0);
-  std::vector<std::uint64_t> place(num_groups, 0);  // 1 + where the row has this neighbor
+  std::vector<std::uint64_t> place(num_groups, 0);  // 1 + the position of this neighbor in the row
   for (std::size_t g = 0; g < num_groups; ++g) {
     const std::size_t begin = coarse.neighbors.size();
     for (auto m = starts[g]; m < starts[g + 1]; ++m) {
@@ -143,7 +145,8 @@ void LaplacianSolver::smooth(GraphLevel& level) const {
   }
 }
 
-// Before and after the coarse correction the same symmetric smoother, so that the cycle is symmetric.
+// Smooths in the same symmetric way before and after the coarse correction, so that the cycle is
+// symmetric.
 void LaplacianSolver::cycle(std::size_t number) {
   GraphLevel& level = levels_[number];
   std::ranges::fill(level.solution, 0.0);

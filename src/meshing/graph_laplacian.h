@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Solves L x = b for the Laplacian of a connected graph with positive weights, (L x)_i = sum over the
-// neighbors j of w_ij (x_i - x_j): conjugate gradients, preconditioned by a cycle over coarser graphs. A coarse
-// vertex is a group of vertices; between coarse vertices the weights add up. Sums have a fixed order.
+// Solves L x = b for the Laplacian of a connected graph with positive weights, (L x)_i = sum over
+// the neighbors j of w_ij (x_i - x_j), by conjugate gradients that are preconditioned by a
+// multigrid cycle. A coarse vertex is a group of vertices; the weights between groups add up. Sums
+// have a fixed order.
+//
+// in    a symmetric weighted graph, a right-hand side
+// out   the solution with mean 0
+// index vertices of the graph
 #pragma once
 
 #include <cstddef>
@@ -15,12 +20,13 @@
 
 namespace rondel::mesh {
 
-// In compressed rows: the neighbors of i are neighbors[offsets[i]] ... [offsets[i+1]-1]; symmetric.
+// A graph in compressed rows: the neighbors of vertex i are neighbors[offsets[i]] ...
+// [offsets[i+1]-1], each edge is in both rows.
 struct WeightedGraph {
   std::vector<std::uint64_t> offsets;
   std::vector<Index> neighbors;
   std::vector<double> weights;
-  std::vector<double> diagonal;  // the sums of the rows
+  std::vector<double> diagonal;  // sum of the weights of each row
 
   [[nodiscard]] std::size_t size() const { return diagonal.size(); }
 };
@@ -29,15 +35,16 @@ class LaplacianSolver {
  public:
   LaplacianSolver(WeightedGraph graph, unsigned threads);
 
-  // The solution with mean 0, to this part of the right-hand side's length, or after the most steps. The mean of
-  // the right-hand side is taken off. Returns the number of steps.
+  // Solves until the residual is `tolerance` times as long as the right-hand side, or for
+  // `most_steps` steps, and returns the number of steps. The mean of the right-hand side is
+  // subtracted first; the solution has mean 0.
   int solve(std::span<const double> right, double tolerance, int most_steps,
             std::vector<double>& solution);
 
  private:
   struct GraphLevel {
     WeightedGraph graph;
-    std::vector<Index> group;  // the coarse vertex of each
+    std::vector<Index> group;  // by vertex: its coarse vertex
     std::vector<double> right;
     std::vector<double> solution;
     std::vector<double> rest;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells for remapping: SCRIP's grid file and ESMF's unstructured mesh file
+// Writes cells for remapping: SCRIP's grid file and ESMF's unstructured mesh file
 // (https://earthsystemmodeling.org/docs/release/latest/ESMF_refdoc/node3.html).
 
 #include <algorithm>
@@ -21,7 +21,7 @@ double area_at_one(const mesh::MeshArrays& arrays, std::size_t cell) {
   return arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
 }
 
-// The corners of a cell, the last one repeated to the end of its row.
+// Defines the corners of each cell; the last one is repeated to the end of the row.
 void define_corners(MeshFile& file, const char* name, std::vector<std::size_t> dimensions,
                     const CellCorners& corners, double (*coordinate)(const Point&)) {
   const mesh::MeshArrays& arrays = file.arrays();
@@ -45,7 +45,7 @@ void define_pairs_of_degrees(MeshFile& file, const char* name, std::vector<std::
                });
 }
 
-// ESMF's type is a byte, as long as it is enough.
+// ESMF stores counts as bytes if these suffice.
 template <typename T>
 void define_counts(MeshFile& file, io::NetcdfType type, std::size_t cells,
                    const CellCorners& corners) {

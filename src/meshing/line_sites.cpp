@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites on lines, and on both sides of them. A pair of dividers walks along the line: opened by a spacing, it stands on sites;
-// opened by half a spacing, there is a site where it stands, in turn to the left and to the right:
+// Places sites on lines, and on both sides of them. A pair of dividers walks along the line. Opened
+// by a spacing, it stands on sites of the line; opened by half a spacing, it stands beside sites
+// that are in turn to the left and to the right:
 //
 //     L       L       L             the rows of a lattice of hexagons, the line in the middle; edges of cells
 //   .   .   .   .   .   .   line    go to and fro between the rows, and their corners are a quarter of the side
 //         R       R       R         of a hexagon, 0.144 of the spacing, away from the line
 //
-// Where the line is smooth: its curvature adds (spacing / 2)^2 / (8 radius) at most.
+// This holds where the line is smooth: its curvature adds at most (spacing / 2)^2 / (8 radius).
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,12 @@ namespace {
 
 using StationVector = exact::Vector3<double>;
 
-// Distances over the spacing: between two stations of sites on a line, of rows beside it; from the line to a row, half of the
-// height of a triangle.
+// Distances in units of the spacing: between two sites on a line, between two stations of rows
+// beside it, and from the line to a row, which is half the height of a triangle.
 constexpr double whole_step = 1;
 constexpr double half_step = 0.5;
 constexpr double row_offset = 0.43301270189221935;  // sqrt(3) / 4
-// Nearer than this, over the spacing, a site is too near to another site, and to a station.
+// The least distances, in units of the spacing, from a site to other sites and to stations.
 constexpr double least_site_distance = 0.7;
 constexpr double least_station_distance = 0.3;
 constexpr std::size_t fewest_stations = 6;
@@ -44,14 +45,14 @@ constexpr int most_fits = 8;
 struct Stations {
   std::vector<Point> places;
   std::vector<double> spacings;
-  double steps = 0;  // of the whole line, the last one in part
+  double steps = 0;  // length of the whole line in steps, the last one counted in part
 };
 
 class LineWalk {
  public:
   LineWalk(const std::vector<Point>& line, const SizeFunction& size) : line_(line), size_(size) {}
 
-  // Walks from the first point on, in steps of so many spacings.
+  // Walks from the first point on in steps of `spacings` times the local spacing.
   [[nodiscard]] Stations walk(double spacings, std::size_t most) const {
     Stations found;
     Point at = line_.front();
@@ -82,14 +83,16 @@ class LineWalk {
     return exact::to_point(normalized(a + along * (b - a)));
   }
 
-  // To the first place that is so far away; false if there is none up to the end.
+  // Moves to the first place at the distance `step`; returns false if there is none up to the end
+  // of the line.
   bool advance(Point& at, std::size_t& segment, double& along, double step) const {
     const Point from = at;
     while (distance(from, line_[segment + 1]) < step) {
       if (++segment + 1 == line_.size()) return false;
       along = 0;
     }
-    // Distances from a place grow along an arc once they do, so this bisection finds where one is passed.
+    // Once the distance from a place grows along an arc it keeps growing, so bisection finds where
+    // it reaches `step`.
     double low = along;
     double high = 1;
     for (int i = 0; i < 60; ++i) {
@@ -106,13 +109,14 @@ class LineWalk {
 };
 
 bool is_closed(const std::vector<Point>& line) {
-  // As of corners in files, positions so near are one.
+  // Positions that are so close count as one, as for corners in files.
   constexpr double same_place = 1e-10;
   return line.size() > 3 && norm(line.front() - line.back()) < same_place;
 }
 
-// Steps of about `step` spacings whose number is a multiple of `multiple`, and which end where the line does, or nearly so;
-// none if that are fewer than `fewest`. The station at the end is left out.
+// Returns stations with a step of about `step` spacings such that their number is a multiple of
+// `multiple` and the last one is nearly at the end of the line. Returns none if they are fewer than
+// `fewest`. The station at the end is left out.
 Stations fitted_stations(const LineWalk& line, double step, std::size_t multiple,
                          std::size_t fewest, std::size_t most) {
   const auto unit = static_cast<double>(multiple);
@@ -139,10 +143,10 @@ Stations fitted_stations(const LineWalk& line, double step, std::size_t multiple
 }
 
 struct LineCandidates {
-  std::vector<Point> stations;  // from which rows keep away; none for sites on lines
+  std::vector<Point> stations;  // places from which rows keep away; empty for sites on lines
   std::vector<Point> sites;
   std::vector<double> spacings;
-  std::size_t num_certain = 0;  // the first ones, which are taken wherever they are
+  std::size_t num_certain = 0;  // the first candidates, which are taken wherever they are
 };
 
 void add_rows(const Stations& stations, bool closed, LineCandidates& candidates) {
@@ -162,7 +166,7 @@ void add_rows(const Stations& stations, bool closed, LineCandidates& candidates)
   }
 }
 
-// The candidates that are far enough from those taken before them, and from stations.
+// Returns the candidates that are far enough from those taken before them, and from stations.
 LineSites sites_apart(const LineCandidates& candidates, const Execution& execution) {
   LineSites result;
   const std::size_t n = candidates.sites.size();
@@ -209,7 +213,7 @@ void require_line(const std::vector<Point>& line, std::size_t index) {
   }
 }
 
-// As unit vectors, without points that repeat the one before.
+// Returns the line as unit vectors, without points that repeat the one before.
 std::vector<Point> line_of_units(const std::vector<Point>& line, std::size_t index) {
   std::vector<Point> units;
   for (const Point& p : unit_places(line)) {
@@ -229,7 +233,8 @@ struct WalkedLine {
   bool closed;
 };
 
-// The dividers walk along each line of two points or more, with steps that `stations_of` fits; longest lines come first.
+// Walks along each line of two or more points with the steps that `stations_of` finds. The longest
+// lines come first.
 template <class StationsOf>
 std::vector<WalkedLine> walked_lines(std::span<const std::vector<Point>> lines,
                                      const SizeFunction& size, const StationsOf& stations_of) {

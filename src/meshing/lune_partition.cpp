@@ -19,11 +19,13 @@ namespace {
 
 using PlaneVector = exact::Vector3<double>;
 
-// Unit vectors are known to 2 * 2^-53, the products of their differences with a normal to a few times that.
+// Unit vectors have errors of 2 * 2^-53, and the products of their differences with a normal a few
+// times that.
 constexpr double circle_tolerance = 0x1p-49;
-// Cosines that vanish by rounding, at the ends of the range.
+// At the ends of the range cosines vanish by rounding; this replaces them.
 constexpr double least_cosine = 0x1p-500;
-// In degrees: neighbors so near to 180 degrees apart are opposite.
+// Neighbors whose distance differs from 180 degrees by less than this many degrees count as
+// opposite.
 constexpr double opposite_tolerance = 1e-12;
 constexpr int most_bisections = 200;
 constexpr int searched_places = 4096;
@@ -33,7 +35,8 @@ struct PlanePlace {
   double y;
 };
 
-// The normal of the plane of the first site and the one that is nearest to a right angle from it.
+// Returns the normal of the plane of the first site and the site that is nearest to a right angle
+// from it.
 PlaneVector circle_normal(std::span<const Point> units) {
   const PlaneVector first = exact::to_vector(units[0]);
   PlaneVector best = {0, 0, 0};
@@ -44,7 +47,7 @@ PlaneVector circle_normal(std::span<const Point> units) {
   return best;
 }
 
-// The product of quotients as m 2^e, so that it neither overflows nor vanishes.
+// A product of quotients as m 2^e, so that it neither overflows nor underflows.
 class LongProduct {
  public:
   void multiply(double factor) {
@@ -91,7 +94,7 @@ class Lunes {
     const std::optional<double> start = is_opposite_ ? start_if_in_range() : solution();
     if (!start) return found;
     std::vector<double> result(places_.size());
-    // Begins behind the widest gap, whose quotient may be free.
+    // The product begins after the widest gap, whose quotient may be free.
     const std::size_t n = places_.size();
     double weight = 1;
     for (std::size_t i = 1; i <= n; ++i) {
@@ -112,7 +115,7 @@ class Lunes {
     return k + 1 < angles_.size() ? angles_[k + 1] - angles_[k] : angles_[0] + 360 - angles_[k];
   }
 
-  // The signs of all cosines are right for p_0 between low_ and high_.
+  // Sets low_ and high_ such that all cosines have the right signs for p_0 between them.
   void set_range() {
     const std::size_t n = angles_.size();
     for (std::size_t k = 1; k < n; ++k) {
@@ -160,7 +163,7 @@ class Lunes {
 
   [[nodiscard]] std::optional<double> solution() const {
     if (!(low_ < high_)) return std::nullopt;
-    // Beside the ends the product is large at the low one, and small at the high one, where it falls.
+    // Where the product falls, it is large near the low end and small near the high end.
     const bool above_at_low = falls_at_low_;
     const bool above_at_high = !falls_at_high_;
     double low = low_;
@@ -184,8 +187,8 @@ class Lunes {
   std::vector<PlanePlace> places_;  // in that order
   std::vector<double> angles_;      // f, in degrees
   std::vector<double> turns_;       // p - p_0, in degrees
-  std::size_t widest_ = 0;          // the gap between this place and the next
-  bool is_opposite_ = false;        // the places at that gap are
+  std::size_t widest_ = 0;          // the place after which the widest gap comes
+  bool is_opposite_ = false;        // the two places at that gap are opposite
   double low_ = -1000;
   double high_ = 1000;
   bool falls_at_low_ = true;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The arrays of a mesh from a triangulation: a vertex for each face, an edge for each pair of halfedges,
-// numbered where the lower face has it. Each array is filled in pieces that write to places of their own.
+// Makes the arrays of a mesh from a triangulation: a vertex for each face, and an edge for each
+// pair of halfedges, numbered where the face of the lower number has it. Threads fill disjoint
+// parts of each array.
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,8 @@ using dual::previous_corner;
 
 constexpr std::size_t mesh_grain = 4096;
 
-// Where an edge is this short, predicates say whether it has a length at all: circumcenters are right to 4u, and
-// sums of arcs to less.
+// For edges shorter than this, predicates decide whether their length is 0, since circumcenters
+// have errors of 4u and sums of arcs less.
 constexpr double least_certain_arc = 0x1p-48;
 
 class MeshMaker {
@@ -72,7 +73,7 @@ class MeshMaker {
   }
   void announce(double fraction) const { system::announce(execution_, "mesh", fraction); }
 
-  // edges_of_[3f + i] for every halfedge.
+  // Sets edges_of_[3f + i] for every halfedge.
   void number_edges() {
     edges_of_.resize(3 * faces_.size());
     std::vector<Index> firsts(system::num_pieces(faces_.size(), mesh_grain) + 1, 0);
@@ -103,7 +104,7 @@ class MeshMaker {
     num_edges_ = firsts.back();
   }
 
-  // The other half of an edge.
+  // Returns the other halfedge of an edge.
   [[nodiscard]] std::size_t across(Index f, Index i) const {
     const Index g = neighbors_[f][i];
     return 3 * static_cast<std::size_t>(g) + mirror_corner(faces_[f], i, faces_[g]);
@@ -136,7 +137,7 @@ class MeshMaker {
     arrays_.cell_distances.resize(num_edges_);
     arrays_.vertex_distances.resize(num_edges_);
     arrays_.normal_angles.resize(num_edges_);
-    // The first edge of each piece without a length.
+    // By piece: the first edge of length 0.
     std::vector<std::size_t> zeros(system::num_pieces(faces_.size(), mesh_grain), no_halfedge);
     in_pieces(faces_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
@@ -152,7 +153,7 @@ class MeshMaker {
     if (zero != zeros.end() && !options_.allow_zero_edges) refuse_zero_edge(*zero);
   }
 
-  // Whether it has a length.
+  // Sets what belongs to an edge; returns false if its length is 0.
   bool set_edge(Index f, Index i) {
     const std::size_t edge = edges_of_[3 * static_cast<std::size_t>(f) + i];
     const std::size_t other = across(f, i);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-// Rounding may carry an angle just below 0 to a whole turn.
+// Rounding may turn an angle just below 0 into a whole turn, which becomes 0.
 double in_turn(double angle, double whole) {
   const double moved = angle < 0 ? angle + whole : angle;
   return moved < whole ? moved : 0;
@@ -68,7 +68,7 @@ void MeshFile::write(const NetcdfOptions& options) {
   out_.finish();
 }
 
-// Each vertex goes to the lowest of those that it is joined with.
+// Each vertex is represented by the lowest of the vertices with which it is joined.
 CellCorners::CellCorners(const mesh::MeshArrays& arrays) : arrays_(arrays) {
   if (std::ranges::find(arrays.vertex_distances, 0.0) == arrays.vertex_distances.end()) return;
   joined_.resize(arrays.num_vertices());

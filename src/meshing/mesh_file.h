@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A netCDF file of a mesh as it is made: first all variables, each with a function that fills its rows, then
-// all of their values.
+// Writes a netCDF file of a mesh: first all variables are defined, each with a function that
+// computes its rows, then all values are written.
+//
+// in    the arrays of a mesh
+// out   a netCDF file in one of the mesh conventions
+// index rows of a variable: cells, edges or vertices, counted from 0 here
 #pragma once
 
 #include <algorithm>
@@ -32,7 +36,8 @@ class MeshFile {
     return out_.add_dimension(name, size);
   }
 
-  // A variable of so many rows; fill(row, values) sets the values of one, which are 0 before.
+  // Defines a variable of `rows` rows of `of_each` values; fill(row, values) sets the values of a
+  // row, which are 0 before. It is called when the file is written.
   template <typename T, typename Fill>
   void add(io::NetcdfVariable variable, std::size_t rows, std::size_t of_each, Fill fill) {
     out_.add_variable(std::move(variable));
@@ -45,25 +50,28 @@ class MeshFile {
                          });
     });
   }
+  // Defines a variable of doubles with fill(row, values).
   template <typename Fill>
   void numbers(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
                std::size_t of_each, Fill fill) {
     add<double>(variable(name, io::NetcdfType::float64, std::move(dimensions), texts), rows,
                 of_each, fill);
   }
-  // value(row).
+  // Defines a variable of doubles with one value a row, value(row).
   template <typename Value>
   void numbers(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
                Value value) {
     numbers(name, std::vector{dimension}, texts, rows, 1,
             [value](std::size_t i, double* out) { *out = value(i); });
   }
+  // Defines a variable of 32-bit integers with fill(row, values).
   template <typename Fill>
   void indices(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
                std::size_t of_each, Fill fill) {
     add<std::int32_t>(variable(name, io::NetcdfType::int32, std::move(dimensions), texts), rows,
                       of_each, fill);
   }
+  // Defines a variable of 32-bit integers with one value a row, value(row).
   template <typename Value>
   void indices(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
                Value value) {
@@ -74,10 +82,10 @@ class MeshFile {
 
   static io::NetcdfVariable variable(const char* name, io::NetcdfType type,
                                      std::vector<std::size_t> dimensions, Texts texts);
-  // Attributes of a number.
+  // Adds an attribute that is a number.
   static void set(io::NetcdfVariable& variable, const char* name, double number);
 
-  // Throws BadValue.
+  // Writes header and values. Throws BadValue if the mesh is too large for the netCDF format.
   void write(const NetcdfOptions& options);
 
  private:
@@ -87,15 +95,17 @@ class MeshFile {
   std::vector<std::function<void()>> writes_;
 };
 
-// Longitude from 0 to below a turn and latitude of a point, radians or degrees.
+// Return the longitude, from 0 to less than a full circle, and the latitude of a point, in radians
+// or degrees.
 double longitude_of(const Point& p);
 double latitude_of(const Point& p);
 double longitude_deg_of(const Point& p);
 double latitude_deg_of(const Point& p);
-// Within a thousandth, so that single precision, too, is.
+// True if |p| is the radius up to a relative 0.001, which allows for single precision.
 bool is_on_sphere(const Point& p, double radius);
 
-// The corners of cells: the vertices, where those that edges without length join are one.
+// The corners of cells: the vertices, where vertices that are joined by an edge of length 0 count
+// as one.
 class CellCorners {
  public:
   explicit CellCorners(const mesh::MeshArrays& arrays);
@@ -125,24 +135,27 @@ class CellCorners {
   }
 
   const mesh::MeshArrays& arrays_;
-  std::vector<Index> joined_;  // empty: every vertex is its own
+  std::vector<Index> joined_;  // by vertex: the corner; empty if every vertex is a corner
 };
 
-// One function each for the formats: the definitions, and what fills them.
+// Each of these defines the variables of one convention.
 void define_mpas(MeshFile& file);
 void define_ugrid(MeshFile& file, const CellCorners& corners);
 void define_scrip(MeshFile& file, const CellCorners& corners);
 void define_esmf(MeshFile& file, const CellCorners& corners);
-// The blocks live as long as the file is written.
+// The cells of an Exodus file, grouped into blocks by their number of corners. They must live until
+// the file is written.
 struct CellBlocks {
-  std::vector<Index> cells;         // by their number of corners, then by number
-  std::vector<std::size_t> begins;  // of the blocks in `cells`, and the end
+  std::vector<Index> cells;         // sorted by number of corners, then by index
+  std::vector<std::size_t> begins;  // begin of each block in `cells`, and the end
+  // by block: the number of corners of its cells
   std::vector<std::size_t> corners;
 };
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
-// Whether an edge has one cell alone, or a vertex less than three: whether one of these cells is none.
+// True if an edge has only one cell, or a vertex fewer than three: if one of these cells is
+// no_index.
 template <class Cells>
 bool is_at_border(const Cells& cells) {
   return std::ranges::find(cells, no_index) != cells.end();

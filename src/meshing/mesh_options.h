@@ -9,7 +9,8 @@
 
 namespace rondel::meshing {
 
-// Throws InvalidInput for a radius or densities that a mesh of so many cells cannot have.
+// Throws InvalidInput if the radius is not positive and finite, or the densities are not one
+// positive number a site.
 void require_options(const mesh::MeshOptions& options, std::size_t num_sites);
 
 }  // namespace rondel::meshing

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// MPAS mesh files: "MPAS Mesh Specification", version 1.0, 2015, and what MPAS-Tools' converter writes besides.
-// Numbers start at 1; 0, which fills rows, is none.
+// Writes MPAS mesh files by "MPAS Mesh Specification", version 1.0, 2015, with what MPAS-Tools'
+// converter writes besides. Numbers start at 1; rows are filled with 0, which stands for none.
 
 #include <algorithm>
 #include <array>
@@ -22,15 +22,15 @@ namespace {
 
 using mesh::MeshArrays;
 
-// The dimensions that variables name.
+// The sizes and dimensions of the variables.
 struct MpasSizes {
   std::size_t cells, edges, vertices, max_edges, max_edges_2, two, degree;
-  std::size_t of_cell, of_edge;  // rooms of rows
+  std::size_t of_cell, of_edge;  // lengths of rows
 };
 
 constexpr MeshFile::Texts radians = {{"units", "rad"}};
 
-// Ten digits of base 36.
+// Returns ten digits of base 36.
 std::string id_of(std::uint64_t hash) {
   constexpr std::string_view digits = "0123456789abcdefghijklmnopqrstuvwxyz";
   std::string id;
@@ -38,10 +38,10 @@ std::string id_of(std::uint64_t hash) {
   return id;
 }
 
-// Of no_index 0.
+// Returns the number that counts from 1, or 0 for no_index.
 std::int32_t one_based(Index index) { return static_cast<std::int32_t>(index + 1); }
 
-// What there is of cells, edges and vertices alike: where they are, and their numbers.
+// Defines what cells, edges and vertices have in common: coordinates and numbers.
 void define_places(MeshFile& file, const std::string& kind, std::size_t dimension,
                    const std::vector<Point>& points) {
   const std::size_t size = points.size();
@@ -58,14 +58,14 @@ void define_places(MeshFile& file, const std::string& kind, std::size_t dimensio
                [](std::size_t i) { return i + 1; });
 }
 
-// Arrays as they are.
+// Defines a variable with the values of an array.
 void define_values(MeshFile& file, const char* name, std::size_t dimension, MeshFile::Texts texts,
                    const std::vector<double>& values) {
   file.numbers(name, dimension, texts, values.size(),
                [&values](std::size_t i) { return values[i]; });
 }
 
-// Rows of an array in compressed rows.
+// Defines rows of fixed length from an array in compressed rows.
 void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
                  const std::vector<Index>& ring) {
   const MeshArrays& arrays = file.arrays();
@@ -98,7 +98,7 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
   define_values(file, "areaCell", sizes.cells, {}, arrays.cell_areas);
   file.numbers("meshDensity", sizes.cells, {}, size,
                [&arrays](std::size_t i) { return arrays.density.empty() ? 1 : arrays.density[i]; });
-  // MPAS-Tools: the least distance of neighbors over the largest; the mean distance.
+  // As in MPAS-Tools: the least distance of neighbors over the largest, and the mean distance.
   const auto distances = [&arrays](std::size_t i) {
     std::array<double, 3> found = {arrays.cell_distances[arrays.edges_on_cell[arrays.offsets[i]]],
                                    0, 0};
@@ -154,7 +154,7 @@ Corners corners_of(const MeshArrays& arrays, std::size_t v) {
   return corners;
 }
 
-// Calls visit(to, from) for the two sides of each corner.
+// Calls visit(to, from) with the two sides at each corner.
 template <class Visit>
 void for_each_angle(const Corners& corners, const Visit& visit) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -162,8 +162,8 @@ void for_each_angle(const Corners& corners, const Visit& visit) {
   }
 }
 
-// Of triangles, as MPAS-Tools has them: (a + b - c)(b + c - a)(c + a - b) / (a b c) of their sides, 1 where they are
-// equal; the smallest angle over the largest.
+// Qualities of triangles as in MPAS-Tools: (a + b - c)(b + c - a)(c + a - b) / (a b c) of the
+// sides, which is 1 for equal sides; and the smallest angle over the largest.
 double side_quality(const Corners& corners) {
   const double a = norm(corners[1] - corners[2]);
   const double b = norm(corners[2] - corners[0]);
@@ -199,7 +199,7 @@ void define_vertices(MeshFile& file, const MpasSizes& sizes) {
   file.numbers(
       "kiteAreasOnVertex", {sizes.vertices, sizes.degree}, {}, size, 3,
       [&arrays](std::size_t v, double* out) { std::ranges::copy(arrays.kite_areas[v], out); });
-  // At the border there is no triangle.
+  // A vertex at the border has no triangle.
   const auto is_whole = [&arrays](std::size_t v) {
     return !is_at_border(arrays.cells_on_vertex[v]);
   };

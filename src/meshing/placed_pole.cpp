@@ -18,24 +18,26 @@ namespace {
 
 using exact::DoubleDouble;
 
-// A turn moves walls as much as a length does that is this part of the spacing times it: less than one of these parts of
-// the length, a coordinate is not moved, which would turn too far.
+// Turning by an angle moves walls as much as lengthening by this part of the spacing times the
+// angle does. A coordinate that is smaller than that part of the length is not changed, since it
+// would turn too far.
 constexpr double turn_part = 0.25;
-// A coordinate whose last bit changes the length by less than this part of what that of the largest one does is
-// rounded to; of others, some steps each way are tried, more of a single one.
+// If the last bit of a coordinate changes the length by less than this part of what the last bit of
+// the largest coordinate does, the coordinate is rounded; for the others some steps each way are
+// tried, and more if there is only one.
 constexpr double fine_part = 1.0 / 16;
 constexpr int most_steps = 6;
 constexpr int most_steps_of_one = 64;
-// What two weights may differ by and still need no scaling.
+// Two weights may differ by this part without being scaled.
 constexpr double little = 0x1p-46;
 
-// The power of two below |x|.
+// Returns the largest power of two that is at most |x|.
 double power_below(double x) {
   constexpr std::uint64_t exponent_bits = 0x7ff0'0000'0000'0000;
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent_bits);
 }
 
-// weight - |p|, from the exact difference of the squares.
+// Returns weight - |p|, computed from the exact difference of the squares.
 double missing_length(const std::array<double, 3>& p, const DoubleDouble& weight) {
   const DoubleDouble square = exact::two_product(weight.hi, weight.hi);
   DoubleDouble rest = {square.hi, square.lo + 2 * weight.hi * weight.lo};
@@ -47,20 +49,22 @@ double missing_length(const std::array<double, 3>& p, const DoubleDouble& weight
   return (rest.hi + rest.lo) / (2 * weight.hi);
 }
 
-// From the coordinate that is largest to the smallest: its last bit, and by how much that changes the length; 0: not
-// to be moved.
+// By coordinate, the largest first: its last bit, and the change of the length by it; 0 if the
+// coordinate is not to be changed.
 struct LastBits {
   std::array<double, 3> sizes;
   std::array<double, 3> lengths;
 };
 
+// Numbers of last bits by which the coordinates change.
 struct BitSteps {
   std::array<double, 3> counts;
-  double turn;  // at most
-  double cost;  // the error of the length, and the turn
+  double turn;  // upper bound of the turn
+  double cost;  // error of the length, plus the turn
 };
 
-// The steps of which these are those of the second and third coordinate, or, where their bits are fine, a part of those.
+// Returns the steps with these counts for the second and third coordinate; where a coordinate's
+// bits are fine, it is rounded instead.
 BitSteps rounded_steps(double missing, const LastBits& bits, double turn_cost, int second,
                        int third) {
   BitSteps steps{{0, static_cast<double>(second), static_cast<double>(third)}, 0, 0};
@@ -115,7 +119,7 @@ Point placed_pole(const Point& near, const DoubleDouble& weight, double spacing)
     bits.lengths[k] = bits.sizes[k] * (coordinate / weight.hi);
   }
   const BitSteps steps = best_steps(missing, bits, turn_part * spacing);
-  // Away from the center: mirrored points get mirrored poles.
+  // The steps are counted away from the center, so that mirrored points get mirrored results.
   for (std::size_t k = 0; k < 3; ++k) {
     p[axes[k]] += std::copysign(bits.sizes[k], q[axes[k]]) * steps.counts[k];
   }

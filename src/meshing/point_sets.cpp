@@ -24,7 +24,7 @@ void require_between(std::size_t value, std::size_t least, std::size_t most, con
                      0);
 }
 
-// So many points around a parallel, the first at `first` steps east of Greenwich.
+// Adds `count` points around a parallel, the first one `first` steps east of Greenwich.
 void add_ring(std::vector<Point>& points, double z, double r, std::size_t count, double first) {
   for (std::size_t j = 0; j < count; ++j) {
     const auto turn = exact::sine_cosine_of_degrees(360 * (static_cast<double>(j) + first) /
@@ -33,8 +33,8 @@ void add_ring(std::vector<Point>& points, double z, double r, std::size_t count,
   }
 }
 
-// A root of Legendre's polynomial of this degree by Newton's method. As it is the sine of a latitude, the
-// cosine comes from the polynomial's variable itself.
+// Returns a root of the Legendre polynomial of this degree by Newton's method. The root is the sine
+// of a latitude.
 double legendre_root(std::size_t degree, double x) {
   const auto n = static_cast<double>(degree);
   for (int step = 0; step < 100; ++step) {

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Points that are accepted lie in bins: bands of latitude no lower than the radius, cut along meridians into bins no
-// narrower than it. So what is near a point lies in its band and the next two, in bins that the radius reaches.
+// Accepted points lie in bins: bands of latitude whose height is at least the radius, cut along
+// meridians into bins whose width is at least the radius. So the points near a point lie in its
+// band and the two next to it, in bins within reach of the radius.
 //
-// When many darts in a row have missed, few gaps are left. A gap is a point farther than the radius from all; the
-// center of an empty circle is the farthest of its surroundings. So the centers of all circles that are too large
-// are tried, largest first, until no circle is.
+// When many darts in a row have missed, few gaps are left. A gap is a point farther than the radius
+// from all points, and the center of an empty circle is the farthest point of its surroundings. So
+// the centers of all circles that are too large are tried, the largest first, until no such circle
+// is left.
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +33,14 @@ using exact::to_vector;
 
 class Bins {
  public:
-  // Of the chord's square the rounding of points and of the square takes less than 2^-48.
+  // Rounding of points and of the squared chord changes it by less than a relative 2^-48.
   Bins(double radius, double square) : square_(square * (1 + 0x1p-48)) {
     const auto bands = static_cast<std::size_t>(std::numbers::pi / radius);
     height_ = 180 / static_cast<double>(bands);
     first_.push_back(0);
     for (std::size_t band = 0; band < bands; ++band) {
-      // No narrower at its end that is nearer to the pole; there one bin is enough.
+      // The width is at least the radius at the end nearer to the pole; around a pole one bin
+      // suffices.
       const double low = exact::sine_cosine_of_degrees(static_cast<double>(band) * height_).sine;
       const double high =
           exact::sine_cosine_of_degrees(static_cast<double>(band + 1) * height_).sine;
@@ -48,7 +51,7 @@ class Bins {
     heads_.assign(first_.back(), no_index);
   }
 
-  // Whether no point is closer; then it is one of them.
+  // Adds a point and returns true if no point is closer than the radius.
   bool add(const Point& p) {
     const double lon = 180 + degrees * exact::argument(p.y, p.x);
     const std::size_t band = band_of(p);
@@ -61,7 +64,8 @@ class Bins {
         }
         continue;
       }
-      // A bin of a band next to it may be narrower than the radius reaches at this one, by less than two.
+      // A bin of the next band may be narrower than those of this band, by less than a factor of
+      // two.
       for (std::size_t k = 0; k < std::min<std::size_t>(count, 5); ++k) {
         if (has_close(first_[b] + (bin + count + k - 2) % count, p)) return false;
       }
@@ -96,8 +100,8 @@ class Bins {
   }
 
   double square_;
-  double height_ = 0;               // of a band in degrees
-  std::vector<std::size_t> first_;  // the first bin of each band, and one more
+  double height_ = 0;               // height of a band in degrees
+  std::vector<std::size_t> first_;  // the first bin of each band, and the end
   std::vector<Index> heads_;
   std::vector<Index> next_;
   std::vector<Point> points_;
@@ -110,7 +114,8 @@ Point random_direction(SeededRandom& random) {
   return to_point(normalized(exact::Vector3<double>{r * turn.cosine, r * turn.sine, z}));
 }
 
-// The centers of the circles around faces whose chord's square is more than this, largest first.
+// Returns the centers of the circles around faces whose squared chord exceeds `square`, the largest
+// first.
 std::vector<Point> gaps(const std::vector<Point>& points, double square,
                         const Execution& execution) {
   const Triangulation triangulation =
@@ -142,8 +147,8 @@ std::vector<Point> poisson_disk_points(double radius, std::uint64_t seed,
   const double square = 4 * half * half;
   Bins bins(radius, square);
   SeededRandom random(seed);
-  // Maximal sets have about 0.7 points for each disk's area, 4 / radius^2 in all. Of so many darts most of the
-  // last ones miss.
+  // Maximal sets have about 0.7 points for each area of a disk, or about 4 / radius^2 in all. Of
+  // this many darts, most of the last ones miss.
   const auto darts = static_cast<std::size_t>(16 / (radius * radius));
   for (std::size_t k = 0; k < darts; ++k) (void)bins.add(random_direction(random));
   while (true) {

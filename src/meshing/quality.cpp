@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The report on a mesh: parts of pieces of cells, edges and vertices, joined in the order of the pieces, so that
-// sums have the same bits for every number of threads.
+// Computes the report on a mesh from parts: pieces of cells, edges and vertices, joined in the
+// order of the pieces, so that sums have the same bits for every number of threads.
 
 #include <algorithm>
 #include <cmath>
@@ -38,14 +38,14 @@ void count_in(Histogram& histogram, double value) {
   const double step = (value - histogram.low) / (histogram.high - histogram.low) *
                       static_cast<double>(histogram.counts.size());
   const double last = static_cast<double>(histogram.counts.size() - 1);
-  // A value that is not a number, too, goes to the first step.
+  // NaN is counted in the first step.
   ++histogram.counts[step > 0 ? static_cast<std::size_t>(std::min(step, last)) : 0];
 }
 void add_to(Histogram& sum, const Histogram& part) {
   for (std::size_t i = 0; i < sum.counts.size(); ++i) sum.counts[i] += part.counts[i];
 }
 
-// Of a piece, or of pieces so far.
+// The report on a piece, or on all pieces up to one.
 struct PieceQuality {
   PieceQuality() {
     found.min_angle_deg.value = found.min_edge_ratio.value = found.min_side_ratio.value = infinite;
@@ -56,7 +56,7 @@ struct PieceQuality {
     found.edge_ratios = histogram(2);
   }
 
-  Quality found;  // the sums are not yet means
+  Quality found;  // means are still sums
   std::uint64_t num_40_to_80 = 0;
   std::uint64_t num_angles = 0;
   double kites = 0;
@@ -227,7 +227,7 @@ class QualityFinder {
 
   const MeshArrays& arrays_;
   const Execution& execution_;
-  std::vector<double> spacings_;  // of cells, times density^(1/4)
+  std::vector<double> spacings_;  // by cell: spacing times density^(1/4)
   PieceQuality all_;
 };
 

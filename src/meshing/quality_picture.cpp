@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The picture of a report: histograms above, below them a map of the worst cells.
+// Draws a report as SVG: histograms above, a map of the worst cells below.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,8 @@ std::string bars(const Histogram& histogram, double left, const std::string& tit
   return svg + text_at(left + width - 30, bottom + 16, fixed(histogram.high));
 }
 
-// The cells with the largest values, the lower number first among equals.
+// Returns the cells with the largest values (sign 1) or smallest (sign -1); of equals the lower
+// number comes first.
 std::vector<Index> largest(const std::vector<double>& values, std::size_t count, double sign) {
   std::vector<Index> cells(values.size());
   std::iota(cells.begin(), cells.end(), Index{0});

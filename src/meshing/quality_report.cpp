@@ -13,11 +13,11 @@
 namespace rondel::mesh {
 namespace {
 
-// A number of the report: its key in JSON, and what a line of text says.
+// A number of the report: its key in JSON, and its name in the text.
 struct ReportEntry {
   const char* key;
   const char* what;
-  const char* place;  // "cell", "edge" or "vertex"; null: a number of the whole mesh
+  const char* place;  // "cell", "edge" or "vertex"; null for a number of the whole mesh
   Worst (*worst)(const Quality&);
 };
 

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Meshes of other formats: made again of the centers of their cells, and held against the cells' corners; what is beyond a
-// border only the corners tell.
+// Reads meshes of formats that have only cells and corners: the mesh is computed from the centers
+// of the cells and compared with the cells' corners. If the cells do not cover the sphere, its
+// border follows from the corners.
 
 #include "meshing/read_mesh.h"
 
@@ -68,8 +69,9 @@ MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation
   return result;
 }
 
-// Nothing if there is no border. Cells may differ in corners that they share by more than those have that are taken for one, and
-// be the whole mesh of their centers all the same.
+// Returns the mesh of cells with a border, or nothing if there is no border. A border may be found
+// only because cells state shared corners differently, by more than is taken for equal; then they
+// are a whole mesh all the same.
 std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulation& triangulation,
                                        std::span<const Point> sites, const MeshOptions& options,
                                        const Execution& execution) {

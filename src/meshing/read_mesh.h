@@ -8,7 +8,7 @@
 
 namespace rondel::meshing {
 
-// The arrays that an MPAS file holds. Throws BadValue and FileError.
+// Returns the arrays that an MPAS file holds. Throws BadValue if they are not those of a mesh.
 mesh::MeshArrays read_mpas(const io::NetcdfReader& file, const Execution& execution);
 
 }  // namespace rondel::meshing

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An MPAS file as arrays. Of the lists only those are read from which the others follow: cells and vertices of
-// edges, edges around cells, cells around vertices. Where a list of the file begins, and at which end of an edge it puts
-// a vertex, differs between programs; here both are as MeshArrays says.
+// Reads an MPAS file as arrays. Only the lists from which the others follow are read: cells and
+// vertices of edges, edges around cells, cells around vertices. Programs differ in where a list
+// begins and in the order of the two vertices of an edge; the result has the order that MeshArrays
+// documents.
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,7 @@ class MpasReader {
     throw BadValue("the attribute sphere_radius is no positive number");
   }
 
-  // A variable of so many values; 0: any number.
+  // Returns a variable with `size` values; with size 0, any number of values.
   [[nodiscard]] const Variable& require(const char* name, std::uint64_t size) const {
     const Variable& variable = file_.require(name);
     if (variable.num_values == size || size == 0) return variable;
@@ -151,7 +152,7 @@ class MpasReader {
     }
   }
 
-  // Numbers from 1 to `end` as those from 0.
+  // Converts numbers that count from 1 up to `end` to indices from 0.
   static Index index_of(const char* name, std::size_t row, std::int64_t number, std::size_t end) {
     if (number >= 1 && static_cast<std::uint64_t>(number) <= end) {
       return static_cast<Index>(number - 1);
@@ -166,7 +167,8 @@ class MpasReader {
     return number == 0 || (number > 0 && static_cast<std::uint64_t>(number) == end + 1);
   }
 
-  // If `may_lack`, 0 stands for none, and so does end + 1, which older programs write.
+  // Reads rows of indices. If `may_lack`, 0 stands for none, and so does end + 1, which older
+  // programs write.
   template <class Row>
   void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
                  bool may_lack) const {
@@ -184,7 +186,7 @@ class MpasReader {
     });
   }
 
-  // Edges of one cell have it first.
+  // Makes edges with one cell have it first.
   void find_border() {
     for (std::size_t e = 0; e < arrays_.num_edges(); ++e) {
       auto& [a, b] = arrays_.cells_on_edge[e];
@@ -197,8 +199,10 @@ class MpasReader {
     }
   }
 
-  // The second vertex is to be to the left, which is where the edge ends around its first cell. That the ring says, also
-  // of an edge too short for its vertices' places to tell.
+  // Orders the two vertices of each edge such that the second one is to the left of its first
+  // cell's direction, where the edge ends counterclockwise around that cell. The ring of the cell
+  // decides, which works for edges that are too short for the positions of their vertices to
+  // decide.
   void turn_edges() {
     std::vector<std::uint8_t> is_turned(arrays_.num_edges(), 0);
     in_pieces(arrays_.num_cells(), [&](std::size_t begin, std::size_t end) {
@@ -260,7 +264,7 @@ class MpasReader {
     });
   }
 
-  // Cells and vertices around each cell.
+  // Finds the cells and vertices around each cell.
   void follow_rings() {
     arrays_.cells_on_cell.resize(arrays_.edges_on_cell.size());
     arrays_.vertices_on_cell.resize(arrays_.edges_on_cell.size());
@@ -269,7 +273,7 @@ class MpasReader {
     });
   }
 
-  // Counterclockwise, an edge begins at its first vertex if the cell is its first one.
+  // Counterclockwise around its first cell, an edge begins at its first vertex.
   void follow_ring(Index cell) {
     const std::uint64_t end = arrays_.offsets[cell + 1];
     Index last_end = end_of(arrays_.edges_on_cell[end - 1], cell, 1);
@@ -316,8 +320,9 @@ class MpasReader {
     });
   }
 
-  // Counterclockwise, and the edge before each cell: where the ring of the cell comes to the vertex, it has just left
-  // the next cell, and goes on along the edge before it.
+  // Orders the cells of each vertex counterclockwise, with the edge before each cell: where the
+  // ring of a cell reaches the vertex, it has just left the next cell, and continues along the edge
+  // before that.
   void find_edges_of_vertices() {
     arrays_.edges_on_vertex.resize(arrays_.num_vertices());
     in_pieces(arrays_.num_vertices(), [&](std::size_t begin, std::size_t end) {
@@ -344,7 +349,8 @@ class MpasReader {
       }
     });
   }
-  // Of a vertex with two cells or three; with one it is both.
+  // True if the cells of a vertex with two or three cells are counterclockwise. With one cell both
+  // orders hold.
   [[nodiscard]] bool is_counterclockwise(Index v) const {
     const Triple& cells = arrays_.cells_on_vertex[v];
     const auto has_cell = [](Index cell) { return cell != no_index; };
@@ -355,11 +361,11 @@ class MpasReader {
     while (cells[j] == no_index || cells[(j + 1) % 3] == no_index) ++j;
     return arrays_.cells_on_cell[place_of(v, cells[j])] == cells[(j + 1) % 3];
   }
-  // The place in the ring of a cell that comes next.
+  // Returns the position that follows in the ring of a cell.
   [[nodiscard]] std::uint64_t after(std::uint64_t at, Index cell) const {
     return at + 1 < arrays_.offsets[cell + 1] ? at + 1 : arrays_.offsets[cell];
   }
-  // Where the ring of a cell has the vertex.
+  // Returns the position of a vertex in the ring of a cell.
   [[nodiscard]] std::uint64_t place_of(Index v, Index cell) const {
     for (std::uint64_t at = arrays_.offsets[cell]; at < arrays_.offsets[cell + 1]; ++at) {
       if (arrays_.vertices_on_cell[at] == v) return at;

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which points lie in regions. The inside is to the left of all edges, so along any arc from q to p
+// Finds which points lie in regions. The inside is to the left of all edges, so along any arc from
+// q to p
 //
 //     depth(q) = depth(p) + edges that the arc leaves on their left side - edges that it enters on it,
 //
-// where depth is how many regions a point lies in. All arcs end at one pole p, and edges are kept by their azimuths around
-// it, so that few are asked. The depth of the pole follows, region by region, from two points on both sides of an edge,
-// between which the depth falls by one: they are in and out.
+// where the depth of a point is the number of regions that contain it. All arcs end at one pole p,
+// and edges are sorted into bins by their azimuths around it, so that few are tested for a point.
+// The depth of the pole follows, region by region, from two points on both sides of an edge:
+// between them the depth falls by one, from 1 to 0.
 //
-// All signs are exact. Where a corner lies on the great circle of the arc, or the pole on that of an edge, the arc says
-// nothing, and goes to another pole.
+// All signs are exact. If a corner lies on the great circle of the arc, or the pole on that of an
+// edge, the arc is undecided and another pole is used.
 
 #include <algorithm>
 #include <array>
@@ -37,23 +39,24 @@ struct RegionEdge {
   Point to;
 };
 
-// Directions that nothing in a file is likely to be in line with.
+// Directions that no data is likely to be in line with.
 constexpr std::array poles = {
     Point{0.2718281828, -0.3141592653, 0.9098}, Point{-0.5772156649, 0.6931471805, 0.4316},
     Point{0.6180339887, 0.4142135623, -0.6683}, Point{-0.7320508075, -0.2360679774, -0.6391},
     Point{0.1234567891, 0.9876543211, -0.0991}, Point{0.9159655941, 0.0915965594, 0.3909}};
 
-// A small angle is far more than the rounding of azimuths.
+// This angle is far larger than the rounding errors of azimuths.
 constexpr double azimuth_margin = 1e-9;
 constexpr std::size_t points_at_a_time = 256;
 constexpr std::size_t most_bins = 1U << 16U;
-// The first one does, unless the region is nearly nothing there.
+// The first edge decides, unless the region is extremely thin there.
 constexpr std::size_t most_edges_tried = 100;
 
-// What an edge does to the depth along the arc from q to p.
+// How an edge changes the depth along the arc from q to p.
 enum class ArcCrossing : std::uint8_t { none, leaves_left, enters_left, through_q, unclear };
 
-// Whether q, on the great circle of the edge, is on the edge itself; the pole is off it.
+// True if q, which is on the great circle of the edge, is on the edge itself. The pole is not on
+// that circle.
 bool is_on_edge(const RegionEdge& edge, const Point& q, const Point& p) {
   if (is_same_site(q, edge.from) || is_same_site(q, edge.to)) return true;
   const Sign whole = orientation(p, edge.from, edge.to);
@@ -71,7 +74,7 @@ ArcCrossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) 
     return is_on_edge(edge, q, p) ? ArcCrossing::through_q : ArcCrossing::none;
   }
   if (from == Sign::zero || to == Sign::zero) return ArcCrossing::unclear;
-  // Else the edge crosses the great circle of the arc elsewhere, or the other way around.
+  // Otherwise the edge crosses the great circle of the arc elsewhere, or in the other direction.
   if (side_of_q == side_of_p || to != side_of_q) return ArcCrossing::none;
   return side_of_q == Sign::positive ? ArcCrossing::leaves_left : ArcCrossing::enters_left;
 }
@@ -117,7 +120,7 @@ class RegionSites {
     return {u, cross(axis, u)};
   }
 
-  // 0 to 1 around the pole.
+  // Returns the azimuth around the pole in turns, from 0 to 1.
   [[nodiscard]] double azimuth(const Point& q) const {
     const auto x = exact::to_vector(q);
     const double turns =
@@ -154,7 +157,8 @@ class RegionSites {
     }
   }
 
-  // An arc goes the shorter way around the pole; where that cannot be told, it is in all bins.
+  // Returns the bins of an edge, which goes the shorter way around the pole; if it is not clear
+  // which way is shorter, all bins.
   [[nodiscard]] std::array<std::size_t, 2> bins_of(const RegionEdge& edge) const {
     double first = azimuth(edge.from);
     double turn = azimuth(edge.to) - first;
@@ -176,7 +180,8 @@ class RegionSites {
     return u * u + v * v < 1e-6 * dot(x, x);
   }
 
-  // From the first pole to q, by the edges at its azimuth; none where that is unclear.
+  // Returns the change of the depth from the first pole to q, by the edges at its azimuth, or
+  // nothing if it is undecided.
   [[nodiscard]] std::optional<int> change_of_depth(const Point& q) const {
     if (is_near_axis(q)) return change_along(edges_, q, poles[0]);
     const auto bin =
@@ -214,7 +219,8 @@ class RegionSites {
     return true;
   }
 
-  // Whether a region has the pole. Of two points beside one of its edges the depths differ by one.
+  // Returns 1 if region k contains the pole, else 0. The depths of two points beside one of its
+  // edges differ by one.
   static int depth_of_pole(std::span<const RegionEdge> edges, std::size_t k) {
     const std::size_t step = 1 + edges.size() / most_edges_tried;
     for (const double away : {1e-3, 1e-6, 1e-1}) {
@@ -251,7 +257,7 @@ std::vector<std::uint8_t> inside(std::span<const Point> points, const CellRings&
       throw InvalidInput("point " + std::to_string(i) + " is not finite or the center", i);
     }
   }
-  (void)Partition(regions, execution);  // refuses rings that are none
+  (void)Partition(regions, execution);  // throws for invalid rings
   const RegionSites sites(regions);
   std::vector<std::uint8_t> result(points.size());
   system::parallel_for(execution.threads, points.size(), points_at_a_time,

@@ -41,7 +41,8 @@ RingSides::RingSides(const CellRings& cells) : cells_(cells) {
   find_opposites();
 }
 
-// Sides that are there twice are opposite to none but once, so that overlapping cells have a border.
+// Makes opposites mutual: of several equal sides only one has an opposite, so that overlapping
+// cells have a border.
 void RingSides::find_opposites() {
   opposite_.resize(cells_.corners.size());
   for (Index side = 0; side < opposite_.size(); ++side) opposite_[side] = find_opposite(side);
@@ -53,7 +54,7 @@ void RingSides::find_opposites() {
   }
 }
 
-// Among the sides of the corner with fewer: a corner may have all cells.
+// Searches among the sides of that corner that has fewer, since all cells may have one corner.
 Index RingSides::find_opposite(Index side) const {
   const Index to = corner(side);
   const Index from = corner(previous(side));
@@ -79,8 +80,8 @@ void RingSides::set_lists(mesh::MeshArrays& arrays) const {
   }
 }
 
-// Counterclockwise around a corner, the cell across the side that ends there comes next, and that across the side that begins
-// there before.
+// Counterclockwise around a corner, the cell across the side that ends there comes after a cell,
+// and the cell across the side that begins there comes before it.
 void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
   const auto sides = std::span(ending_).subspan(begins_[corner], degree(corner));
   if (sides.size() > 3) refuse_corner(cell_of(sides.front()), "of more than three cells");
@@ -120,7 +121,7 @@ void RingSides::add_vertex(Index first, std::size_t count, mesh::MeshArrays& arr
   arrays.cells_on_vertex.push_back(cells);
 }
 
-// In order of the first of their two vertices.
+// Numbers edges in the order of the first of their two vertices.
 void RingSides::number_edges(mesh::MeshArrays& arrays) const {
   arrays.edges_on_cell.assign(num_sides(), no_index);
   arrays.edges_on_vertex.assign(arrays.num_vertices(), {no_index, no_index, no_index});

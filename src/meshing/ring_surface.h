@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How cells that are one ring of corners each meet: the lists of a mesh, without a place.
+// Finds how cells that have one ring of corners each meet: the index lists of a mesh, without
+// coordinates.
+//
+// in    rings of corners, counterclockwise
+// out   opposite sides; the lists of a mesh
+// index sides: positions in CellRings::corners; cells; corners
 #pragma once
 
 #include <cstddef>
@@ -12,22 +17,25 @@
 
 namespace rondel::meshing {
 
-// The sides of all rings: side k ends at corners[k], and begins at the corner before in its ring. Two sides between the same
-// corners, one each way, are opposite: an edge of two cells.
+// The sides of all rings: side k ends at corners[k] and begins at the corner before it in its ring.
+// Two sides between the same corners in opposite directions are opposite: they form an edge of two
+// cells.
 //
 //                 \  side k  \.
 //        cell_of(k) \    opposite(k)     A side without an opposite is an edge of the border.
 //                    \          \.
 class RingSides {
  public:
-  // Precondition: a ring of three corners or more for each cell. Keeps a reference. Throws BadValue for too many sides.
+  // Precondition: each cell has one ring of three or more corners. Keeps a reference to the cells.
+  // Throws BadValue if there are too many sides to number.
   explicit RingSides(const CellRings& cells);
 
   [[nodiscard]] bool has_border() const { return has_border_; }
   [[nodiscard]] std::size_t num_sides() const { return opposite_.size(); }
-  // no_index at the border.
+  // Returns the opposite side, or no_index at the border.
   [[nodiscard]] Index opposite(Index side) const { return opposite_[side]; }
   [[nodiscard]] Index cell_of(Index side) const { return cell_of_[side]; }
+  // Returns the corner at which the side ends.
   [[nodiscard]] Index corner(Index side) const { return cells_.corners[side]; }
   [[nodiscard]] Index next(Index side) const {
     const Index cell = cell_of_[side];
@@ -38,14 +46,16 @@ class RingSides {
     return side > cells_.rings[cell] ? side - 1 : static_cast<Index>(cells_.rings[cell + 1] - 1);
   }
 
-  // The lists of a mesh with a border and its points of vertices, in order of the corners. A corner where parts of the mesh touch that
-  // share no edge there is a vertex for each. Throws BadValue for a corner that no vertex of three cells can be.
+  // Sets the lists of a mesh with a border; vertices are numbered in the order of the corners. A
+  // corner at which parts of the mesh touch without a common edge becomes one vertex for each part.
+  // Throws BadValue for a corner of more than three cells.
   void set_lists(mesh::MeshArrays& arrays) const;
 
  private:
   void find_opposites();
   [[nodiscard]] Index find_opposite(Index side) const;
-  // Sides that end at a corner are ending_[begins_[corner]] ... ending_[begins_[corner + 1] - 1].
+  // The sides that end at a corner are ending_[begins_[corner]] ... ending_[begins_[corner + 1] -
+  // 1].
   [[nodiscard]] Index degree(Index corner) const { return begins_[corner + 1] - begins_[corner]; }
   void add_vertices(Index corner, mesh::MeshArrays& arrays) const;
   void add_vertex(Index first, std::size_t count, mesh::MeshArrays& arrays) const;

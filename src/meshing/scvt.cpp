@@ -23,9 +23,9 @@ namespace rondel::mesh {
 namespace {
 
 constexpr std::size_t fewest_sites = 12;
-// The coarsest level: so few sites that several starts cost little, and enough of them to feel the
-// density. What is out of order there stays so: of 40,962 sites with fourfold density 1,000 had 5 or 7
-// neighbors after a start with 2,562, and 100 after one with 642.
+// The size of the coarsest level: few enough sites for several starts, and enough of them to follow
+// the density. Disorder of that level stays: among 40,962 sites with fourfold density, 1,000 had 5
+// or 7 neighbors after a start with 2,562 sites, and 100 after one with 642.
 constexpr std::size_t coarsest_uniform = 100;
 constexpr std::size_t coarsest_of_density = 400;
 constexpr int num_starts = 8;
@@ -72,7 +72,7 @@ class Levels {
     return result;
   }
 
-  // Finishes the work on sites that somebody has given.
+  // Completes the result for sites that the caller has given.
   void finish_given(Scvt& result) {
     is_given_ = true;
     fix(result);
@@ -80,7 +80,7 @@ class Levels {
   }
 
  private:
-  // Puts sites at the fixed places.
+  // Moves sites to the fixed places.
   void fix(Scvt& result) {
     result.fixed = take_nearest(result.sites, options_.fixed, execution_.threads);
     if (result.fixed.empty()) return;
@@ -123,10 +123,12 @@ class Levels {
     result.flips += minimizer.surface().num_flips();
   }
 
-  // Offsets fall by about the same factor from step to step.
+  // Offsets fall by about the same factor in each step, so the work done is measured by their
+  // logarithm.
   static double part_of_level(const MinimizerLimits& limits, const EnergyReport& first,
                               const EnergyReport& now, int iteration) {
-    // This logarithm is right at powers of two and linear between them, and so the same on every machine.
+    // This logarithm is exact at powers of two and linear between them, and so the same on every
+    // machine.
     const auto digits = [](double x) {
       int exponent = 0;
       const double mantissa = std::frexp(x, &exponent);
@@ -155,7 +157,8 @@ class Levels {
     return coarsest_of_density;
   }
 
-  // Sites that the spacings have put in a part of the sphere have no tessellation.
+  // Throws InvalidInput if the spacings have put all sites into a part of the sphere, where there
+  // is no tessellation.
   [[nodiscard]] Minimizer minimizer_of(std::vector<Point> sites, unsigned threads,
                                        std::vector<std::uint8_t> is_fixed = {}) const {
     const std::size_t count = sites.size();
@@ -172,7 +175,7 @@ class Levels {
     }
   }
 
-  // Of several starts the one of least energy.
+  // Returns the sites with the least energy of several starts.
   [[nodiscard]] std::vector<Point> start(std::size_t count) const {
     if (size_ == nullptr && count == fewest_sites) return icosahedron();
     const MinimizerLimits limits{.mean_offset = tolerance_of_starts,
@@ -196,8 +199,8 @@ class Levels {
   const Execution& execution_;
   const SizeFunction* size_;
   CentroidalEnergy energy_;
-  std::vector<std::uint8_t> is_fixed_;  // of the last level; empty: no site is
-  // The numbers of sites of all levels and of those that are solved, and the last ScvtStep::done.
+  std::vector<std::uint8_t> is_fixed_;  // for the last level; empty if no site is fixed
+  // The numbers of sites of all levels and of those that are finished, and the last ScvtStep::done.
   double all_work_ = 0;
   double past_work_ = 0;
   double done_ = 0;

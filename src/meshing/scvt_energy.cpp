@@ -19,22 +19,22 @@ using exact::DoubleDouble;
 
 constexpr std::size_t cells_at_a_time = 1024;
 
-// 8 pi to twice double precision.
+// This is 8 pi in twice double precision.
 constexpr DoubleDouble eight_pi = {8 * std::numbers::pi, 8 * 0x1.1a62633145c07p-53};
 
-// t / sin(t) for the arc of this sine and cosine, 0 <= t < pi.
+// Returns t / sin(t) for the arc t with this squared sine and cosine, 0 <= t < pi.
 double arc_over_sine(double square, double cosine) {
   constexpr double series_limit = 0x1p-12;
   if (square > series_limit || cosine < 0) {
     const double sine = std::sqrt(square);
     return exact::argument(sine, cosine) / sine;
   }
-  // asin(s)/s; the first omitted term is below 2^-12^5 / 44.
+  // This is asin(s)/s; the first omitted term is below (2^-12)^5 / 44.
   return 1 +
          square * (1.0 / 6 + square * (3.0 / 40 + square * (15.0 / 336 + square * (105.0 / 3456))));
 }
 
-// M = 1/2 sum (t / sin t) n x n'. In n x n' = (n' + n)/2 x (n' - n) the difference has few rounding
+// M = 1/2 sum (t / sin t) n x n'. Computed as (n' + n)/2 x (n' - n), n x n' has small rounding
 // errors.
 CellSums uniform_cell(const MovingSurface& surface, const Vector& z, std::span<const Index> ring) {
   const auto centers = surface.centers();
@@ -59,7 +59,8 @@ void add_uniform_cells(const MovingSurface& surface, std::span<const Point> site
   }
 }
 
-// Of the cells [begin, begin + cells.size()), with a density: their triangles in one row, some at a time.
+// Adds up the cells [begin, begin + cells.size()) with a density: their triangles follow each other
+// in lanes.
 void add_cells(const MovingSurface& surface, std::span<const Point> sites, std::size_t begin,
                const SizeFunction& size, std::span<CellSums> cells) {
   DensityNodes nodes(size);
@@ -103,8 +104,8 @@ struct PieceSums {
 }  // namespace
 
 double CentroidalEnergy::noise(double energy) const {
-  // The terms of 8 pi are rounded to 2^-52 of theirs, a few of which may add up; those of the other sum to
-  // 2^-50 of theirs.
+  // The terms of 8 pi have rounding errors of 2^-52 of their size, a few of which may add up; the
+  // others sum up to 2^-50 of theirs.
   return size_ == nullptr ? 0x1p-49 : 0x1p-44 * energy;
 }
 

@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The energy of a tessellation, and its gradient:
+// The energy of a tessellation and its gradient:
 //
 //     F = sum over the cells of  integral of rho(x) |x - z|^2,     dF/dz = -2 (M - (M.z) z),
 //
-// where M is the integral of rho(x) x over the cell of z. At a minimum every site is the centroid of its
-// cell: the tessellation is centroidal.
+// where M is the integral of rho(x) x over the cell of z. At a minimum every site is the centroid
+// of its cell: the tessellation is centroidal.
 //
 // Constant density: |x - z|^2 = 2 - 2 x.z, so F = 8 pi - 2 sum z.M, and M is a sum over the cell's arcs
 // (src/dual/centroids.cpp). Otherwise both are sums over the same nodes in the triangles from the site
 // to the arcs (density_nodes.h).
 //
-// Unknowns are two coordinates a site in its tangent plane, in a frame that turns with the site.
+// The unknowns are two coordinates a site in its tangent plane, in a frame that turns with the site
+// (tangent.h).
+//
+// in    sites as unit vectors with their triangulation, a size function or none
+// out   the energy, and for each site its gradient and mass
+// index sites
 #pragma once
 
 #include <cmath>
@@ -27,32 +32,32 @@
 
 namespace rondel::mesh {
 
-// What a step is judged by.
+// The energy and the offsets of all cells, by which a step is judged.
 struct EnergyReport {
   double energy = 0;
-  double mean_offset = 0;  // of |centroid - site| / spacing of the cell
+  double mean_offset = 0;  // mean of |centroid - site| / spacing over the cells
   double largest_offset =
-      0;  // the spacing of a cell of area A is that of hexagons, sqrt(2 A / sqrt 3)
+      0;  // largest of these; a cell of area A has the spacing sqrt(2 A / sqrt 3), that of hexagons
 };
 
 struct SiteSums {
   TangentVector gradient;
-  double mass;     // the integral of rho
-  double spacing;  // of the cell
+  double mass;     // integral of rho over the cell
+  double spacing;  // spacing of the cell
 };
 
 class CentroidalEnergy {
  public:
-  // Constant density where `size` is null; it must outlive this.
+  // The density is constant if `size` is null. `size` must outlive this object.
   CentroidalEnergy(const SizeFunction* size, unsigned threads) : size_(size), threads_(threads) {}
 
-  // Of the surface's sites, for each its gradient and mass. Where `is_fixed` is not 0 (empty: nowhere) the gradient is 0 and the
-  // offset does not count.
+  // Returns the energy and sets the sums of each site. Where `is_fixed` is not 0, the gradient is 0
+  // and the offset does not count; it is empty if no site is fixed. `axes` are those of tangent.h.
   EnergyReport operator()(const MovingSurface& surface, std::span<const Point> sites,
                           std::span<const std::uint8_t> axes, std::span<SiteSums> sums,
                           std::span<const std::uint8_t> is_fixed = {}) const;
 
-  // What rounding may do to a difference of energies.
+  // Returns a bound of the rounding error of a difference of energies.
   [[nodiscard]] double noise(double energy) const;
 
  private:

@@ -40,9 +40,9 @@ std::vector<Point> icosahedron() {
   return sites;
 }
 
-// A spiral of many points from pole to pole, whose neighbors along it are far apart in longitude; each
-// has its share of the density, and where the sum passes a whole number there is a site, moved by a
-// random part of the distance of points.
+// Goes through a spiral of many points from pole to pole, in which successive points are far apart
+// in longitude. Each point has its share of the density; where the sum of the shares passes an
+// integer there is a site, moved by a random part of the distance between points.
 std::vector<Point> sampled_sites(std::size_t count, const SizeFunction* size, std::uint64_t seed) {
   SeededRandom random(seed);
   const double golden = 180 * (3 - std::sqrt(5.0));
@@ -107,7 +107,7 @@ std::vector<Point> refined_sites(const std::vector<Point>& sites, std::size_t co
       result.push_back(to_point(normalized(to_vector(a) + to_vector(b))));
     }
   }
-  // By their middles, faces of old sites stay apart.
+  // The largest faces of the old sites get a site in their middle, so that the new sites stay apart.
   struct Large {
     double size;
     Index face;

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where a tessellation starts: few sites, and more of them level by level.
+// The sites with which a tessellation starts: few of them, and more level by level.
+//
+// in    the wanted number of sites, a size function or none, a seed
+// out   unit vectors
 #pragma once
 
 #include <cstddef>
@@ -13,22 +16,23 @@
 
 namespace rondel::mesh {
 
-// The numbers of sites of the levels, the coarsest first; a level has at least 4 n - 6 of n before, what the
-// middles of edges give, and at most 3 more.
+// Returns the numbers of sites of the levels, the coarsest first. A level that follows one of n
+// sites has between 4 n - 6 sites (one more in the middle of each edge) and 3 more than that.
 std::vector<std::size_t> counts_of_levels(std::size_t count, std::size_t fewest);
 
-// The 12 corners of an icosahedron, two of them poles.
+// Returns the 12 corners of an icosahedron, two of them poles.
 std::vector<Point> icosahedron();
 
-// Sites with the number density 1 / spacing^2, one random place for each of as many equal parts.
+// Returns sites with the number density 1 / spacing^2: a random place in each of `count` equal
+// shares.
 std::vector<Point> sampled_sites(std::size_t count, const SizeFunction* size, std::uint64_t seed);
 
-// The sites, one in the middle of every edge, and as many more as are wanted, in the largest faces; in spatial
-// order.
+// Returns the sites, one in the middle of every edge, and more in the largest faces until there are
+// `count`, all in spatial order.
 std::vector<Point> refined_sites(const std::vector<Point>& sites, std::size_t count,
                                  const SizeFunction* size, unsigned threads);
 
-// In the order in which the faces come to them.
+// Returns the sites in the order in which the faces of their triangulation have them.
 std::vector<Point> in_spatial_order(std::vector<Point> sites, unsigned threads);
 
 }  // namespace rondel::mesh

@@ -13,7 +13,7 @@
 namespace rondel::mesh {
 namespace {
 
-// Of the slope, what the energy has to fall by at least.
+// The energy has to fall by at least this part of the slope times the step.
 constexpr double sufficient_fall = 1e-4;
 // No site moves by more than this part of its spacing in one step.
 constexpr double longest_move = 0.5;
@@ -50,7 +50,7 @@ void Minimizer::for_all(const Change& change) {
                        });
 }
 
-// Of the gradient a step to the centroids.
+// Turns the gradient into a step to the centroids.
 void Minimizer::scale_by_mass() {
   for_all([&](std::size_t i) {
     const double scale = 1 / (2 * sums_[i].mass);
@@ -82,7 +82,7 @@ double Minimizer::slope() const {
   });
 }
 
-// The longest step of a site over the spacing of its cell.
+// Returns the longest step of a site in units of the spacing of its cell.
 double Minimizer::most_relative_step() const {
   std::vector<double> most(system::num_pieces(sites_.size(), terms_at_a_time));
   system::parallel_for(
@@ -97,7 +97,7 @@ double Minimizer::most_relative_step() const {
   return std::sqrt(*std::ranges::max_element(most));
 }
 
-// Tries lengths along the direction until the energy falls enough, and moves there.
+// Tries lengths along the direction until the energy falls enough, and moves the sites there.
 bool Minimizer::search() {
   const double along = slope();
   if (!(along < 0)) return false;
@@ -119,7 +119,7 @@ bool Minimizer::search() {
         report_ = tried_report_;
         return true;
       }
-      // The lowest point of the parabola through both energies and the slope.
+      // This is the lowest point of the parabola through both energies and the slope.
       const double curvature = rise - length * along;
       if (curvature > 0) shorter = std::clamp(-0.5 * length * along / curvature, 0.1, 0.5);
     }
@@ -128,7 +128,7 @@ bool Minimizer::search() {
   return false;
 }
 
-// The step to the centroids lowers the energy whatever the pairs say.
+// Takes the step to the centroids, which lowers the energy whatever the pairs are.
 bool Minimizer::search_anew() {
   direct(true);
   return search();

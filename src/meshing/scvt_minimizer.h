@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Minimizes the energy of a tessellation: L-BFGS in the coordinates of the tangent planes, whose first guess of
-// the inverse Hessian is that of springs along the edges (edge_springs.h). Lloyd's step, to the centroids, in this place
-// (Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018) takes three times as many steps from random sites.
+// Minimizes the energy of a tessellation by L-BFGS in the coordinates of the tangent planes. The
+// first approximation of the inverse Hessian comes from springs along the edges (edge_springs.h).
+// With Lloyd's step to the centroids instead (Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018)
+// it takes three times as many steps from random sites.
+//
+// in    sites as unit vectors, which of them are fixed, limits
+// out   sites of a local minimum, and how the work ended
+// index sites
 #pragma once
 
 #include <cstddef>
@@ -21,22 +26,25 @@
 
 namespace rondel::mesh {
 
+// When the work ends: converged if both offsets are reached or the energy changes by less than a
+// part.
 struct MinimizerLimits {
-  double mean_offset = 0;  // both must be reached
+  double mean_offset = 0;  // upper bound of EnergyReport::mean_offset
+  // upper bound of EnergyReport::largest_offset
   double largest_offset = 0;
-  double energy_change = 0;  // or this, relative, in one step; 0: never
+  double energy_change = 0;  // relative change in one step; 0: this never ends the work
   int iterations = 0;
-  bool lloyd = false;  // steps to the centroids alone
+  bool lloyd = false;  // take steps to the centroids only
 };
 
 enum class MinimizerEnd : std::uint8_t { converged, iterations, stopped, stuck };
 
-// Called after every step; false ends the work.
+// A function that is called after every step; it returns false to end the work.
 using StepSeen = std::function<bool(int iteration, const EnergyReport& report)>;
 
 class Minimizer {
  public:
-  // Sites whose `is_fixed` is not 0 stay where they are, bit by bit; empty: none.
+  // Sites whose `is_fixed` is not 0 stay bit by bit; it is empty if no site is fixed.
   Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads,
             std::vector<std::uint8_t> is_fixed = {});
 
@@ -48,9 +56,10 @@ class Minimizer {
   [[nodiscard]] int iterations() const { return iterations_; }
 
  private:
+  // Sets the direction of the next step.
   void direct(bool lloyd);
   template <class Change>
-  void for_all(const Change& change);  // change(i) for every site
+  void for_all(const Change& change);  // calls change(i) for every site
   [[nodiscard]] bool is_fixed(std::size_t site) const {
     return !is_fixed_.empty() && is_fixed_[site] != 0;
   }

@@ -18,17 +18,19 @@ namespace rondel::mesh {
 namespace {
 
 constexpr std::size_t faces_of_a_piece = 4096;
-// What is below the limit is moved beyond it: to the aim.
-constexpr double limit_of_edges = 0.0505;  // dual edge / edge; 1 % for the curvature
+// Values below the limit are moved to the aim.
+constexpr double limit_of_edges = 0.0505;  // dual edge / edge, with 1 % for the curvature
 constexpr double aim_of_edges = 0.055;
 constexpr double limit_of_corners = 0.0005;  // cotangents
 constexpr double aim_of_corners = 0.005;
-// How far a site may go from where it was, over the length of an edge: farther where something is left.
+// How far a site may move from where it was, in units of the length of an edge: farther if defects
+// are left.
 constexpr std::array<double, 3> reaches = {0.15, 0.3, 0.45};
 constexpr int rounds_without_success = 12;
 constexpr int passes_of_a_round = 8;
 
-// The cotangents over the edge from a to b, of one or two corners, sum to at least `aim`.
+// Requires that the cotangents over the edge from a to b, at one or two corners, sum up to at least
+// `aim`.
 struct Bound {
   Index a;
   Index b;
@@ -38,11 +40,11 @@ struct Bound {
 
 struct Cotangent {
   double value;
-  Vector by_a;  // its gradients; that of the corner is -by_a - by_b
+  Vector by_a;  // its gradients; that by the corner is -by_a - by_b
   Vector by_b;
 };
 
-// d / s of u.v and |u x v|.
+// Returns the cotangent d / s with d = u.v and s = |u x v|, and its gradients.
 Cotangent cotangent(const Vector& u, const Vector& v) {
   const double d = dot(u, v);
   const double s = norm(cross(u, v));
@@ -73,7 +75,7 @@ class Repair {
   }
 
  private:
-  // Rounds until nothing is left or they no longer help; the best sites are kept.
+  // Repeats rounds until no defect is left or they no longer help, and keeps the best sites.
   void improve(double reach, ScvtRepair& done) {
     std::vector<Point> best = sites_;
     for (int last = 0, round = 1; round <= last + rounds_without_success && !bounds_.empty();
@@ -118,7 +120,8 @@ class Repair {
     return dot(u, v) / norm(cross(u, v));
   }
 
-  // The corner of the face beyond the edge opposite to this corner.
+  // Returns the corner, of the face across the edge opposite to this corner, that is not on the
+  // edge.
   [[nodiscard]] Index beyond(Index face, Index corner) const {
     const Index g = surface_.neighbors()[face][corner];
     const Triple& back = surface_.neighbors()[g];
@@ -129,7 +132,7 @@ class Repair {
     return 0.5 * (cotangent_at(c, a, b) + cotangent_at(d, a, b));
   }
 
-  // By how much the sum of (degree - 6)^2 grows where the edge ab becomes cd.
+  // Returns by how much the sum of (degree - 6)^2 grows if the edge ab is replaced by cd.
   [[nodiscard]] int growth(Index a, Index b, Index c, Index d) const {
     return 4 + 2 * (degrees_[c] + degrees_[d] - degrees_[a] - degrees_[b]);
   }
@@ -156,7 +159,8 @@ class Repair {
     }
   }
 
-  // Of the edges whose exchange gives this cell a side more, or less, the one that is nearest to it.
+  // Among the edges whose exchange gives this cell one side more, or fewer, adds the bound of the
+  // one that needs the smallest change.
   void even_out(Index site) {
     surface_.faces_around(site, ring_);
     double least = std::numeric_limits<double>::infinity();
@@ -180,7 +184,7 @@ class Repair {
     if (least < std::numeric_limits<double>::infinity()) bounds_.push_back(best);
   }
 
-  // What is wrong, and the bounds that would put it right.
+  // Finds the defects, and the bounds that would remove them.
   ScvtDefects find() {
     degrees_.assign(sites_.size(), 0);
     for (const Triple& face : surface_.faces()) {
@@ -215,7 +219,7 @@ class Repair {
     return !is_fixed_.empty() && is_fixed_[site] != 0;
   }
 
-  // Moves the sites of a bound that is missed to where it is met.
+  // Moves the sites of a violated bound to where it is satisfied.
   void meet(const Bound& bound, double reach) {
     const Vector a = exact::to_vector(sites_[bound.a]);
     const Vector b = exact::to_vector(sites_[bound.b]);

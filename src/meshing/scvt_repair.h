@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where rows of cells end, four sites of a centroidal tessellation may lie nearly on one circle: the dual
-// edge between them is short, and a triangle there may be obtuse. The sites are moved by as little as
-// puts that right, some hundredths of the spacing.
+// Repairs small defects of a centroidal tessellation. Where rows of cells end, four sites may lie
+// nearly on one circle: the dual edge between them is short, and a triangle there may be obtuse.
+// The sites are moved by as little as corrects that, some hundredths of the spacing.
 //
-//        c          The dual edge of ab is (cot c + cot d) / 2 times as long as ab, and shorter than
-//      /   \        nothing where that is negative: then the edge is cd. All that is asked for is a bound
-//     a --- b       of cotangents: of the sum of two, of one where no triangle shall be obtuse, or of the sum
-//      \   /        at a and b where the edge shall be cd, because cells then have 5, 6 or 7 sides.
+//        c          The dual edge of ab is (cot c + cot d) / 2 times as long as ab; if that is
+//      /   \        negative, the edge is cd instead. All requirements are bounds of cotangents: of
+//     a --- b       the sum of two; of a single one where no triangle may be obtuse; or of the sum at
+//      \   /        a and b where the edge should be cd, because cells then have 5, 6 or 7 sides.
 //        d
 //
-// A bound that is missed is met by the smallest move of its sites to first order, along its gradient; all
-// bounds in turn, again and again.
+// A violated bound is satisfied to first order by the smallest move of its sites, along the
+// gradient; the bounds are taken in turn, again and again.
+//
+// in    sites of a tessellation, which of them are fixed
+// out   moved sites, and the defects that are left
 #pragma once
 
 #include <cstdint>
@@ -24,7 +27,7 @@
 
 namespace rondel::mesh {
 
-// Sites whose `is_fixed` is not 0 stay; empty: none does.
+// Moves the sites. Those whose `is_fixed` is not 0 stay; it is empty if no site is fixed.
 // Precondition: unit vectors that surround the center, without duplicates.
 ScvtRepair repair(std::vector<Point>& sites, std::span<const std::uint8_t> is_fixed,
                   unsigned threads);

@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::size_t faces_at_a_time = 4096;
 
-// det(B, C, D) of differences from a corner, |D|^2 and the larger of |B|^2 and |C|^2 at most m. A site
-// is within 3u of its projection, so a difference within 6u of that of the projections; the rounding
-// of differences, cross and dot product adds 10u of a product of three lengths, none above 2:
-// (3 * 6 + 2 * 10) u m, and second-order terms.
+// The error of det(B, C, D) of differences from a corner, where |D|^2 and the larger of |B|^2 and
+// |C|^2 are at most m. A site is within 3u of its projection, so a difference within 6u of that of
+// the projections; the rounding of differences, cross and dot product adds 10u of a product of
+// three lengths, none above 2: (3 * 6 + 2 * 10) u m, and second-order terms.
 constexpr double plane_error = 64 * 0x1p-53;
-// The same for the height of a plane over the center times 2 |area|.
+// The same bound for the height of a plane over the center times 2 |area|.
 constexpr double turn_error = 64 * 0x1p-53;
 
 double larger(double a, double b) { return a > b ? a : b; }
@@ -61,7 +61,7 @@ bool MovingSurface::build(std::span<const Point> sites) {
   return std::ranges::find(has_turned, 1) == has_turned.end();
 }
 
-// Writes the center of a face, and looks across its edges to faces of higher numbers.
+// Computes the center of a face, and checks its edges to faces of higher numbers.
 MovingSurface::Look MovingSurface::look_at(std::span<const Point> sites, Index face) {
   const Triple& corners = faces_[face];
   const Vector a = exact::to_vector(sites[corners[0]]);
@@ -112,7 +112,7 @@ bool MovingSurface::mend(std::span<const Point> sites) {
         if (look_at(sites, h) == Look::turned) return false;
         to_look_at.push_back(h);
       }
-      // A build takes as long as looking at some faces for a flip each.
+      // A build takes as long as about eight flips a face, so it is preferred from there on.
       if (++num_flips_; changed.size() > faces_.size() / 8) return false;
       changed.push_back(f);
       break;
@@ -139,10 +139,10 @@ bool MovingSurface::is_to_flip(std::span<const Point> sites, Index face, Index c
 }
 
 //       r                 r           The edge opposite to p goes from q to r. Face f keeps p and q,
-//     / | \             / g \         face g keeps r; d is what g has beyond the edge.
-//    p f|g d    =>     p --- d
-//     \ | /             \ f /
-//       q                 q
+//      / | \             / g \         face g keeps r; d is the vertex of g beyond the edge.
+//     p f|g d    =>     p --- d
+//      \ | /             \ f /
+//        q                 q
 void MovingSurface::flip(Index f, Index corner) {
   const Triple of_f = faces_[f];
   const Triple beyond_f = neighbors_[f];

@@ -3,14 +3,19 @@
 
 // The Delaunay triangulation of sites that all move a little, again and again.
 //
-// Between two steps few edges change, so the faces are kept: one pass looks at every edge again, and
-// flips mend those that are no longer locally Delaunay (Lawson). A filter decides nearly always, the
-// exact predicate otherwise, ties included. Where a face has turned over, all is built anew.
+// in    the sites after each step, as unit vectors
+// out   faces, their neighbors and circumcenters
+// index sites, which are the vertices; faces, in an order of their own
+//
+// Few edges change between two steps, so the faces are kept: one pass checks every edge, and edges
+// that are no longer locally Delaunay are flipped (Lawson). A filter decides nearly always, the
+// exact predicate otherwise, ties included. If a face has turned over, the triangulation is built
+// anew.
 //
 // Invariants after follow():
-// 1. The faces are those that delaunay() makes of the sites, in an order of their own.
-// 2. A face begins with its lowest corner; centers()[f] depends on the three corners alone. So
-//    nothing that goes around a vertex from a fixed neighbor depends on how the faces came about.
+// 1. The faces are those that delaunay() computes for the sites, in an order of their own.
+// 2. A face begins with its lowest corner, and centers()[f] depends on its three corners alone. So
+//    nothing that goes around a vertex from a fixed neighbor depends on the history of the faces.
 #pragma once
 
 #include <cstddef>
@@ -32,12 +37,12 @@ class MovingSurface {
  public:
   explicit MovingSurface(unsigned threads) : threads_(threads) {}
 
-  // Makes it the triangulation of these unit vectors. False where they have none that surrounds the
-  // center with all of them as vertices; then it is the triangulation of nothing.
+  // Updates the triangulation to these sites. Returns false if they have no triangulation that
+  // surrounds the center and has all of them as vertices; the triangulation is empty then.
   // Precondition: lengths within 3 * 2^-53 of 1.
   [[nodiscard]] bool follow(std::span<const Point> sites);
 
-  // So that the next follow() builds anew.
+  // Makes the next follow() build anew.
   void forget() { faces_.clear(); }
 
   [[nodiscard]] std::span<const Triple> faces() const { return faces_; }
@@ -47,17 +52,18 @@ class MovingSurface {
   [[nodiscard]] std::size_t num_builds() const { return num_builds_; }
   [[nodiscard]] std::size_t num_flips() const { return num_flips_; }
 
-  // The faces around a vertex counterclockwise, the first of them the one whose next corner is the
-  // lowest neighbor. `ring` is overwritten.
+  // Sets `ring` to the faces around a vertex counterclockwise, beginning with the face whose next
+  // corner is the lowest neighbor.
   void faces_around(Index vertex, std::vector<Index>& ring) const;
 
-  // The corner of a face that is this vertex.
+  // Returns which corner of a face this vertex is.
   [[nodiscard]] Index corner_of(Index face, Index vertex) const {
     const Triple& corners = faces_[face];
     return corners[0] == vertex ? 0 : (corners[1] == vertex ? 1 : 2);
   }
 
  private:
+  // What checking a face finds: all edges are Delaunay, one is not, or the face has turned over.
   enum class Look : unsigned char { fine, broken, turned };
 
   bool build(std::span<const Point> sites);
@@ -71,7 +77,7 @@ class MovingSurface {
   std::vector<Triple> faces_;
   std::vector<Triple> neighbors_;
   std::vector<Point> centers_;
-  std::vector<Index> first_face_;  // of each vertex
+  std::vector<Index> first_face_;  // by vertex: a face that has it
   unsigned threads_;
   std::size_t num_builds_ = 0;
   std::size_t num_flips_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Random numbers, the same on every machine: Sebastiano Vigna's splitmix64 (public domain).
+// Random numbers that are the same on every machine: Sebastiano Vigna's splitmix64 (public domain).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ class SeededRandom {
  public:
   explicit SeededRandom(std::uint64_t seed) : state_(seed) {}
 
-  // From 0 to below 1.
+  // Returns a number from 0 to less than 1.
   double operator()() {
     state_ += 0x9e3779b97f4a7c15U;
     std::uint64_t z = state_;

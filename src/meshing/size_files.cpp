@@ -28,15 +28,16 @@ namespace {
 struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
-  std::vector<std::size_t> numbers;  // in the file
+  std::vector<std::size_t> numbers;  // positions in the file
   std::string units;                 // as the file says, or empty
 };
 
-// Far more than any mesh's; roots of quotients are numbers.
+// Bounds far beyond those of any mesh, within which roots of quotients are finite.
 constexpr double least_density = 1e-100;
 constexpr double largest_density = 1e100;
 
-// The places of the cells of a mesh: the centers that its file has, otherwise the directions of the sums of their corners.
+// Returns the places of the cells of a mesh: the centers that its file has, or else the directions
+// of the sums of their corners.
 std::vector<Point> places_of_cells(const CellTable& table) {
   if (!table.centers.empty()) return unit_vectors(table.centers);
   const CellRings& cells = table.cells;
@@ -154,7 +155,7 @@ Spacings spacings_of(const FileName& file, const std::string& name, const Execut
   return result;
 }
 
-// With the numbers of the places that are left.
+// Leaves out missing values; `numbers` keeps the positions of those that are left.
 void drop_missing(const FileName& file, Spacings& spacings) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
@@ -168,7 +169,7 @@ void drop_missing(const FileName& file, Spacings& spacings) {
   spacings.values.resize(kept);
 }
 
-// Kilometers of one unit of length.
+// Returns the kilometers in one unit of length.
 double kilometers_of(const FileName& file, const std::string& units) {
   const std::string_view text = io::without_blanks(units);
   for (const std::string_view name :
@@ -182,7 +183,7 @@ double kilometers_of(const FileName& file, const std::string& units) {
                   "', which are neither kilometers nor meters");
 }
 
-// Linear on the triangulation of the places.
+// Returns the function that is linear on the triangulation of the places.
 SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution) {
   const Interpolator interpolator(delaunay(Sites::view(spacings.places), {}, execution));
   const InterpolationOptions options{.method = Method::linear, .outside = Outside::nearest};

@@ -55,7 +55,8 @@ std::vector<Point> places_of_nodes(const CubeRaster& cube) {
   return places;
 }
 
-// A place among the numbers of an axis that increases: axis[k] to axis[k + 1], and how far.
+// A position on an increasing axis: between axis[first] and axis[second], and at which part of the
+// way.
 struct AxisPart {
   std::size_t first;
   std::size_t second;
@@ -69,7 +70,7 @@ AxisPart between(std::span<const double> axis, double x) {
   return {next - 1, next, (x - axis[next - 1]) / (axis[next] - axis[next - 1])};
 }
 
-// The same around the circle: beyond the last longitude comes the first.
+// The same around the circle, where the first longitude follows the last one.
 AxisPart between_longitudes(std::span<const double> axis, double lon) {
   double x = lon - 360 * std::floor((lon - axis.front()) / 360);
   if (x < axis.front()) x = axis.front();
@@ -174,7 +175,7 @@ SizeFunction SizeFunction::refined(std::span<const Point> points, double near, d
   std::vector<double> spacings(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double distance = locator.distance(places[i], nearest[i]);
-    // The nodes themselves, without the rounding of their values to single precision.
+    // Uses the values at the nodes, before they are rounded to single precision.
     const double wide = raster_->smallest / static_cast<double>(raster_->relative[i]);
     spacings[i] = std::min(wide, near + slope * distance);
   }
@@ -212,8 +213,9 @@ double SizeFunction::density(const Point& place) const {
 double SizeFunction::smallest() const noexcept { return raster_->smallest; }
 double SizeFunction::largest() const noexcept { return raster_->largest; }
 
-// Over each square of the raster the solid angle times the mean of 1/spacing^2 at its corners; the solid
-// angle of the square is that of its middle, which the last factor makes right for all together.
+// Sums over the squares of the raster the solid angle times the mean of 1/spacing^2 at the corners.
+// The solid angle is estimated at the center of a square; the last factor corrects the sum of all
+// solid angles.
 double SizeFunction::count() const {
   const system::ArithmeticScope arithmetic;
   const CubeRaster& cube = raster_->cube;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sweeps over the faces of the cube, forth and back, until nothing changes; a node is held against the
-// eight that a sweep has come to before it. Between sweeps the nodes that faces share take the
-// least of their values.
+// Sweeps over the faces of the cube, back and forth, until nothing changes. A node is compared with
+// the eight nodes that the sweep has visited before it. Between sweeps the nodes that faces share
+// take the least of their values.
 
 #include "meshing/size_limit.h"
 
@@ -73,7 +73,8 @@ class Limiter {
     return value < before;
   }
 
-  // The nodes of a face's border, each with those of the other faces in its place.
+  // Gives the nodes on a face's border and their copies on other faces one value; returns true if
+  // any changed.
   bool share_borders() {
     bool has_changed = false;
     for (std::size_t face = 0; face < 6; ++face) {
@@ -101,7 +102,7 @@ class Limiter {
     return value < before;
   }
 
-  // Exact, as the steps are a power of two.
+  // Returns the step of a coordinate. This is exact, since the number of steps is a power of two.
   [[nodiscard]] std::size_t step_of(double coordinate) const {
     return static_cast<std::size_t>((coordinate + 1) * 0.5 * static_cast<double>(cube_.steps));
   }

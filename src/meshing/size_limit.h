@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Spacings that grow slowly: h(x) <= h(y) + slope |x - y|.
+// Limits how fast spacings grow: h(x) <= h(y) + slope |x - y|.
+//
+// in    a raster of the cube, its values, a slope (spacing per distance)
+// out   the largest values that are not larger and fulfill the limit, nearly
 #pragma once
 
 #include <vector>
@@ -10,8 +13,8 @@
 
 namespace rondel::mesh {
 
-// Lowers values at the nodes until none is more than that of another, a few steps away, and the slope
-// times their distance.
+// Lowers the values at the nodes until none exceeds that of a node a few steps away by more than
+// the slope times their distance.
 void limit_slope(const CubeRaster& cube, double slope, std::vector<double>& values);
 
 }  // namespace rondel::mesh

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A raster on the faces of the cube around the sphere, seen from its center. Face 2k + s has the axis k and
-// its coordinate +1 (s = 0) or -1; node (i, j) has -1 + 2 i / steps along axis k + 1 and likewise j along
-// axis k + 2. Nodes on the border of a face are nodes of the next face, too, with the same coordinates.
+// A raster on the faces of the cube around the sphere, seen from its center. Face 2k + s has the
+// axis k and its coordinate +1 (s = 0) or -1 (s = 1); node (i, j) has -1 + 2 i / steps along axis k
+// + 1 and -1 + 2 j / steps along axis k + 2. Nodes on the border of a face are nodes of the next
+// face, too, with the same coordinates.
+//
+// index nodes: i fastest, then j, then the face
 #pragma once
 
 #include <array>
@@ -18,6 +21,7 @@
 
 namespace rondel::mesh {
 
+// A raster with `steps` squares along each edge of the cube.
 struct CubeRaster {
   std::size_t steps;
 
@@ -31,6 +35,7 @@ struct CubeRaster {
     return -1 + 2 * static_cast<double>(i) / static_cast<double>(steps);
   }
 
+  // Returns the coordinates of a node on the cube; place() returns its direction as a unit vector.
   [[nodiscard]] std::array<double, 3> on_cube(std::size_t face, std::size_t i,
                                               std::size_t j) const {
     const std::size_t axis = face / 2;
@@ -47,14 +52,16 @@ struct CubeRaster {
     return {p[0] / length, p[1] / length, p[2] / length};
   }
 
-  // Where a point lies: a face, and its place there in steps.
+  // The position of a point: a face, a square of it, and a position in the square.
   struct RasterPlace {
     std::size_t face;
     std::size_t i;
     std::size_t j;
-    double s;  // 0 to 1 from i to i + 1
+    double s;  // 0 to 1 from node i to i + 1
+    // 0 to 1 from node j to j + 1
     double t;
   };
+  // Returns the position of a point that is not the origin.
   [[nodiscard]] RasterPlace spot(const Point& p) const {
     const double ax = std::abs(p.x);
     const double ay = std::abs(p.y);
@@ -91,9 +98,11 @@ struct CubeRaster {
   }
 };
 
+// The data of a SizeFunction.
 struct SizeFunction::Raster {
   CubeRaster cube;
-  std::vector<float> relative;  // smallest / spacing, at each node
+  std::vector<float> relative;  // by node: smallest / spacing
+  // smallest and largest spacing of all nodes
   double smallest;
   double largest;
 };

@@ -41,7 +41,7 @@ void StepMemory::remember(double length, std::span<const TangentVector> directio
     return TangentVector{after[i].gradient.u - before[i].gradient.u,
                          after[i].gradient.v - before[i].gradient.v};
   };
-  // The curvature is known before anything is overwritten.
+  // The curvature is computed before anything is overwritten.
   const double curvature = sum_in_order(threads_, n, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += dot(step(i), change(i));

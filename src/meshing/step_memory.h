@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The last steps of a minimizer and what they changed of the gradient: L-BFGS's approximation of the inverse Hessian, in
-// the two loops of Nocedal and Wright, algorithm 7.4.
+// The last steps of a minimizer and how they changed the gradient: L-BFGS's approximation of the
+// inverse Hessian, in the two loops of Nocedal and Wright, algorithm 7.4.
+//
+// in    steps with the gradients before and after them; a vector
+// out   the product of the approximation with the vector
 #pragma once
 
 #include <array>
@@ -24,22 +27,23 @@ class StepMemory {
   [[nodiscard]] std::size_t size() const { return num_pairs_; }
   void forget() { num_pairs_ = 0; }
 
-  // Keeps the step length * direction if the gradient has grown along it, in the place of the oldest one where there are most_pairs;
-  // otherwise nothing changes.
+  // Keeps the step length * direction if the slope along it has grown, in place of the oldest step
+  // if there are most_pairs; otherwise changes nothing.
   void remember(double length, std::span<const TangentVector> direction,
                 std::span<const SiteSums> before, std::span<const SiteSums> after);
 
-  // The caller multiplies by the first approximation between the two calls. They leave in `vector` the product with the whole one.
+  // Multiply `vector` by the approximation: between the two calls the caller multiplies it by the
+  // first approximation of the inverse Hessian.
   void begin_product(std::span<TangentVector> vector);
   void end_product(std::span<TangentVector> vector) const;
 
  private:
   struct Pair {
     std::vector<TangentVector> step;
-    std::vector<TangentVector> change;  // of the gradient
+    std::vector<TangentVector> change;  // change of the gradient
     double curvature = 0;               // step . change
   };
-  // The latest has the age 0.
+  // Returns the pair of an age; the latest one has the age 0.
   [[nodiscard]] const Pair& pair(std::size_t age) const {
     return pairs_[(newest_ + most_pairs - age) % most_pairs];
   }

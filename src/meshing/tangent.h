@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Coordinates in the tangent planes of many sites, and sums over them in a fixed order.
+// Coordinates in the tangent planes of many sites, and sums over the sites in a fixed order.
+//
+// index axes: 0, 1 or 2 for x, y or z
 #pragma once
 
 #include <cmath>
@@ -17,6 +19,7 @@
 
 namespace rondel::mesh {
 
+// A tangent vector in the frame of its site.
 struct TangentVector {
   double u;
   double v;
@@ -27,8 +30,8 @@ struct TangentFrame {
   exact::Vector3<double> v;
 };
 
-// The axis that a site is far from: its frame is smooth as long as the site stays half a radian away
-// from that axis.
+// Returns the axis that a site is farthest from in angle. The frame that belongs to it is smooth as
+// long as the site stays half a radian away from that axis.
 inline std::uint8_t far_axis(const Point& z) {
   const double x2 = z.x * z.x;
   const double y2 = z.y * z.y;
@@ -37,6 +40,7 @@ inline std::uint8_t far_axis(const Point& z) {
   return y2 <= z2 ? 1 : 2;
 }
 
+// Returns the frame of a site: u is perpendicular to the axis and to z, v to both.
 inline TangentFrame frame_at(const Point& z, std::uint8_t axis) {
   const exact::Vector3<double> east = axis == 0
                                           ? exact::Vector3<double>{0, -z.z, z.y}
@@ -46,7 +50,7 @@ inline TangentFrame frame_at(const Point& z, std::uint8_t axis) {
   return {u, cross(exact::to_vector(z), u)};
 }
 
-// z moved by a tangent vector, back on the sphere.
+// Returns z moved by a tangent vector, projected back to the sphere.
 inline Point moved(const Point& z, std::uint8_t axis, const TangentVector& by) {
   const TangentFrame frame = frame_at(z, axis);
   const auto p = exact::to_vector(z) + by.u * frame.u + by.v * frame.v;
@@ -55,7 +59,8 @@ inline Point moved(const Point& z, std::uint8_t axis, const TangentVector& by) {
 
 inline constexpr std::size_t terms_at_a_time = 4096;
 
-// The sum over pieces [begin, end) of what `piece` returns, added from the first to the last.
+// Returns the sum of piece(begin, end) over pieces of all `count` terms, added from the first to
+// the last.
 template <class Piece>
 double sum_in_order(unsigned threads, std::size_t count, const Piece& piece) {
   std::vector<double> sums(system::num_pieces(count, terms_at_a_time));

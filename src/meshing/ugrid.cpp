@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// UGRID conventions 1.0 (https://ugrid-conventions.github.io/ugrid-conventions). Numbers start at 0.
+// Writes UGRID conventions 1.0 (https://ugrid-conventions.github.io/ugrid-conventions). Numbers
+// start at 0.
 
 #include <algorithm>
 
@@ -10,7 +11,7 @@
 namespace rondel::meshing {
 namespace {
 
-constexpr std::int32_t ugrid_none = -1;  // no_index in 32 bits
+constexpr std::int32_t ugrid_none = -1;  // stands for no_index in 32 bits
 
 using UgridTexts = MeshFile::Texts;
 constexpr UgridTexts east = {{"units", "degrees_east"}, {"standard_name", "longitude"}};
@@ -33,8 +34,8 @@ io::NetcdfVariable connectivity(const char* name, const char* role,
   return variable;
 }
 
-// The entry of a ring for each of its edges with a length, then none. Edges of a cell are counterclockwise from the
-// one that ends at its first corner.
+// Writes the entries of a ring for each of its edges that has a length, then fills the row. The
+// edges of a cell are counterclockwise from the one that ends at its first corner.
 template <class Entry>
 void define_face_list(MeshFile& file, io::NetcdfVariable variable, const CellCorners& corners,
                       std::size_t room, Entry entry) {
