@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The array of areas, which are found bucket by bucket and written row by row.
+// Writes the array of areas, which are computed bucket by bucket and written row by row, by way of
+// a scratch file.
 //
 // in    areas of vertices
 // out   the areas of all sites
@@ -22,20 +23,24 @@ namespace rondel::distributed {
 
 class AreaResults {
  public:
-  // A scratch file between the two.
+  // The areas are kept in the scratch file until write().
   AreaResults(std::unique_ptr<ResultArray> result, const std::string& scratch);
 
+  // Reserves disk space for the areas of `num_sites` sites.
   void reserve(std::uint64_t num_sites);
-  // Those of some vertices, in any order.
+  // Adds the areas of some vertices, in any order.
   void add(std::span<const std::uint64_t> rows, std::span<const double> areas);
-  // Writes those of all sites, whose rows are counted from `first_row` on; 0 for those without one.
+  // Writes the areas of all sites, whose rows are counted from `first_row` on; a site without an
+  // area gets 0.
   void write(std::uint64_t num_sites, std::uint64_t first_row);
+  // Gives the file its name.
   void commit() { array_->commit(); }
 
  private:
   std::unique_ptr<ResultArray> array_;
   ScratchFile scratch_;
-  std::vector<std::uint64_t> begin_ = {0};  // of each list, and the end of the last one
+  std::vector<std::uint64_t> begin_ = {0};  // by list: where it begins in the scratch file; then
+                                            // the end of the last one
 };
 
 }  // namespace rondel::distributed

@@ -14,13 +14,13 @@
 namespace rondel::distributed {
 namespace {
 
-// The sites begin ... end-1 with all faces around them.
+// The sites begin ... end - 1 with all faces around them.
 class StarPiece {
  public:
   StarPiece(const AreaInput& input, std::span<const Index> face_at, Index begin, Index end)
       : input_(input), face_at_(face_at), begin_(begin), end_(end) {}
 
-  // Of the sites of the piece.
+  // Returns the areas of the sites of the piece.
   std::vector<double> areas(const system::Job& options) {
     list_faces();
     TriangulationArrays arrays;
@@ -48,7 +48,7 @@ class StarPiece {
   }
 
  private:
-  // All faces around the sites, each once, in the order of their numbers.
+  // Lists all faces around the sites, each once, in the order of their numbers.
   void list_faces() {
     for (Index rank = begin_; rank < end_; ++rank) {
       if (face_at_[rank] == no_index) continue;
@@ -66,7 +66,7 @@ class StarPiece {
     return v.is_own && v.index >= begin_ && v.index < end_;
   }
 
-  // Whether the face comes to no earlier site of the piece.
+  // True if no earlier site of the piece has the face.
   [[nodiscard]] bool is_first(Index rank, Index code) const {
     for (unsigned i = 0; i < 3; ++i) {
       const bulk::BucketCorner v = input_.surface.corner(code, i);
@@ -83,7 +83,7 @@ class StarPiece {
     return place->second;
   }
 
-  // Across the border a face is its own neighbor.
+  // Returns the local face, or `self` across the border, where a face is its own neighbor.
   [[nodiscard]] Index face_of(Index code, Index self) const {
     const auto place = local_of_.find(code);
     return place == local_of_.end() ? self : place->second;
@@ -94,8 +94,8 @@ class StarPiece {
   Index begin_;
   Index end_;
   std::vector<std::pair<bulk::GlobalIndex, Index>> faces_;  // number and code
-  std::unordered_map<Index, Index> local_of_;               // by code
-  std::unordered_map<std::uint64_t, Index> others_;         // sites that are not of the piece
+  std::unordered_map<Index, Index> local_of_;               // code -> local face
+  std::unordered_map<std::uint64_t, Index> others_;         // sites that are not in the piece
   std::vector<Point> points_;
 };
 

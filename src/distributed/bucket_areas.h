@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The areas of the cells of a bucket's sites, in every bit those of all sites together: the faces at some
-// sites are a surface with a border, and the same sums run over it.
+// Computes the areas of the cells of a bucket's sites, with the same bits as for all sites
+// together: the faces at some sites form a surface with a border, and the same sums are taken over
+// it.
 //
 // in    the surface of a bucket, points, and the numbers of its faces
 // out   areas by rank
@@ -21,13 +22,14 @@ namespace rondel::distributed {
 struct AreaInput {
   const bulk::BucketSurface& surface;
   std::span<const Point> points;       // by rank
-  std::span<const Point> open_points;  // of all buckets
-  std::vector<Point> landmarks;        // of all sites
-  // The number of a face, by its code.
+  std::span<const Point> open_points;  // open points of all buckets
+  std::vector<Point> landmarks;        // landmarks of all sites (bulk/all_sites.h)
+  // Returns the number of a face among those of all buckets, given its code.
   std::function<bulk::GlobalIndex(Index)> number;
 };
 
-// 0 for hidden sites. In pieces of so many sites.
+// Returns the areas on the unit sphere by rank, 0 for hidden sites. The work is done in pieces of
+// `piece_sites` sites.
 std::vector<double> bucket_areas(const AreaInput& input, const system::Job& options,
                                  std::size_t piece_sites = std::size_t{1} << 15);
 

@@ -14,8 +14,8 @@
 namespace rondel::distributed {
 namespace {
 
-// Sites of different places, in increasing order of row: the first row of each place, and the smallest
-// coordinates there.
+// Sites at different places, in increasing order of row: the first row of each place, and the
+// smallest coordinates of its points.
 class DistinctSites {
  public:
   explicit DistinctSites(const system::Job& options) : options_(options) {}
@@ -23,7 +23,7 @@ class DistinctSites {
   [[nodiscard]] std::size_t size() const { return sites_.rows.size(); }
   BucketSites take() { return std::move(sites_); }
 
-  // Adds sites with larger rows; returns which of them are copies, in increasing order of row.
+  // Adds sites with larger rows; returns which of them are duplicates, in increasing order of row.
   std::vector<DuplicateRow> add(std::span<const Point> points,
                                 std::span<const std::uint64_t> rows) {
     sites_.points.insert(sites_.points.end(), points.begin(), points.end());
@@ -56,7 +56,8 @@ class DistinctSites {
   BucketSites sites_;
 };
 
-// What is kept and what is new are both as many as there may be.
+// Reads a crowded slot piece by piece; both the kept sites and the new ones are at most
+// `most_sites`.
 std::optional<BucketSites> read_crowd(const BucketFiles& files, std::uint64_t most_sites,
                                       const system::Job& options, StoredBucket& stored) {
   DistinctSites places(options);

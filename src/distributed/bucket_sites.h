@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The sites of a bucket, read from its slot. Where there are more than a bucket may have all of them
-// lie in the smallest square there is: then copies are found some at a time, and one of each place is
-// kept.
+// Reads the sites of a bucket from its slot. If there are more of them than a bucket may have, all
+// of them lie in the smallest square there is; then duplicates are found piece by piece, and one
+// site of each place is kept.
 //
 // in    slots
 // out   the sites of a bucket in memory
@@ -24,11 +24,12 @@ namespace rondel::distributed {
 
 struct BucketSites {
   LargeVector<Point> points;
-  LargeVector<Point> named_points;  // of the rows, where these are not the points
-  std::vector<std::uint64_t> rows;  // increasing; empty if they are to be read when they are needed
+  LargeVector<Point> named_points;  // the points of `rows`, if these are not `points`
+  std::vector<std::uint64_t> rows;  // increasing; empty if they are read later, when they are
+                                    // needed
 };
 
-// Where the sites of a bucket are, and where their copies go.
+// Where the sites of a bucket are stored, and where its duplicates go.
 struct BucketFiles {
   const Slots& slots;
   BucketStore& store;
@@ -37,21 +38,23 @@ struct BucketFiles {
   SlotChecksums dealt;
 };
 
-// Reads all points, or those of different places if there are more than may be; then the copies are added to
-// the store. Returns nothing if the slot has something else than was dealt. Throws FileError
-// if too many sites lie together.
+// Reads all points, or one of each place if there are more than `most_sites`; then the duplicates
+// are added to the store. Returns nothing if the slot does not contain what was dealt. Throws
+// FileError if more than `most_sites` places lie in the smallest square.
 std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t most_sites,
                                              const system::Job& options, StoredBucket& stored);
 
-// By rank.
+// Returns the row of each vertex, by rank.
 std::vector<std::uint64_t> vertex_rows(const order::SpatialOrder& order,
                                        std::span<const std::uint64_t> rows);
-// The points of these rows: of copies on one ray the one that names the place, which counts for areas.
+// Returns the point of each vertex, by rank. Of duplicates on one ray, it is the point of the
+// lowest row, which determines areas.
 LargeVector<Point> vertex_points(const order::SpatialOrder& order, const BucketSites& sites);
+// Returns the duplicates as rows of the input.
 std::vector<DuplicateRow> duplicate_rows(std::span<const Duplicate> duplicates,
                                          std::span<const std::uint64_t> rows);
 
-// All rows of a bucket, or nothing, as above.
+// Returns all rows of a bucket, or nothing if the slot does not contain what was dealt.
 std::optional<std::vector<std::uint64_t>> read_bucket_rows(const BucketFiles& files);
 
 }  // namespace rondel::distributed

@@ -20,14 +20,16 @@ std::uint64_t checksum_of(std::span<const T> values) {
   return sum.value();
 }
 
-// The same in any order, some at a time.
+// Returns a sum that does not depend on the order of the duplicates, so that they may be added in
+// pieces.
 std::uint64_t sum_of(std::span<const DuplicateRow> duplicates) {
   std::uint64_t sum = 0;
   for (const DuplicateRow& d : duplicates) sum += checksum_of(std::span(&d, 1));
   return sum;
 }
 
-// Writes what a WordReader reads, without a copy: of sites on a curve all are open.
+// Writes what a WordReader reads, without copying it first: if sites lie on a curve, all of them
+// are open.
 class BorderWriter {
  public:
   BorderWriter(ScratchFile& file, std::uint64_t place) : file_(file), begin_(place), end_(place) {}
@@ -204,7 +206,7 @@ Words BucketStore::border_words(const StoredBucket& stored) const {
 }
 
 std::uint64_t BucketStore::num_open_sites(const StoredBucket& stored) const {
-  std::uint64_t size = 0;  // the first word, that of the points
+  std::uint64_t size = 0;  // the first word is the number of the points
   borders_.read(stored.border_place, std::span(&size, 1));
   return size;
 }

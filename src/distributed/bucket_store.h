@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Buckets that are triangulated, in files: what their faces are, and apart from that, as it is read more
-// often, what they left open.
+// Stores triangulated buckets in files: their faces in one, and in another their borders, which are
+// read more often.
 //
 // in    one bucket after the other
 // out   their faces, borders and duplicates, again and again
@@ -21,7 +21,7 @@
 
 namespace rondel::distributed {
 
-// Rows of the input.
+// A duplicate site and the site that represents its place, as rows of the input.
 struct DuplicateRow {
   std::uint64_t row;
   std::uint64_t representative;
@@ -31,52 +31,53 @@ struct AreaRow {
   double area;
 };
 
-// What of the buckets is kept, for the results that are wanted.
+// Which parts of the buckets are stored, as the wanted results need.
 struct StoreParts {
   bool has_neighbors = false;
   bool has_points = false;
 };
 
-// Of v vertices there are less than 2v faces, and a duplicate takes less than a vertex.
+// An upper bound: v vertices have fewer than 2v faces, and a duplicate takes less than a vertex.
 constexpr std::uint64_t bytes_of_stored_site(StoreParts parts) {
   return sizeof(std::uint64_t) + (parts.has_neighbors ? 4 : 2) * sizeof(Triple) +
          (parts.has_points ? sizeof(Point) : 0);
 }
 
-// Where a bucket is, and how large: what the journal says of it.
+// Where a bucket is stored, and its sizes. The journal records it.
 struct StoredBucket {
-  std::uint64_t num_vertices = 0;  // and hidden sites
+  std::uint64_t num_vertices = 0;  // with the hidden sites
   std::uint64_t num_faces = 0;
   std::uint64_t num_duplicates = 0;
-  std::uint64_t num_hidden = 0;  // that are hidden whatever others have
-  std::uint64_t checksum = 0;    // of all but the duplicates
+  std::uint64_t num_hidden = 0;  // hidden whatever other buckets contain
+  std::uint64_t checksum = 0;    // of everything but the duplicates
   std::uint64_t duplicates_checksum = 0;
   std::uint64_t border_place = 0;
   std::uint64_t border_words = 0;
   std::uint64_t border_checksum = 0;
 };
 
-// What the buckets between which there are faces must know of each other.
+// The data of a bucket that other buckets need to compute the faces between them.
 struct StoredBorder {
   bulk::BucketBorder border;
-  std::vector<Point> points;        // of the open sites, those that speak for their places
-  std::vector<Point> named_points;  // of their rows, if points are stored
-  std::vector<std::uint64_t> rows;  // theirs
+  std::vector<Point> points;        // by open site: the point that represents its place
+  std::vector<Point> named_points;  // by open site: the point of its row, if points are stored
+  std::vector<std::uint64_t> rows;  // by open site
 };
 
 class BucketStore {
  public:
-  // In these two files, which are made if they are not there.
+  // Opens or creates the two files. `cuts` are the buckets.
   BucketStore(const std::string& faces, const std::string& borders,
               std::span<const bulk::BucketCut> cuts, StoreParts parts);
 
-  // Adds to the duplicates of a bucket, which is not written yet.
+  // Adds to the duplicates of bucket i, which has not been written yet.
   void add_duplicates(std::size_t i, StoredBucket& stored,
                       std::span<const DuplicateRow> duplicates);
-  // Of its ranks are the rows and, if they are kept, the points. The bucket's border has been taken.
+  // Writes bucket i. `vertex_rows` and, if points are stored, `points` are by rank. The border has
+  // been moved out of `bucket`.
   void write(std::size_t i, const bulk::Bucket& bucket, std::span<const std::uint64_t> vertex_rows,
              std::span<const Point> points, const StoredBorder& border, StoredBucket& stored);
-  // Whether the files have what was written.
+  // True if the files contain bucket i as it was written, by its checksums.
   [[nodiscard]] bool has(std::size_t i, const StoredBucket& stored) const;
 
   [[nodiscard]] std::vector<std::uint64_t> vertex_rows(std::size_t i,
@@ -84,17 +85,18 @@ class BucketStore {
   [[nodiscard]] LargeVector<Triple> faces(std::size_t i, const StoredBucket& stored) const;
   [[nodiscard]] LargeVector<Triple> neighbors(std::size_t i, const StoredBucket& stored) const;
   [[nodiscard]] LargeVector<Point> points(std::size_t i, const StoredBucket& stored) const;
-  // Some of the duplicates, which are in increasing order of site.
+  // Reads some of the duplicates, from `first` on; they are in increasing order of row.
   void read_duplicates(std::size_t i, std::uint64_t first,
                        std::span<DuplicateRow> duplicates) const;
   [[nodiscard]] std::uint64_t num_open_sites(const StoredBucket& stored) const;
   [[nodiscard]] StoredBorder border(const StoredBucket& stored) const;
-  // The same without the rim.
+  // Returns the border without the rim, which takes less memory.
   [[nodiscard]] StoredBorder outline(const StoredBucket& stored) const;
 
  private:
   [[nodiscard]] std::uint64_t site_bytes() const { return bytes_of_stored_site(parts_); }
-  // One after the other: duplicates, rows of vertices, faces, neighbors, points.
+  // The parts of a bucket follow each other: duplicates, rows of vertices, faces, neighbors,
+  // points.
   [[nodiscard]] std::uint64_t duplicates_at(std::size_t i) const {
     return site_bytes() * first_site_[i];
   }

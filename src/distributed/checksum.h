@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A sum that tells whether what is read from a file is what was written to it. It finds what disks and
-// killed processes do, not what somebody forges.
+// A checksum that tells whether a file still contains what was written to it. It detects failures
+// of disks and of killed processes, not forgery.
+//
+// in    words of 64 bits, in pieces of any size
+// out   one word
 #pragma once
 
 #include <array>
@@ -14,8 +17,8 @@
 
 namespace rondel::distributed {
 
-// Of values without gaps, in pieces of any number of words of 64 bits: the same for every division into
-// pieces. Only the last one may end within a word.
+// The checksum of values without padding. It does not depend on how they are divided into pieces;
+// only the last piece may end within a word.
 class Checksum {
  public:
   template <class T>
@@ -25,7 +28,7 @@ class Checksum {
     const std::size_t num_words = bytes.size() / word_size;
     std::size_t i = 0;
     for (; i < num_words && num_words_ % num_lanes != 0; ++i) add(word_at(bytes, i));
-    // The products of different lanes do not wait for each other.
+    // Products of different lanes are independent, so that the processor computes them at once.
     auto lanes = lanes_;
     const std::size_t begin = i;
     for (; i + num_lanes <= num_words; i += num_lanes) {
@@ -51,7 +54,7 @@ class Checksum {
   static constexpr std::size_t word_size = sizeof(std::uint64_t);
   static constexpr std::size_t num_lanes = 4;
 
-  // Odd, so that no two words of one place have the same product.
+  // The factor is odd, so that different words at one place have different products.
   static constexpr std::uint64_t factor = 0x9e3779b97f4a7c15U;
 
   static std::uint64_t mixed(std::uint64_t sum, std::uint64_t word) {

@@ -13,7 +13,7 @@
 namespace rondel {
 namespace {
 
-// Rows, shown some at a time.
+// Collects rows and shows them to the visitor, some at a time.
 class RowVisits {
  public:
   explicit RowVisits(const std::function<void(std::span<const GlobalTriple>)>& visit)

@@ -17,17 +17,17 @@
 namespace rondel::distributed {
 namespace {
 
-// What all buckets know of each other when they are joined.
+// The data of all buckets that is joined in memory.
 struct Joined {
   std::vector<std::uint64_t> open_rows;  // by open site
-  std::vector<Point> open_points;        // theirs, if areas are wanted
-  std::vector<double> flat_areas;        // theirs, if dimension is less than 2
+  std::vector<Point> open_points;        // by open site, if areas are wanted
+  std::vector<double> flat_areas;        // by open site, if the dimension is less than 2
   bulk::JoinedFaces faces;
   int dimension = 2;  // less than 2: all sites are open and lie on one great circle
   std::uint64_t num_hidden = 0;
 };
 
-// Open sites that no face has.
+// Returns the number of open sites that no face has.
 std::uint64_t num_hidden(const Joined& joined) {
   std::vector<bool> is_vertex(joined.open_rows.size(), false);
   for (const Triple& face : joined.faces.faces) {
@@ -36,7 +36,7 @@ std::uint64_t num_hidden(const Joined& joined) {
   return static_cast<std::uint64_t>(std::ranges::count(is_vertex, false));
 }
 
-// There are no faces.
+// Joins sites on one great circle, where there are no faces.
 void join_flat(std::span<const bulk::OpenBucket> open, const system::Job& options, Joined& joined) {
   std::vector<Point> points;
   for (const bulk::OpenBucket& bucket : open)
@@ -75,7 +75,7 @@ Joined join(const RunState& state, const BucketStore& store, const system::Job& 
   return joined;
 }
 
-// A bucket with its faces numbered.
+// A bucket with the numbers of its faces.
 struct NumberedBucket {
   std::size_t i;
   const StoredBucket& stored;
@@ -85,7 +85,7 @@ struct NumberedBucket {
   Index first_edge;
 };
 
-// What is joined is written.
+// Writes the results from what was joined.
 class ResultWriter {
  public:
   ResultWriter(const RunState& state, const BucketStore& store, const Joined& joined,
@@ -98,7 +98,8 @@ class ResultWriter {
         results_(results),
         numbers_(joined.faces) {}
 
-  // The numbers of all faces between buckets must be known before any is written.
+  // Goes through all buckets twice, since the numbers of all faces between buckets must be known
+  // before any face is written.
   void run() {
     for_each_bucket([](const NumberedBucket&) {});
     for_each_bucket([this](const NumberedBucket& bucket) {
@@ -145,7 +146,7 @@ class ResultWriter {
     });
   }
 
-  // Joined faces keep their order among all.
+  // Writes the ghost faces; joined faces keep their order among all faces.
   void write_ghost_faces() {
     std::vector<std::uint64_t> ghost_faces;
     for (const Index face : joined_.faces.ghost_faces) ghost_faces.push_back(numbers_.faces[face]);
@@ -193,7 +194,7 @@ std::unique_ptr<io::ZarrGroup> open_group(const std::string& path) {
   return io::is_zarr(path) ? std::make_unique<io::ZarrGroup>(path) : nullptr;
 }
 
-// Those of all buckets, in increasing order of site.
+// Writes the duplicates of all buckets, in increasing order of site.
 void write_duplicates(const RunState& state, const BucketStore& store, RowFile& file) {
   std::vector<std::uint64_t> sizes;
   for (std::size_t i = 0; i < state.num_buckets(); ++i)
@@ -239,7 +240,7 @@ FileResults::FileResults(const OutOfCoreFiles& files, const std::string& area_sc
   if (!files.areas.empty()) areas.emplace(result(files.areas, &areas_head), area_scratch);
 }
 
-// A triangulation of n vertices has at most 2n - 4 faces.
+// Reserves space: a triangulation of n vertices has at most 2n - 4 faces.
 void FileResults::reserve(std::uint64_t num_sites, std::uint64_t first_number) {
   faces.reserve(2 * num_sites, 3, first_number + num_sites);
   if (neighbors) neighbors->reserve(2 * num_sites, 3, first_number + 2 * num_sites);

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// From buckets in files to the files of the result: what they left open is joined, all faces are
-// numbered, and written bucket by bucket.
+// Makes the result files from the stored buckets: computes the faces between buckets, numbers all
+// faces, and writes them bucket by bucket.
 //
-// in    all buckets, done
+// in    all buckets, stored
 // out   the files of the result, or a Zarr group
 // index buckets; rows of the input; faces of the result
 #pragma once
@@ -23,29 +23,29 @@
 
 namespace rondel::distributed {
 
-// The files of the result while they have no names.
+// The result files while they have temporary names.
 struct FileResults {
-  // Areas by way of a file in the scratch directory.
+  // Areas are computed by way of a file in the scratch directory.
   FileResults(const OutOfCoreFiles& files, const std::string& area_scratch);
 
   void reserve(std::uint64_t num_sites, std::uint64_t first_number);
   void commit();
 
-  std::unique_ptr<io::ZarrGroup> group;  // if the results are one
+  std::unique_ptr<io::ZarrGroup> group;  // if the results are one group
   RowFile faces;
-  std::optional<RowFile> ghost_faces;  // of a group
+  std::optional<RowFile> ghost_faces;  // in a group only
   std::optional<RowFile> neighbors;
   std::optional<RowFile> duplicates;
   std::optional<AreaResults> areas;
   bool has_neighbors_in_group = false;
 };
 
-// Joins and writes. Counts what is found into `report`. The first site and the first face are called
-// `first_number`.
+// Joins the buckets and writes the results. Adds counts to `report`. The first site and the first
+// face have the number `first_number`.
 void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
                    const system::Job& options, FileResults& results, OutOfCoreReport& report);
 
-// Writes what a group has of the input, reading `piece_sites` of it at a time.
+// Writes what a Zarr group contains of the input, reading `piece_sites` sites at a time.
 void write_nodes(const io::NpyRows& rows, std::size_t piece_sites, const system::Job& options,
                  FileResults& results);
 

@@ -19,7 +19,7 @@ void sort_once(std::vector<Index>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-// A rank's own ones, which follow each other, and some others: numbered anew in their order.
+// An interval of indices, which are a rank's own, and some others, renumbered in increasing order.
 class Renumbered {
  public:
   Renumbered() = default;
@@ -30,7 +30,7 @@ class Renumbered {
   }
 
   [[nodiscard]] Index size() const { return static_cast<Index>(others_.size()) + (end_ - begin_); }
-  [[nodiscard]] Index first() const { return num_before_; }  // of the rank's own
+  [[nodiscard]] Index first() const { return num_before_; }  // the first one of the interval
   [[nodiscard]] std::span<const Index> before() const {
     return std::span(others_).first(num_before_);
   }
@@ -38,7 +38,7 @@ class Renumbered {
     return std::span(others_).subspan(num_before_);
   }
 
-  // Precondition: i is one of them.
+  // Precondition: i is in the interval or one of the others.
   [[nodiscard]] Index operator()(Index i) const {
     if (i >= begin_ && i < end_) return num_before_ + (i - begin_);
     const auto place = static_cast<Index>(std::ranges::lower_bound(others_, i) - others_.begin());
@@ -108,11 +108,11 @@ class PartOfRank {
     }
   }
 
-  // Faces and edges whose numbers the rank does not know and needs.
+  // Return the faces and edges whose numbers the rank needs and does not know.
   [[nodiscard]] std::span<const Index> asked_faces() const { return asked_faces_; }
   [[nodiscard]] std::span<const Index> asked_edges() const { return asked_edges_; }
 
-  // As the part numbers them.
+  // Returns the number of a face in the part.
   [[nodiscard]] Index face(Index f) const {
     const auto found = std::ranges::lower_bound(listed_, f);
     if (found != listed_.end() && *found == f) return static_cast<Index>(found - listed_.begin());
@@ -176,8 +176,8 @@ class PartOfRank {
   }
 
   const bulk::JoinedFaces& joined_;
-  std::span<const Index> listed_;  // the faces at the rank's sites, increasing
-  std::span<const Point> points_;  // of all open sites, or none
+  std::span<const Index> listed_;  // faces at the rank's sites, increasing
+  std::span<const Point> points_;  // by open site, or empty
   Index sites_begin_;
   Index sites_end_;
   Index edges_begin_;
@@ -189,7 +189,7 @@ class PartOfRank {
   std::vector<Index> asked_edges_;
 };
 
-// By rank: the faces that have a corner there, increasing.
+// Returns for each rank the faces that have a corner there, in increasing order.
 std::vector<std::vector<Index>> list_faces(const bulk::JoinedFaces& joined,
                                            const OpenRanges& ranges) {
   std::vector<std::vector<Index>> listed(ranges.num_ranks());
@@ -202,7 +202,8 @@ std::vector<std::vector<Index>> list_faces(const bulk::JoinedFaces& joined,
   return listed;
 }
 
-// What is written of a part's sites before the rank's own ones and of those behind them.
+// Reads the values of a part's sites before the rank's own ones, takes those of its own, and reads
+// the rest.
 template <class T>
 std::vector<T> read_around(MessageReader& reader, std::span<const T> own) {
   std::vector<T> all = reader.values<T>();
@@ -272,7 +273,7 @@ JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t
   part.faces.neighbors = reader.values<Triple>();
   part.faces.owned_begin = reader.values<Index>();
   part.faces.ghost_faces = reader.values<Index>();
-  // By open edge of the part: of others nobody asks.
+  // Only the rank's own open edges have a value here; no other edges are asked for.
   const std::vector<Index> across = reader.values<Index>();
   part.faces.across.assign(part.faces.num_edges, no_index);
   std::ranges::copy(across, part.faces.across.begin() + part.first_edge);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Of the faces between buckets, those that one rank needs: all that have one of its sites as a corner.
+// The part of the faces between buckets that one rank needs: all that have one of its sites as a
+// corner.
 //
-// Sites, edges and faces are numbered anew, in the same order, so that those of a rank stay together:
+// Sites, edges and faces are renumbered in the same order, so that those of a rank stay together:
 //
 //     sites   some of earlier ranks | the rank's open sites | some of later ranks
 //     edges   some of earlier ranks | the rank's open edges | some of later ranks
@@ -23,7 +24,7 @@
 
 namespace rondel::distributed {
 
-// Where the open sites and open edges of each rank begin, and behind the last one.
+// The first open site and the first open edge of each rank, and the ends.
 struct OpenRanges {
   std::vector<Index> sites;
   std::vector<Index> edges;
@@ -31,37 +32,41 @@ struct OpenRanges {
   [[nodiscard]] std::size_t num_ranks() const { return sites.size() - 1; }
 };
 
-// Faces and open edges of a part whose numbers a rank tells another one, or is told.
+// The faces and open edges of a part whose numbers a rank tells another rank, or receives from it.
 struct NumberList {
-  std::size_t rank = 0;      // the other one
-  std::vector<Index> faces;  // between buckets
-  std::vector<Index> edges;  // faces on the left of open edges
+  std::size_t rank = 0;      // the other rank
+  std::vector<Index> faces;  // faces between buckets
+  std::vector<Index> edges;  // open edges, for the faces on their left
 };
 
-// Of a site in the input.
+// The area of a site of the input.
 struct SiteArea {
   std::uint64_t site = 0;
   double area = 0;
 };
 
 struct JoinedPart {
-  bulk::JoinedFaces faces;  // of the part; neighbors may be faces of which there is nothing else
-  Index num_faces = 0;      // these counted, too
-  Index first_site = 0;     // of this rank's
+  bulk::JoinedFaces faces;  // neighbors may be faces outside of the part, of which only the number
+                            // is known
+  Index num_faces = 0;      // including such neighbors
+  Index first_site = 0;     // first open site of this rank in the part
+  // The first open edge of this rank in the part.
   Index first_edge = 0;
-  std::vector<std::uint64_t> site_indices;  // in the input, by open site of the part
-  std::vector<Point> site_points;           // theirs, if they are kept
-  std::vector<NumberList> told;             // what this rank gives to others,
-  std::vector<NumberList> asked;            // and gets from them, in the same order
+  std::vector<std::uint64_t> site_indices;  // by open site of the part: its index in the input
+  std::vector<Point> site_points;           // by open site of the part, if points are kept
+  std::vector<NumberList> told;             // what this rank tells others, and
+  std::vector<NumberList> asked;            // what it receives from them, in the same order
 };
 
-// Writes each rank's part behind what its message has. `indices` are those of all open sites in the input,
-// `points` theirs, or none; if there are some, ranks are told the numbers of all faces of their part.
+// Appends the part of each rank to its message. `indices` has the input index of each open site of
+// all ranks, `points` their points or nothing; if there are points, ranks are told the numbers of
+// all faces of their part.
 void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& ranges,
                         std::span<const std::uint64_t> indices, std::span<const Point> points,
                         std::span<MessageWriter> messages);
 
-// `own_indices` and `own_points` are those of this rank's open sites; no points, if none are kept.
+// Reads the part of this rank. `own_indices` and `own_points` belong to this rank's open sites;
+// `own_points` is empty if points are not kept.
 JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices,
                             std::span<const Point> own_points);
 

@@ -13,10 +13,10 @@
 namespace rondel::distributed {
 namespace {
 
-// With which a journal begins, also one that was cut.
+// Every journal begins with this, even one that was cut.
 constexpr std::string_view mark = "rondel journal\n\n";
 
-// In front of each record.
+// The words before each record.
 struct RecordHead {
   std::uint64_t num_words;
   std::uint64_t checksum;
@@ -48,7 +48,8 @@ Journal::Journal(const std::string& path) : file_(path) {
   }
 }
 
-// At least half of what is there of it, as some of it may be damaged.
+// True if the file begins like a journal. Half of the mark suffices, as a part of it may be
+// damaged.
 bool Journal::has_mark(std::uint64_t size) const {
   std::array<char, mark.size()> begin{};
   const auto there = std::span(begin).first(std::min<std::uint64_t>(size, mark.size()));
@@ -58,7 +59,7 @@ bool Journal::has_mark(std::uint64_t size) const {
   return 2 * num_equal >= there.size();
 }
 
-// At once, as a killed process may leave a part of it.
+// Writes the record at once, as a killed process may leave a part of it.
 void Journal::append(std::span<const std::uint64_t> words) {
   if (end_ == mark.size()) file_.write(0, std::span(mark));
   Words record = {words.size(), checksum_of(words)};

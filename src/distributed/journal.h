@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a run has done, record by record, so that another one can go on. A record is there as a whole or
-// not at all.
+// The record of what a run has done, so that another run can resume it. A record is present as a
+// whole or not at all.
 //
 // in    records of words
 // out   those that an earlier run wrote
@@ -20,12 +20,14 @@ namespace rondel::distributed {
 
 class Journal {
  public:
-  // Opens the journal or makes it. Throws FileError if another process has it open, or if it is none.
+  // Opens or creates the journal. Throws FileError if another process has it open, or if the file
+  // is no journal.
   explicit Journal(const std::string& path);
 
-  // Those that were there. After the first one that is damaged there are none.
+  // Returns the records that the journal had when it was opened, up to the first damaged one.
   [[nodiscard]] const std::vector<Words>& records() const { return records_; }
 
+  // Appends a record.
   void append(std::span<const std::uint64_t> words);
   // Forgets all records.
   void clear();
@@ -35,7 +37,7 @@ class Journal {
 
   ScratchFile file_;
   std::vector<Words> records_;
-  std::uint64_t end_ = 16;  // behind the mark
+  std::uint64_t end_ = 16;  // after the mark
 };
 
 }  // namespace rondel::distributed

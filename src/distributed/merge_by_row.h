@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Records of all buckets in the order of the rows that they are about. Each bucket has its own in order,
-// in a file.
+// Merges the records of all buckets in the order of their rows. Each bucket has its records in a
+// file, in that order.
+//
+// in    sorted lists of records
+// out   all records, sorted
+// index rows of the input
 #pragma once
 
 #include <algorithm>
@@ -11,7 +15,7 @@
 
 namespace rondel::distributed {
 
-// One list of records, read some at a time by read(first, records).
+// One list of `size` records, which read(first, records) reads into a buffer.
 template <class Record, class Read>
 class RecordReader {
  public:
@@ -43,8 +47,8 @@ class RecordReader {
   std::size_t at_ = 0;
 };
 
-// visit(record) for all records of all lists, in increasing order of record.row. read(list, first,
-// records) reads some of one list.
+// Calls visit(record) for all records of all lists, in increasing order of record.row. read(list,
+// first, records) reads records of one list from `first` on.
 template <class Record, class Read, class Visit>
 void merge_by_row(const std::vector<std::uint64_t>& sizes, const Read& read, Visit visit) {
   constexpr std::size_t all_bytes = std::size_t{1} << 24;
@@ -58,7 +62,7 @@ void merge_by_row(const std::vector<std::uint64_t>& sizes, const Read& read, Vis
   };
   using Reader = decltype(reader(0));
   std::vector<Reader> readers;
-  std::vector<std::size_t> heap;  // of readers, the one with the lowest row first
+  std::vector<std::size_t> heap;  // indices of readers, the one with the lowest row first
   const auto is_later = [&](std::size_t a, std::size_t b) {
     return readers[a].front().row > readers[b].front().row;
   };

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What ranks tell each other: plain values and arrays of them, one after the other, behind one byte that
-// says how the sender is (supersteps.h). Ranks run the same program on machines of one kind.
+// Messages between ranks: plain values and arrays of them, one after the other, after one byte that
+// says whether the sender has failed (supersteps.h). All ranks run the same program on machines of
+// one kind.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,7 @@ class MessageWriter {
     add_values(std::span(&value, 1));
   }
 
-  // Without their number.
+  // Appends values without their count.
   template <class T>
   void add_values(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -38,14 +39,14 @@ class MessageWriter {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
 
-  // The number of values comes first.
+  // Appends the count of the values and the values.
   template <class T, class Allocator>
   void add(const std::vector<T, Allocator>& values) {
     add_value<std::uint64_t>(values.size());
     add_values(std::span<const T>(values));
   }
 
-  // To be written later, from take() on.
+  // Appends `num_bytes` bytes that the caller sets later, in the bytes that take() returns.
   void add_room(std::size_t num_bytes) { bytes_.resize(bytes_.size() + num_bytes); }
 
   Bytes take() { return std::move(bytes_); }
@@ -54,7 +55,8 @@ class MessageWriter {
   Bytes bytes_;
 };
 
-// Reads what a writer wrote. Precondition: the calls are those of the writer.
+// Reads what a MessageWriter wrote. Precondition: the calls are those of the writer, in the same
+// order.
 class MessageReader {
  public:
   explicit MessageReader(std::span<const std::byte> message)
@@ -85,7 +87,7 @@ class MessageReader {
     return result;
   }
 
-  // So many bytes, which are not copied.
+  // Returns the next `num_bytes` bytes, without copying them.
   std::span<const std::byte> skip(std::size_t num_bytes) {
     const auto bytes = rest_.first(num_bytes);
     rest_ = rest_.subspan(num_bytes);

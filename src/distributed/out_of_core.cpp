@@ -33,10 +33,11 @@ constexpr std::array<const char*, 5> scratch_names = {"sites", "faces", "borders
 void remove_scratch(const std::string& scratch) {
   std::error_code ignored;
   for (const char* name : scratch_names) std::filesystem::remove(path_in(scratch, name), ignored);
-  std::filesystem::remove(scratch, ignored);  // if it is empty
+  std::filesystem::remove(scratch, ignored);  // only if it is empty
 }
 
-// What is called as scratch files are is theirs, or nobody's: what a run has made comes with its journal.
+// Refuses to overwrite files that have the names of scratch files but no journal, as they are not
+// from a run.
 void require_own_scratch(const std::string& scratch) {
   std::error_code ignored;
   if (std::filesystem::exists(path_in(scratch, "journal"), ignored)) return;
@@ -71,10 +72,10 @@ class OutOfCoreRun {
         about_(about()),
         state_(scratch_path("journal"), about_, out_of_core.resume) {}
 
-  // Whether something is done that is worth being kept.
+  // True if something has been done that is worth keeping.
   [[nodiscard]] bool has_begun() const { return state_.has_counts(); }
 
-  // Sets `has_begun` as soon as it has.
+  // Runs all steps; sets `has_begun` as soon as something is worth keeping.
   OutOfCoreReport run(bool& has_begun) {
     reserve();
     if (!state_.has_counts()) {
@@ -100,7 +101,7 @@ class OutOfCoreRun {
   }
 
  private:
-  // Room on the disk, of which the number of sites tells how much: for all but what buckets leave open.
+  // Reserves the disk space that the number of sites determines: all but what buckets leave open.
   void reserve() {
     results_.reserve(rows_.num_rows(), limits_.first_number);
     ScratchFile(scratch_path("sites")).reserve(slot_bytes * rows_.num_rows());
@@ -109,7 +110,7 @@ class OutOfCoreRun {
 
   [[nodiscard]] std::string scratch_path(const char* name) const { return path_in(scratch_, name); }
 
-  // What must be the same if a run is to be resumed.
+  // Returns what must be the same if a run is to be resumed.
   [[nodiscard]] std::vector<RunPart> about() const {
     constexpr std::uint64_t version = 2;
     std::error_code ignored;
@@ -134,7 +135,7 @@ class OutOfCoreRun {
     return std::ranges::equal(about(), about_, {}, &RunPart::words, &RunPart::words);
   }
 
-  // An earlier run may have had more memory.
+  // Throws if the buckets are too large, since an earlier run may have had more memory.
   void check_buckets() const {
     for (const bulk::BucketCut& cut : state_.counts().cuts) {
       if (cut.num_sites <= limits_.most_bucket_sites || cut.square.bits == order::low_levels)
@@ -145,7 +146,7 @@ class OutOfCoreRun {
     }
   }
 
-  // Keeps what is done only where the files have it.
+  // Forgets finished buckets that the files do not contain, and returns the number of the others.
   std::uint64_t find_done(const BucketStore& store) {
     std::uint64_t num_done = 0;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
@@ -177,7 +178,7 @@ class OutOfCoreRun {
                      wanted);
   }
 
-  // Returns false if not all buckets are in the slots as they were dealt.
+  // Triangulates the buckets. Returns false if some slots do not contain what was dealt.
   bool triangulate(const Slots& slots, BucketStore& store) {
     bool are_all_done = true;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
@@ -200,7 +201,7 @@ class OutOfCoreRun {
     auto sites = read_bucket_sites(files, most_sites, options_, stored);
     if (!sites) return false;
     system::Job job = options_;
-    job.progress = {};  // that of all buckets is shown
+    job.progress = {};  // the progress over all buckets is shown instead
     bulk::Bucket bucket =
         bulk::triangulate_bucket(sites->points, cut.square, state_.counts().all, job);
     StoredBorder border;
@@ -259,11 +260,11 @@ OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
   require_own_scratch(out_of_core.scratch);
   std::filesystem::create_directories(out_of_core.scratch, error);
   if (error) throw FileError(out_of_core.scratch + ": " + error.message());
-  bool is_ours = false;  // not that of another run
+  bool is_ours = false;  // false if it belongs to another run
   bool has_begun = false;
   system::OnFailure remove([&] {
     std::error_code ignored;
-    if (!is_ours) std::filesystem::remove(out_of_core.scratch, ignored);  // if it is empty
+    if (!is_ours) std::filesystem::remove(out_of_core.scratch, ignored);  // only if it is empty
     if (is_ours && !has_begun) remove_scratch(out_of_core.scratch);
   });
   OutOfCoreReport report;

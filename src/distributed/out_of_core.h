@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A run from a file of sites to files of results, with what it may have in memory at once.
+// A run from a file of sites to result files, within a given amount of memory.
 //
-//     count        how many sites each square has          rows -> cuts
-//     deal         the sites of each bucket together       rows -> slots
-//     triangulate  one bucket after the other              slots -> store
-//     join         what the buckets left open, in memory
-//     write        the faces, bucket by bucket             store -> results
+//     count        counts the sites of each square               rows -> cuts
+//     deal         moves the sites of each bucket together       rows -> slots
+//     triangulate  triangulates one bucket after the other       slots -> store
+//     join         joins what the buckets left open, in memory
+//     write        writes the faces, bucket by bucket            store -> results
 //
 // in    a file of sites; a directory where an earlier run may have begun
 // out   the files of the result

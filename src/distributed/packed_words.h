@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Arrays of plain values as words of 64 bits, one after the other: what journals and other processes get.
+// Packs arrays of plain values into words of 64 bits, for journals and for other processes.
+//
+// in    words, and vectors of plain values
+// out   one sequence of words
 #pragma once
 
 #include <cstdint>
@@ -20,7 +23,7 @@ class WordWriter {
  public:
   void add(std::uint64_t word) { words_.push_back(word); }
 
-  // Its size comes first.
+  // Appends the size of the vector and its values.
   template <class T>
   void add(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -36,7 +39,7 @@ class WordWriter {
   Words words_;
 };
 
-// Reads what a writer wrote. Precondition: the words are those, as a checksum tells.
+// Reads what a WordWriter wrote. Precondition: the words are unchanged, as a checksum tells.
 class WordReader {
  public:
   explicit WordReader(std::span<const std::uint64_t> words) : words_(words) {}

@@ -24,7 +24,8 @@ void append_gathered(const LargeVector<T>& values, std::span<const Index> order,
   }
 }
 
-// Of the rank's open sites, those with a point of their own, which are few.
+// Writes which of the rank's open sites have a point of their own, other than that of their place;
+// they are few.
 void add_other_points(const RankBuckets& own, MessageWriter& writer) {
   std::vector<Index> positions;
   std::vector<Point> points;
@@ -70,7 +71,7 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
   RankBuckets own;
   own.first_site.push_back(0);
   system::Job job = options;
-  job.progress = {};  // that of all buckets is shown
+  job.progress = {};  // the progress over all buckets is shown instead
   LargeVector<Point> points;
   LargeVector<std::uint64_t> indices;
   std::uint64_t num_sites = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The buckets of one rank, triangulated as far as each of them can be by itself.
+// Triangulates the buckets of one rank, as far as each of them can be by itself.
 //
 // in    the sites of this rank's buckets
 // out   their faces in memory, and what they leave open, as a message
@@ -21,14 +21,15 @@ namespace rondel::distributed {
 
 struct RankBuckets {
   std::vector<bulk::Bucket> buckets;    // without their orders
-  std::vector<std::size_t> first_site;  // of each bucket in `sites`, and behind the last one
-  LargeVector<std::uint64_t> sites;     // by rank, bucket after bucket
-  LargeVector<Point> points;            // of these, if they are kept
+  std::vector<std::size_t> first_site;  // by bucket: its first element of `sites`; then the end
+  LargeVector<std::uint64_t> sites;     // site of each vertex: bucket after bucket, by spatial rank
+  LargeVector<Point> points;            // by element of `sites`, if points are kept
   std::vector<std::vector<Point>> open_points;  // by bucket
   std::vector<GlobalDuplicate> duplicates;      // in no particular order
-  std::vector<std::uint64_t> hidden;            // whatever other buckets have, in no order
+  std::vector<std::uint64_t> hidden;            // hidden whatever other buckets contain; in no
+                                                // order
 
-  // Of open site s of a bucket.
+  // Returns the site of open site s of a bucket.
   [[nodiscard]] std::uint64_t open_site(std::size_t bucket, std::size_t s) const {
     return sites[first_site[bucket] + buckets[bucket].border.open_sites[s].rank];
   }
@@ -40,30 +41,30 @@ struct RankBuckets {
     return std::span(points).subspan(first_site[bucket],
                                      first_site[bucket + 1] - first_site[bucket]);
   }
-  // Of all buckets, in their order.
+  // Returns the open sites of all buckets, in their order.
   [[nodiscard]] std::vector<std::uint64_t> open_sites() const;
-  // Theirs, or none.
+  // Returns the points of open_sites(), or nothing if points are not kept.
   [[nodiscard]] std::vector<Point> kept_open_points() const;
 };
 
-// The buckets of `plan` from `first_bucket` on.
+// Triangulates the buckets of the plan from `first_bucket` on.
 RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts,
                                 std::size_t first_bucket, std::size_t num_buckets, bool keep_points,
                                 const system::Job& options);
 
-// What the buckets leave open, to be joined.
+// Returns the message with what the buckets leave open, to be joined.
 Bytes write_open_buckets(const RankBuckets& own, bool keep_points);
 
-// Those of all ranks: buckets in the order of the curve, and their open sites. The points of buckets
-// are those that speak for their places in ties; of copies, the one that names the place may be another
-// point on the same ray.
+// What the buckets of all ranks leave open: the buckets in the order of the curve, and their open
+// sites. The points of buckets are those that represent their places in ties; among duplicates, the
+// lowest site may be another point on the same ray.
 struct OpenBuckets {
   std::vector<bulk::OpenBucket> buckets;
   std::vector<std::uint64_t> sites;
-  std::vector<Point> points;  // of these, if they are kept
+  std::vector<Point> points;  // by element of `sites`, if points are kept
 };
 
-// Adds what a rank wrote, whose buckets are these.
+// Adds the message of a rank. `cuts` are the rank's buckets.
 void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
                        bool keep_points, OpenBuckets& all);
 

@@ -100,7 +100,7 @@ class RankBuild {
     }
   }
 
-  // Open sites without a face.
+  // Adds the open sites that no face has to the hidden sites.
   void add_hidden() {
     const JoinedPart& part = result_->part;
     std::vector<bool> is_vertex(part.site_indices.size(), false);
@@ -166,7 +166,8 @@ class RankBuild {
     return rank_of_site(site - limits_.first_number, counts_.first_site);
   }
 
-  // Those that were not dealt are in the place of one that was.
+  // Adds the copies that were not dealt to the duplicates: each is at the place of a site that was
+  // dealt.
   void add_copies() {
     if (counts_.copies.empty()) return;
     auto& duplicates = result_->duplicates;

@@ -3,12 +3,12 @@
 
 // A build by all ranks, step by step:
 //
-//     count        which squares each rank triangulates     exchange, all-gather; again where dense
-//     deal         the sites to these ranks                 exchange, some at a time
-//     triangulate  each rank its squares                    all-gather
-//     join         what they left open, by rank 0           exchange, there and back
-//     number       the faces, through all ranks             all-gather, exchange
-//     finish       duplicates and hidden sites home         exchange, all-gather
+//     count        decides which squares each rank triangulates    exchange, all-gather; repeated if dense
+//     deal         sends the sites to these ranks                  exchange, a limited number at a time
+//     triangulate  triangulates each rank's squares                all-gather
+//     join         joins on rank 0 what they left open             exchange, there and back
+//     number       numbers the faces of all ranks                  all-gather, exchange
+//     finish       returns duplicates and hidden sites             exchange, all-gather
 //
 // in    the sites of each rank
 // out   each rank's part of the faces

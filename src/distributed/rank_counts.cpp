@@ -14,7 +14,7 @@
 namespace rondel::distributed {
 namespace {
 
-// Squares with a twentieth of a rank's share at most, so that no rank has 5 % more than its share.
+// A square has at most a twentieth of a rank's share, so that no rank has 5 % more than its share.
 constexpr std::uint64_t squares_of_rank = 20;
 
 std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
@@ -24,7 +24,7 @@ std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
   return std::clamp<std::uint64_t>(share, 1, most_bucket_sites);
 }
 
-// Such that uniform sites need one round, and the counts are as few as that allows.
+// Returns the least depth with which uniform sites need one round.
 int depth_for(std::size_t num_ranks) {
   int depth = 3;
   while (depth < bulk::BucketCounts::usual_depth &&
@@ -34,7 +34,7 @@ int depth_for(std::size_t num_ranks) {
   return depth;
 }
 
-// Of so many values, those that a rank adds up.
+// Returns where the slice of a rank begins, if all ranks add up a slice of `size` values.
 std::size_t slice_begin(std::size_t size, std::size_t rank, std::size_t num_ranks) {
   return size / num_ranks * rank + std::min(rank, size % num_ranks);
 }
@@ -73,9 +73,11 @@ class RankCounter {
     }
   }
 
-  // The first site that is not valid is that of the lowest rank that has one, which is heard.
+  // Checks the sites and computes their keys. If several ranks have invalid sites, the exception of
+  // the lowest rank is thrown everywhere, and so the first invalid site is reported.
   void look_at_sites() {
-    constexpr std::size_t cached_sites = std::size_t{1} << 15;  // memory is slow
+    constexpr std::size_t cached_sites = std::size_t{1} << 15;  // a piece that fits the cache, as
+                                                                // memory is slow
     result_.all = bulk::AllSites(options_);
     result_.keys.resize(mine_.size());
     for (std::size_t begin = 0; begin < mine_.size(); begin += cached_sites) {

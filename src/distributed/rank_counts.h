@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The first look at the sites of all ranks: whether they are valid, how many there are in which squares,
-// and so which squares each rank triangulates.
+// Looks at the sites of all ranks first: checks that they are valid, counts them by squares, and
+// decides which squares each rank triangulates.
 //
 // in    the sites of each rank
 // out   the same plan on each rank
@@ -23,34 +23,36 @@
 
 namespace rondel::distributed {
 
-// What tests set, beside what users may.
+// Limits that tests set, in addition to the options of users.
 struct RankLimits {
   std::uint64_t most_bucket_sites = 0;
   std::uint64_t most_dealt_sites = 0;
-  // What the first site and the first face of all are called: not 0 where a test wants to see that 64
-  // bits arrive everywhere.
+  // The number of the first site and of the first face. Tests set it to see that 64 bits arrive
+  // everywhere.
   std::uint64_t first_number = 0;
   bool keep_points = false;
 };
 
-// Which rank gave a site, where those of rank r begin at first_site[r].
+// Returns the rank that gave a site, where the sites of rank r begin at first_site[r].
 inline std::size_t rank_of_site(std::uint64_t site, std::span<const std::uint64_t> first_site) {
   const auto next = std::ranges::upper_bound(first_site, site);
   return static_cast<std::size_t>(next - first_site.begin()) - 1;
 }
 
 struct RankCounts {
-  std::vector<std::uint64_t> first_site;  // of each rank, and behind the last one, from 0 on
+  std::vector<std::uint64_t> first_site;  // by rank, from 0 on; then the number of all sites
   bulk::AllSites all;
   RankPlan plan;
-  std::vector<PointCopy> copies;    // of this rank's sites, which are not counted and not dealt
-  std::vector<std::uint64_t> keys;  // of its other sites
+  std::vector<PointCopy> copies;    // copies among this rank's sites, which are neither counted nor
+                                    // dealt
+  std::vector<std::uint64_t> keys;  // keys of this rank's other sites
 
   [[nodiscard]] std::uint64_t num_sites(std::size_t rank) const {
     return first_site[rank + 1] - first_site[rank];
   }
 };
 
+// Counts the sites. Throws InvalidInput on all ranks if a site of any rank is not valid.
 RankCounts count_on_ranks(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
                           const system::Job& options);
 

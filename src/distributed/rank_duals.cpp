@@ -27,7 +27,7 @@ void require_points(const Impl& t) {
   }
 }
 
-// Those of the rank's own sites go to the ranks that gave them.
+// Sends the areas of the rank's own sites to the ranks that gave the sites.
 class AreasHome {
  public:
   AreasHome(Supersteps& steps, const Impl& t, const Execution& execution)
@@ -96,8 +96,8 @@ class AreasHome {
   std::vector<std::vector<SiteArea>> sent_;  // by rank
 };
 
-// Some faces and their corners' points. A corner may be listed more than once, so that a small table is
-// enough to find most of them again.
+// Some faces and the points of their corners. A corner may be listed more than once, so that a
+// small table suffices to find most repetitions.
 class FacePiece {
  public:
   FacePiece(const Impl& t, std::size_t bucket)
@@ -147,10 +147,10 @@ class FacePiece {
   std::vector<ListedSite> slots_;
 };
 
-// Each thread takes so many faces at a time.
+// The number of faces that one thread takes at a time.
 constexpr std::size_t piece_faces = std::size_t{1} << 14;
 
-// The faces of a bucket, one by one, and their circumcenters, many at a time.
+// Takes the faces of a bucket one by one, and computes their circumcenters many at a time.
 class CircumcenterVisits {
  public:
   CircumcenterVisits(const Impl& t, std::size_t bucket, unsigned threads,

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Areas and circumcenters of a rank's part of a triangulation, in every bit those of the whole: all faces
-// around the rank's sites are there, with their numbers and their corners' points.
+// Computes areas and circumcenters of a rank's part of a triangulation, with the same bits as for
+// the whole: all faces around the rank's sites are present, with their numbers and the points of
+// their corners.
 //
 // in    what a rank keeps of a triangulation, with points
 // out   areas of the sites that each rank gave; circumcenters of the rank's faces, in their order
@@ -18,11 +19,13 @@
 
 namespace rondel::distributed {
 
-// Throws InvalidInput without points, as the next one does.
+// Returns the areas of the sites that this rank gave. Both functions throw InvalidInput if points
+// were not kept.
 std::vector<double> areas_on_ranks(Supersteps& steps,
                                    const DistributedTriangulation::Impl& triangulation,
                                    const Execution& execution);
 
+// Calls visit() with the circumcenters of the rank's faces, in their order, some at a time.
 void visit_circumcenters(const DistributedTriangulation::Impl& triangulation,
                          const Execution& execution,
                          const std::function<void(std::span<const Point>)>& visit);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// From a file to files, of which each rank reads and writes its share.
+// Triangulates from a file to files; each rank reads and writes its share.
 
 #include <memory>
 #include <span>
@@ -41,7 +41,7 @@ LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
   const std::uint64_t begin = begin_of(steps.rank());
   LargeVector<Point> sites(begin_of(steps.rank() + 1) - begin);
   rows.read(begin, sites, options.threads);
-  validate_rows(rows, sites, options, begin);  // where the file has a name
+  validate_rows(rows, sites, options, begin);  // here the error names the file
   return sites;
 }
 
@@ -59,7 +59,7 @@ void add_rows(SharedRows& file, std::span<const Point> rows) {
   }
 }
 
-// Of all ranks before this one.
+// Returns the sum of the values of all ranks before this one.
 std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
   MessageWriter writer;
   writer.add_value(value);
@@ -70,7 +70,7 @@ std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
   return sum;
 }
 
-// What is written, so that all of it can be given its name at the end.
+// The written results, which all get their names at the end.
 class SharedResults {
  public:
   SharedResults(Supersteps& steps, const DistributedTriangulation& part,
@@ -104,7 +104,8 @@ class SharedResults {
           });
   }
 
-  // All ranks have written theirs. The faces, which nobody does without, come last.
+  // Call this when all ranks have written their rows. The faces, which every run has, get their
+  // name last.
   void commit() {
     while (!written_.empty()) {
       written_.back()->commit();

@@ -22,8 +22,8 @@ std::vector<Point> in_order(std::span<const Point> points, std::span<const Index
   return ordered;
 }
 
-// All sites are open, and they lie on one great circle. In the order of their indices, with which the
-// ring begins.
+// Joins sites that are all open and lie on one great circle. Uses the order of their indices, which
+// decides where the ring begins.
 JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
                        MessageWriter& message) {
   std::vector<Point> points;

@@ -30,7 +30,7 @@ class Planner {
           std::uint64_t most_sites)
       : squares_(squares), ranks_(ranks), most_sites_(most_sites) {}
 
-  // The buckets in a square that is split so many times.
+  // Adds the buckets of a square that results from `level` divisions of a face of the cube.
   void add(const bulk::Square& square, std::uint64_t first_key, int level) {
     const std::uint64_t num_keys = std::uint64_t{1} << (2 * (high_levels - level));
     const std::size_t begin = next_;

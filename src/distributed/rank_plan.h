@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which squares each rank triangulates: a run of the curve with its share of the sites, in squares as
-// large as they can be in it.
+// Decides which squares each rank triangulates: an interval of the curve with its share of the
+// sites, divided into the largest squares that it contains.
 //
 //      .---.---.---.---.      Three ranks. The squares in which the sites were counted are small, so
-//      | 1 | 1 | 2 | 2 |      that the shares are equal; those of one rank are put together where they
-//      |---'---|---|---|      fill a larger one, as fewer faces reach beyond a large square.
+//      | 1 | 1 | 2 | 2 |      that the shares are equal; those of one rank are merged if they fill a
+//      |---'---|---|---|      larger one, as fewer faces reach beyond a large square.
 //      | 0   0 | 1 | 2 |
 //      | 0   0 |---|---|
 //      '-------'---'---'
@@ -27,15 +27,15 @@ namespace rondel::distributed {
 
 struct RankPlan {
   std::vector<bulk::BucketCut> buckets;
-  std::vector<std::size_t> first_bucket;  // of each rank, and behind the last one
+  std::vector<std::size_t> first_bucket;  // by rank; then the number of buckets
 
   [[nodiscard]] std::size_t num_buckets(std::size_t rank) const {
     return first_bucket[rank + 1] - first_bucket[rank];
   }
 };
 
-// Each square goes to the rank in whose share its middle site is. Only a single one of them becomes a
-// bucket of more than `most_bucket_sites`.
+// Each square goes to the rank in whose share its middle site is. A bucket has more than
+// `most_bucket_sites` sites only if it is a single one of the squares.
 RankPlan plan_ranks(std::span<const bulk::BucketCut> squares, std::size_t num_ranks,
                     std::uint64_t most_bucket_sites);
 

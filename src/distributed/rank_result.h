@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a rank keeps of a triangulation.
+// The data of a triangulation that each rank keeps.
+//
+// index sites and faces of all ranks, counted through
 #pragma once
 
 #include <cstdint>
@@ -21,7 +23,7 @@ struct DistributedTriangulation::Impl {
   }
 
   int dimension = -1;
-  std::uint64_t num_sites = 0;  // and so on: of all ranks
+  std::uint64_t num_sites = 0;  // this and the next ones: of all ranks
   std::uint64_t num_vertices = 0;
   std::uint64_t num_faces = 0;
   std::uint64_t num_ghost_faces = 0;
@@ -30,8 +32,8 @@ struct DistributedTriangulation::Impl {
   std::uint64_t num_open_sites = 0;
 
   Options options;
-  std::uint64_t first_number = 0;         // of all sites
-  std::vector<std::uint64_t> first_site;  // of each rank, and behind the last one, from 0 on
+  std::uint64_t first_number = 0;         // number of the first site of all
+  std::vector<std::uint64_t> first_site;  // by rank, from 0 on; then the number of all sites
 
   std::uint64_t first_face = 0;
   std::uint64_t num_own_faces = 0;
@@ -40,16 +42,18 @@ struct DistributedTriangulation::Impl {
   std::vector<GlobalDuplicate> duplicates;
   std::vector<std::uint64_t> hidden;
 
-  // For areas and circumcenters, as are the points of `own` and `part`.
+  // Points are kept for areas and circumcenters, here and in `own` and `part`.
   bool has_points = false;
   std::vector<Point> landmarks;                   // of all sites
-  std::vector<distributed::SiteArea> flat_areas;  // below dimension 2, of all vertices, on rank 0
+  std::vector<distributed::SiteArea> flat_areas;  // below dimension 2: areas of all vertices, on
+                                                  // rank 0
 
   distributed::RankBuckets own;
   distributed::JoinedPart part;
-  // By bucket; they look at `own` and `part`, which stay where they are. None below dimension 2.
+  // The faces by bucket; they refer to `own` and `part`, which are not moved. Empty below dimension
+  // 2.
   std::vector<bulk::BucketFaces> faces;
-  std::unique_ptr<bulk::JoinedNumbers> numbers;  // with `has_points`, of all faces in `part`
+  std::unique_ptr<bulk::JoinedNumbers> numbers;  // numbers of all faces in `part`, if `has_points`
 };
 
 }  // namespace rondel

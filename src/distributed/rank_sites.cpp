@@ -12,7 +12,7 @@
 namespace rondel::distributed {
 namespace {
 
-// Finds the bucket of a key by its first bits, as far as they tell.
+// Finds the bucket of a key: a table of its first bits leads to a few candidates.
 class BucketTable {
  public:
   explicit BucketTable(std::span<const bulk::BucketCut> cuts) : cuts_(cuts) {
@@ -22,7 +22,7 @@ class BucketTable {
     first_.push_back(static_cast<Index>(cuts.size()));
   }
 
-  // The buckets that begin at or before a key are one more than the number of its bucket.
+  // Returns the number of buckets that begin at or before the key, minus one.
   [[nodiscard]] Index operator()(std::uint64_t key) const {
     const std::size_t i = key >> shift;
     const auto cuts = cuts_.subspan(first_[i], first_[i + 1] - first_[i]);
@@ -38,14 +38,15 @@ class BucketTable {
   std::vector<Index> first_;
 };
 
-// Some of this rank's sites in a row, from `first` on; of those that are no copies the keys.
+// A piece of this rank's sites, from site `first` on, with the keys of those that are not copies.
 struct SiteRow {
   std::span<const Point> points;
   std::uint64_t first;
   std::span<const PointCopy> copies;
   std::span<const std::uint64_t> keys;
 
-  // visit(i, k) for each site i of the row, from 0 on, that is the k-th one that is no copy.
+  // Calls visit(i, k) for each site i of the piece, counted from 0, that is the k-th one that is
+  // not a copy.
   template <class Visit>
   void for_each(Visit visit) const {
     auto copy = copies.begin();
@@ -60,9 +61,9 @@ struct SiteRow {
   }
 };
 
-// Messages with a row of sites, sorted by their buckets: the index of the first one, for each bucket of the
-// receiver how many it gets, all points, and all offsets: of each site, by what its index is above that
-// of the first one.
+// Makes the messages with a piece of the sites, sorted by bucket. A message has the index of the
+// first site, for each bucket of the receiver the number of its sites, all points, and for each
+// site the difference of its index to that of the first one.
 class Dealer {
  public:
   Dealer(const RankPlan& plan, std::size_t self, std::size_t num_ranks)
@@ -96,13 +97,13 @@ class Dealer {
  private:
   static constexpr std::size_t lines_ahead = 256;  // bytes
 
-  // Where the next site of a bucket goes.
+  // Where the next site of a bucket is written.
   struct DealtPlace {
-    std::byte* point;  // or null
+    std::byte* point;  // null if points are not sent
     std::byte* offset;
   };
 
-  // With room for the sites.
+  // Returns the message for a rank, with room for its sites.
   [[nodiscard]] Bytes make_message(std::size_t rank, std::uint64_t first_index) const {
     const auto counts =
         std::span(counts_).subspan(plan_.first_bucket[rank], plan_.num_buckets(rank));
@@ -141,7 +142,7 @@ class Dealer {
   std::size_t self_;
   std::size_t num_ranks_;
   std::vector<Index> counts_;       // by bucket
-  std::vector<Index> bucket_of_;    // by site that is no copy
+  std::vector<Index> bucket_of_;    // by site that is not a copy
   std::vector<DealtPlace> places_;  // by bucket
 };
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The sites of each bucket on the rank that triangulates it, in the order of their indices.
+// Collects the sites of each bucket on the rank that triangulates it, in the order of their
+// indices.
 //
 // in    the sites of each rank, some at a time
 // out   the sites of this rank's buckets, one bucket after the other
@@ -20,21 +21,22 @@ namespace rondel::distributed {
 
 class RankSites {
  public:
-  // Deals the sites, which must stay. The keys in `counts` are not needed any more.
+  // Sends and receives the sites. `mine` must outlive this object. The keys in `counts` are not
+  // needed afterwards.
   RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
             const RankLimits& limits);
 
-  // Of one bucket: the points, and the indices, which are increasing.
+  // Sets the points and the indices, which are increasing, of the sites of one bucket.
   void gather(std::size_t bucket, LargeVector<Point>& points,
               LargeVector<std::uint64_t>& indices) const;
 
  private:
-  // What one rank sent in one round.
+  // The sites that one rank sent in one round.
   struct DealtPiece {
     Bytes bytes;
     std::uint64_t first_index = 0;
-    std::vector<Index> begin;           // of each bucket, and behind the last one
-    std::span<const std::byte> points;  // in `bytes`, or nowhere: in `mine_`
+    std::vector<Index> begin;           // by bucket: its first site; then the end
+    std::span<const std::byte> points;  // part of `bytes`; empty if the points are in `mine_`
     std::span<const std::byte> offsets;
   };
 
@@ -42,7 +44,7 @@ class RankSites {
            std::vector<DealtPiece>& pieces);
 
   std::span<const Point> mine_;
-  std::uint64_t first_index_;                    // of these
+  std::uint64_t first_index_;                    // index of the first site in `mine_`
   std::vector<std::vector<DealtPiece>> pieces_;  // by rank, and by round
 };
 

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An array of the result while it is written, row by row: a .npy file or an array of a Zarr group.
+// An array of the result while it is written row by row: a .npy file, or an array of a Zarr group.
+//
+// in    the bytes of rows, in order
+// out   a file
 #pragma once
 
 #include <array>
@@ -15,7 +18,7 @@
 
 namespace rondel::distributed {
 
-// How the numbers of an array are stored, as .npy and Zarr say it.
+// The names that .npy and Zarr have for a type of numbers, and its size in bytes.
 struct NumberType {
   const char* npy;
   const char* zarr;
@@ -27,7 +30,7 @@ inline constexpr NumberType real_number = {"<f8", "float64", 8};
 
 struct ArrayShape {
   std::uint64_t num_rows = 0;
-  std::uint64_t num_columns = 0;  // 0: one dimension
+  std::uint64_t num_columns = 0;  // 0 if the array has one dimension
 };
 
 class ResultArray {
@@ -37,18 +40,22 @@ class ResultArray {
   ResultArray(const ResultArray&) = delete;
   ResultArray& operator=(const ResultArray&) = delete;
 
-  // Asks for room on the disk.
+  // Reserves disk space.
   virtual void reserve(std::uint64_t num_bytes) = 0;
+  // Begins the array: writes its header.
   virtual void begin(const NumberType& type, const ArrayShape& shape) = 0;
+  // Appends rows.
   virtual void write(std::string_view bytes) = 0;
-  // All rows are written. Gives a file its name; a group gets its own when all its arrays are there.
+  // Ends the array when all rows are written. A .npy file gets its name; a group gets its name when
+  // all its arrays are complete.
   virtual void commit() = 0;
 };
 
-// A .npy file.
+// Makes a .npy file.
 std::unique_ptr<ResultArray> make_result(const std::string& path);
 
-// An array of a group, whose description `head` makes, from the type of numbers and the number of rows.
+// Makes an array of a group; `head` makes its description from the type of numbers and the number
+// of rows.
 using MakeHead = io::ZarrHead (*)(const std::string& type, std::uint64_t num_rows);
 std::unique_ptr<ResultArray> make_result(io::ZarrGroup& group, MakeHead head);
 

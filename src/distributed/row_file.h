@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An array of numbers of sites or faces: uint32 while the largest one fits, otherwise int64, as NumPy
-// makes a double of uint64 and int64.
+// An array of numbers of sites or faces. They are stored as uint32 if the largest one fits,
+// otherwise as int64, since NumPy converts uint64 and int64 together to double.
+//
+// in    numbers, row by row
+// out   a ResultArray
 #pragma once
 
 #include <cstddef>
@@ -15,7 +18,7 @@
 
 namespace rondel::distributed {
 
-// Whether so many different numbers, from 0 on, are uint32.
+// True if the numbers 0 ... num_different - 1 fit uint32.
 constexpr bool are_narrow(std::uint64_t num_different) {
   return num_different <= std::uint64_t{1} << 32U;
 }
@@ -24,9 +27,10 @@ class RowFile {
  public:
   explicit RowFile(std::unique_ptr<ResultArray> array) : array_(std::move(array)) {}
 
-  // Asks for room for so many rows.
+  // Reserves disk space for that many rows.
   void reserve(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
-  // Numbers are less than `num_different`. One column: one dimension. As many as the rows have must follow.
+  // Begins the array; with one column it has one dimension. All numbers must be less than
+  // `num_different`, and num_rows * num_columns numbers must follow.
   void begin(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
 
   void add(std::uint64_t number) {
@@ -39,6 +43,7 @@ class RowFile {
     }
   }
 
+  // Writes the rest and ends the array.
   void commit();
 
  private:

@@ -12,10 +12,10 @@
 namespace rondel::distributed {
 namespace {
 
-// The process itself, and the counts of squares.
+// The memory of the process itself and of the counts of squares.
 constexpr std::uint64_t fixed_bytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t bytes_of_piece_site = 80;
-// Measured, with room (bench/RESULTS.md, "Out of core").
+// These were measured, and rounded up (bench/RESULTS.md, "Out of core").
 constexpr std::uint64_t bytes_of_bucket_site = 115;
 constexpr std::uint64_t bytes_of_crowded_site = 250;  // within 2^-28 of all others of its bucket
 constexpr std::uint64_t bytes_of_open_site = 330;

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a run out of core may have in memory at once, and what it would need for more.
+// How many sites a run out of core may have in memory at once, and how much memory more would take.
+//
+// in    bytes of memory
+// out   numbers of sites
 #pragma once
 
 #include <cstddef>
@@ -11,18 +14,19 @@
 namespace rondel::distributed {
 
 struct RunLimits {
-  std::uint64_t most_bucket_sites = 0;  // where squares can be smaller
-  std::uint64_t most_sites = 0;         // where they cannot, copies not counted
-  std::uint64_t most_open_sites = 0;    // of all buckets
-  std::size_t piece_sites = 0;          // while they are read
-  // What the first site and the first face are called: not 0 in tests of numbers that need 64 bits.
+  std::uint64_t most_bucket_sites = 0;  // in a bucket that can be divided
+  std::uint64_t most_sites = 0;         // in a bucket of the smallest size, without duplicates
+  std::uint64_t most_open_sites = 0;    // in all buckets together
+  std::size_t piece_sites = 0;          // number of sites that are read at a time
+  // The number of the first site and of the first face; tests of numbers that need 64 bits set it.
   std::uint64_t first_number = 0;
 };
 
-// What these bytes allow. Throws InvalidInput if they are too few.
+// Returns the limits for `memory` bytes. Throws InvalidInput if that is too little.
 RunLimits limits_of(std::uint64_t memory);
 
-// The memory that allows so many, as a text: "123 MB".
+// Return the memory that allows that many sites in a bucket, in the smallest square, or open, as a
+// text: "123 MB".
 std::string memory_of_bucket(std::uint64_t num_sites);
 std::string memory_of_crowd(std::uint64_t num_sites);
 std::string memory_of_open_sites(std::uint64_t num_sites);

@@ -11,7 +11,7 @@
 namespace rondel::distributed {
 namespace {
 
-// What a record says, its first word.
+// The kinds of records, which are their first words.
 enum JournalRecord : std::uint64_t { about, counted, dealt, done };
 
 template <class T>
@@ -28,9 +28,9 @@ Words about_record(const std::vector<RunPart>& parts) {
   return writer.words();
 }
 
-// Of the first part that is another one in the record.
+// Returns the text of the first part that differs from the record, or null.
 const char* difference_of(const Words& record, const std::vector<RunPart>& parts) {
-  std::size_t next = 2;  // behind the kind of record and the number of words
+  std::size_t next = 2;  // after the kind of the record and the number of words
   for (const RunPart& part : parts) {
     const auto rest = std::span(record).subspan(std::min(next, record.size()));
     if (!std::ranges::equal(part.words, rest.first(std::min(part.words.size(), rest.size()))))
@@ -45,7 +45,7 @@ const char* difference_of(const Words& record, const std::vector<RunPart>& parts
 RunState::RunState(const std::string& journal, const std::vector<RunPart>& about_run, bool resume)
     : journal_(journal) {
   const Words about_words = about_record(about_run);
-  if (journal_.records().size() <= 1) {  // nothing is done
+  if (journal_.records().size() <= 1) {  // nothing has been done
     journal_.clear();
     journal_.append(about_words);
     return;

@@ -21,16 +21,16 @@
 
 namespace rondel::distributed {
 
-// What must be the same if a run is to be resumed.
+// One aspect of a run that must be the same if the run is to be resumed.
 struct RunPart {
-  const char* difference;  // "a run with ...", where it is not
-  Words words;             // of every run as many
+  const char* difference;  // continues "a run with ..." if it differs
+  Words words;             // the number of words is the same for every run
 };
 
 class RunState {
  public:
-  // `about` tells whether a journal belongs to this run. Throws FileError if the journal of another run
-  // is there, and says in what that is another, or one of this run that must not be resumed.
+  // `about` identifies the run. Throws FileError if the journal belongs to another run, and says
+  // what differs, or if it belongs to this run and `resume` is false.
   RunState(const std::string& journal, const std::vector<RunPart>& about, bool resume);
 
   [[nodiscard]] bool has_counts() const { return counts_.has_value(); }
@@ -44,7 +44,7 @@ class RunState {
   void set_counts(SiteCounts counts);
   void set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted);
   void set_done(std::size_t i, const StoredBucket& stored);
-  // It turned out that the files have something else.
+  // Forgets that a bucket was dealt or done, because the files do not contain it.
   void lose_dealt(std::size_t i) { dealt_[i].reset(); }
   void lose_done(std::size_t i) { done_[i].reset(); }
 

@@ -13,14 +13,15 @@ namespace {
 
 constexpr std::size_t piece_points = std::size_t{1} << 14;
 
-// The table of one piece, at most a quarter full, which the caches hold.
+// A hash table for one piece of the points, at most a quarter full, small enough for the caches.
 class PointTable {
  public:
   explicit PointTable(std::size_t num_points)
       : shift_(62 - static_cast<int>(std::bit_width(num_points - 1))),
         slots_(std::size_t{1} << (64 - shift_), 0) {}
 
-  // The first of points 0 ... i with the bits of point i, which is looked at after all before it.
+  // Returns the first of the points 0 ... i with the bits of point i. Call it for all points in
+  // order.
   Index first_same(std::span<const Point> points, Index i) {
     const auto bits = bits_of(points[i]);
     for (std::size_t slot = hash(bits) >> shift_;; slot = (slot + 1) % slots_.size()) {
@@ -31,8 +32,8 @@ class PointTable {
   }
 
  private:
-  // The bits of small integers differ in the upper half only, those of neighbors in the lower one. Any odd
-  // factors do whose bits follow no rule.
+  // The bits of small integers differ only in their upper half, those of neighboring points in the
+  // lower half. Any odd factors without a pattern in their bits will do.
   static std::uint64_t hash(const PointBits& bits) {
     const std::uint64_t h = bits[0] * 0x9e3779b97f4a7c15U + bits[1] * 0xc2b2ae3d27d4eb4fU +
                             bits[2] * 0x165667b19e3779f9U;
@@ -40,7 +41,7 @@ class PointTable {
   }
 
   int shift_;
-  std::vector<Index> slots_;  // 0, or a point + 1
+  std::vector<Index> slots_;  // 0, or 1 + the index of a point
 };
 
 void find_in_piece(std::span<const Point> points, std::uint64_t begin,
@@ -66,7 +67,7 @@ std::vector<PointCopy> find_copies(std::span<const Point> points, unsigned threa
       find_in_piece(points.subspan(begin, size), begin, pieces[i]);
     });
   };
-  // Where samples have none there are few, which may be sent.
+  // If samples have no copies, there are so few that they may be sent.
   look(true);
   std::vector<PointCopy> copies;
   const auto has_copies = [](const auto& piece) { return !piece.empty(); };

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which sites are copies of others bit by bit, as far as a quick look tells: of many copies of one place
-// a few are left, so that no rank is sent all of them. The others are found where places are compared
-// exactly.
+// Finds sites that are copies of others bit by bit, as far as a quick search tells: of many copies
+// of one place a few are left, so that no rank receives all of them. The remaining ones are found
+// later, where places are compared exactly.
 //
 // in    points
-// out   copies, each with a site of a lower index that is none
+// out   copies, each with a site of a lower index that is not a copy
 // index points, from 0 on
 #pragma once
 
@@ -25,11 +25,12 @@ inline PointBits bits_of(const Point& p) { return std::bit_cast<PointBits>(p); }
 
 struct PointCopy {
   std::uint64_t site = 0;
-  std::uint64_t same = 0;  // as this one
+  std::uint64_t same = 0;  // the site with the same coordinates
 };
 
-// In increasing order of site. Looks at some points at a time, and sees no copies of what is elsewhere; and at
-// samples alone where these have none.
+// Returns copies in increasing order of site. Searches pieces of the points separately, so that it
+// does not find copies across pieces; if samples of the pieces have no copies, it searches no
+// further.
 std::vector<PointCopy> find_copies(std::span<const Point> points, unsigned threads);
 
 }  // namespace rondel::distributed

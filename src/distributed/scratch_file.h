@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file for what does not fit into memory, which stays if the process ends. Numbers are stored as the
-// machine has them.
+// A file for data that does not fit into memory; it remains when the process ends. Numbers are
+// stored in the byte order of the machine.
+//
+// in    values at a byte offset
+// out   the same values
 #pragma once
 
 #include <cstdint>
@@ -12,10 +15,10 @@
 
 namespace rondel::distributed {
 
-// Every function throws FileError.
+// Every function throws FileError if the operation fails.
 class ScratchFile {
  public:
-  // Opens the file, or makes it.
+  // Opens or creates the file.
   explicit ScratchFile(std::string path);
   ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
@@ -24,13 +27,15 @@ class ScratchFile {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] std::uint64_t size() const;
 
-  // Asks for room on the disk.
+  // Reserves disk space.
   void reserve(std::uint64_t size);
+  // Cuts the file to `size` bytes.
   void cut(std::uint64_t size);
-  // Returns whether no other process has locked it.
+  // Locks the file; returns false if another process has locked it.
   [[nodiscard]] bool lock() const;
 
-  // All of them, or an exception: what is not there is an error.
+  // Reads or writes all values at the byte offset `place`. Reading beyond the end of the file is an
+  // error.
   template <class T>
   void read(std::uint64_t place, std::span<T> values) const {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A .npy file that several ranks write, each its own rows, which follow each other. Rank 0 makes it under
-// a temporary name, and gives it its name when all have written theirs.
+// A .npy file that several ranks write, each its own successive rows. Rank 0 creates it under a
+// temporary name, and gives it its name when all ranks have written their rows.
 //
 // in    the rows of each rank
 // out   one file
@@ -18,18 +18,18 @@
 namespace rondel::distributed {
 
 struct SharedShape {
-  std::uint64_t num_rows = 0;       // of all ranks
-  std::uint64_t num_columns = 0;    // 1: the rows are numbers
+  std::uint64_t num_rows = 0;       // rows of all ranks
+  std::uint64_t num_columns = 0;    // with 1 the array has one dimension
   std::uint64_t num_different = 0;  // numbers are less than this
-  std::uint64_t first_row = 0;      // of this rank
+  std::uint64_t first_row = 0;      // first row of this rank
   bool are_doubles = false;
 };
 
 class SharedRows {
  public:
-  // All ranks make it together. Every function throws FileError.
+  // All ranks call this together. Every function throws FileError if the operation fails.
   SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape);
-  // Removes the file, if it has no name yet.
+  // Removes the file if it has not got its name yet.
   ~SharedRows();
   SharedRows(const SharedRows&) = delete;
   SharedRows& operator=(const SharedRows&) = delete;
@@ -47,15 +47,15 @@ class SharedRows {
     if (doubles_.size() == buffer_size) write_buffer();
   }
 
-  // All that this rank has was added.
+  // Writes the rest. Call it when all rows of this rank have been added.
   void finish();
-  // All ranks have finished. For rank 0.
+  // Gives the file its name. Rank 0 calls this when all ranks have finished.
   void commit();
 
  private:
   static constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
-  // Rank 0 makes the file and tells the others its name.
+  // Rank 0 creates the file and tells the others its name.
   void make(const std::string& header, std::uint64_t num_bytes);
   [[nodiscard]] Bytes name_message() const;
   void take_name(const Bytes& message);
@@ -66,7 +66,7 @@ class SharedRows {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
-  std::string target_;  // with symbolic links resolved
+  std::string target_;  // path_ with symbolic links resolved
   std::string temporary_;
   bool is_maker_;
   bool is_narrow_;

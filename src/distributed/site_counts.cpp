@@ -53,7 +53,7 @@ SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,
       }
       find_keys(piece, options, keys);
       counts.add(std::span(keys).first(size));
-      // Most inputs need one round.
+      // Assumes that this round is the last one, as for most inputs there is only one.
       const double done = static_cast<double>(first) / static_cast<double>(rows.num_rows());
       system::announce(options, "count", (round - 1 + done) / round);
     }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The first look at all sites: whether they are valid, and which squares are buckets.
+// Looks at all sites first: checks that they are valid, and decides which squares are buckets.
 //
 // in    a file of sites
-// out   buckets of at most so many sites, where that is possible
+// out   buckets of at most a given number of sites, where that is possible
 // index rows of the file; buckets, in the order of the curve
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace rondel::distributed {
 
-// So many sites are read at a time: work for all threads, and little memory.
+// The number of sites that are read at a time: enough work for all threads, and little memory.
 inline constexpr std::size_t most_piece_sites = std::size_t{1} << 20;
 
 struct SiteCounts {
@@ -27,15 +27,15 @@ struct SiteCounts {
   std::vector<bulk::BucketCut> cuts;
 };
 
-// Throws FileError because of the first of these sites, which `first` are before, that is not valid.
+// Throws FileError if one of these sites, the first of which is row `first`, is not valid.
 void validate_rows(const io::NpyRows& rows, std::span<const Point> sites, const Options& options,
                    std::uint64_t first);
 
-// Throws FileError because of the first row that is not valid.
+// Counts the sites of all rows. Throws FileError for the first row that is not valid.
 SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,
                        std::uint64_t most_bucket_sites, std::size_t piece_sites);
 
-// The keys of some sites, by several threads.
+// Computes the keys of some sites, by several threads.
 void find_keys(std::span<const Point> sites, const system::Job& options,
                std::span<std::uint64_t> keys);
 

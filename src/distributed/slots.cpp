@@ -8,7 +8,7 @@
 #include "system/parallel.h"
 
 namespace rondel::distributed {
-// Some sites in a row, sorted by their buckets.
+// Successive sites, sorted by bucket.
 class Slots::DealtSites {
  public:
   DealtSites(std::size_t most_sites, std::size_t num_buckets)

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where the sites of the buckets lie in one file: a slot for each bucket, the points first and then the
-// indices, both in the order of the input.
+// The sites of the buckets in one file: a slot for each bucket, which has the points first and then
+// the row numbers, both in the order of the input.
 //
 // in    a file of sites
 // out   the sites of one bucket after the other
@@ -20,9 +20,9 @@
 
 namespace rondel::distributed {
 
-inline constexpr std::uint64_t slot_bytes = 32;  // of a site
+inline constexpr std::uint64_t slot_bytes = 32;  // bytes of a site
 
-// Of all points, and of all rows, of a bucket.
+// Checksums of all points and of all rows of a bucket.
 struct SlotChecksums {
   std::uint64_t points = 0;
   std::uint64_t rows = 0;
@@ -32,12 +32,13 @@ class Slots {
  public:
   Slots(const std::string& path, std::span<const bulk::BucketCut> cuts);
 
-  // Deals the sites of those buckets that are wanted; the first row is called `first_number`. Returns the checksums of each of all buckets.
+  // Distributes the sites to the slots of the buckets that are wanted; the first row has the number
+  // `first_number`. Returns the checksums of all buckets.
   std::vector<SlotChecksums> deal(const io::NpyRows& rows, const system::Job& options,
                                   const std::vector<bool>& wanted, std::size_t piece_sites,
                                   std::uint64_t first_number);
 
-  // Some of the sites of a bucket, from `first` on.
+  // Read some of the sites of a bucket, from site `first` of it on.
   void read_points(std::size_t bucket, std::uint64_t first, std::span<Point> points) const;
   void read_rows(std::size_t bucket, std::uint64_t first, std::span<std::uint64_t> rows) const;
 
@@ -53,7 +54,7 @@ class Slots {
 
   ScratchFile file_;
   std::span<const bulk::BucketCut> cuts_;
-  std::vector<std::uint64_t> first_site_;  // of each bucket, and behind the last one
+  std::vector<std::uint64_t> first_site_;  // by bucket; then the number of all sites
 };
 
 }  // namespace rondel::distributed

@@ -15,7 +15,7 @@
 namespace rondel::distributed {
 namespace {
 
-// The first byte of a message.
+// The values of the first byte of a message.
 constexpr std::byte is_well{0};
 constexpr std::byte has_failed{1};
 constexpr std::byte was_interrupted{2};
@@ -44,7 +44,7 @@ void Supersteps::begin(const char* phase) {
 }
 
 std::vector<Bytes> Supersteps::all_gather(Bytes mine) {
-  is_heard_ = true;  // if this call throws, so do those of the others
+  is_heard_ = true;  // if this call throws, the calls of the others throw too
   std::vector<Bytes> received = ranks_.all_gather(std::move(mine));
   listen(received);
   is_heard_ = false;

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Work and communication in turns, so that what one rank throws all ranks throw.
+// Alternates work and communication, so that an exception on one rank is thrown on all ranks.
 //
 //     rank 0   work --.       .-- work --.       .--
 //     rank 1   work ---\     /--- work -X \     /---   throws
 //     rank 2   work ---- all gather ------- all gather  throw the same
 //
-// Each superstep opens with an all-gather, in which the first byte of a message says how its sender is.
-// Whatever a rank throws between two of them takes it to the next one, wherever the others are.
+// Each superstep begins with an all-gather, in which the first byte of a message says whether its
+// sender has failed. A rank that throws between two of them goes to the next one, wherever the
+// others are.
 //
 // in    the work of a rank, which calls all_gather() and exchange()
 // out   what the others sent, or the same exception everywhere
@@ -29,7 +30,7 @@ class Supersteps {
   [[nodiscard]] std::size_t rank() const { return rank_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  // Calls work(), in which everything below is called, and all others with theirs.
+  // Calls work(), in which all other functions are called; all ranks call run() together.
   template <class Work>
   auto run(Work work) {
     try {
@@ -43,25 +44,27 @@ class Supersteps {
     }
   }
 
-  // What comes now. Also a place to stop at.
+  // Names the phase that begins, and checks whether the user has stopped the work.
   void begin(const char* phase);
-  // `mine` is what a writer wrote, or empty.
+  // Sends this rank's message to all, and returns the messages of all. `mine` comes from a
+  // MessageWriter, or is empty.
   std::vector<Bytes> all_gather(Bytes mine);
+  // Sends messages[r] to rank r, and returns the message of each rank to this one.
   std::vector<Bytes> exchange(std::vector<Bytes> messages);
 
  private:
   void reserve_failure();
   void tell_failure();
   void describe_failure() noexcept;
-  // Throws what a rank tells.
+  // Throws the failure that a message reports.
   void listen(const std::vector<Bytes>& received);
 
   Communicator& ranks_;
   std::size_t rank_;
   std::size_t size_;
   const char* phase_ = "begin";
-  Bytes failure_;          // with memory that is there when there is no more
-  bool is_heard_ = false;  // no rank waits for this one any more
+  Bytes failure_;          // allocated before, so that running out of memory can be reported
+  bool is_heard_ = false;  // no other rank waits for this one
 };
 
 }  // namespace rondel::distributed
