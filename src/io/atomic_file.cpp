@@ -17,7 +17,8 @@ constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 }  // namespace
 
-// Short and independent of the target's name, which may be as long as a name can be.
+// Returns a short name that does not depend on the target's name, which may have the maximal
+// length.
 std::string temporary_name(const std::string& directory) {
   static std::atomic<unsigned> counter{0};
   return directory + ".rondel-" + std::to_string(system::process_number()) + "-" +
@@ -81,7 +82,7 @@ void AtomicFile::commit() {
   rename();
 }
 
-// Standard output stays open for others.
+// Closes the file, but not standard output, which others may use.
 int AtomicFile::close() noexcept {
   const int descriptor = descriptor_;
   descriptor_ = -1;

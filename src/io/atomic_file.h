@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file that appears complete or not at all: it is written without a name, or under a temporary
-// one, in the same directory and renamed at the end.
+// A file that appears complete or not at all: it is written without a name or under a temporary
+// name in the same directory, and renamed at the end.
+//
+// in    a path, and the bytes of the file from front to back
+// out   a file
 #pragma once
 
 #include <cstddef>
@@ -15,7 +18,7 @@
 
 namespace rondel::io {
 
-// A name in a directory ("data/", or empty) that no other thread or process has been given.
+// Returns a name in a directory ("data/", or empty) that no other thread or process has been given.
 RONDEL_API std::string temporary_name(const std::string& directory);
 
 // 1. Until commit() returns, `path` is what it was before; after it, the whole new content. Nothing
@@ -38,24 +41,24 @@ RONDEL_API std::string temporary_name(const std::string& directory);
 class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
-  // Writes directly to what is open, which is closed by commit(); `name` is what FileError names.
+  // Writes directly to an open descriptor, which commit() closes; FileError calls the file `name`.
   AtomicFile(int descriptor, std::string&& name) noexcept;
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Appends to the content; buffered.
+  // Appends bytes, by way of a buffer.
   void write(std::string_view bytes);
 
-  // Asks for room on the disk for so many bytes, unless the file is written directly. What is not
-  // written is given back by commit().
+  // Reserves disk space for `size` bytes, unless the file is written directly. commit() frees what
+  // is not written.
   void reserve(std::uint64_t size);
 
-  // Tells the system how long the file will be, so that it can find the room at once, or say that there is none. Files may become
-  // longer or shorter.
+  // Tells the system the expected size of the file, so that it can allocate the space at once, or
+  // report that there is none. The file may become longer or shorter.
   void expect(std::uint64_t size);
 
-  // Flushes, closes and renames.
+  // Flushes, closes and renames the file.
   void commit();
 
   // The name as it was given, and "<stdout>" for standard output.
@@ -73,15 +76,15 @@ class RONDEL_API AtomicFile {
 
   int close() noexcept;
 
-  // What depends on the system, in a file for each.
+  // The functions below depend on the system and are defined in one file for each.
   //
-  // Opens what is written directly, or makes the file that will replace it.
+  // Opens a file that is written directly, or creates the file that will replace the target.
   void open();
   // Closes the file and gives it its name.
   void rename();
-  // Ends the life of a file that has not been renamed, if there is one.
+  // Removes a file that has not been renamed, if there is one.
   void discard() noexcept;
-  // Makes the file that will be `target_`.
+  // Creates the file that will become `target_`.
   void create(unsigned permissions);
   // Calls `make` with temporary names until one is new.
   void make_temporary(const std::function<bool(const std::string&)>& make);
@@ -94,7 +97,7 @@ class RONDEL_API AtomicFile {
   std::string buffer_;
   std::uint64_t num_drained_ = 0;
   bool is_reserved_ = false;
-  std::size_t slot_ = 0;  // of `temporary_` in the registry, where it has a name
+  std::size_t slot_ = 0;  // slot of `temporary_` in the registry, if it has a name
   int descriptor_ = -1;
 };
 

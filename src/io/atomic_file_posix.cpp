@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Atomic files of POSIX, without a name where the system has these (Linux).
+// Atomic files on POSIX, which have no name while they are written if the system can do that
+// (Linux).
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,11 +25,12 @@
 namespace rondel::io {
 namespace {
 
-// The names of temporary files for signal handlers, which may touch neither the heap nor a lock. A
-// slot goes free -> claimed -> in_use -> free; handlers read slots in use, which do not change.
+// The names of temporary files for signal handlers, which may use neither the heap nor a lock. A
+// slot goes from free to claimed, in_use and back to free; handlers read slots in use, which do not
+// change.
 class Temporaries {
  public:
-  // A file that finds no free slot is not removed by a signal.
+  // If no slot is free, a signal does not remove the file.
   static constexpr std::size_t num_slots = 8;
 
   // Returns the number of the slot, for forget().
@@ -67,7 +69,7 @@ Temporaries temporaries;
 }  // namespace
 
 std::string resolve_links(const std::string& path) {
-  constexpr int most_links = 40;  // as many as Linux follows
+  constexpr int most_links = 40;  // Linux follows as many
   std::filesystem::path target = path;
   std::error_code error;
   for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
@@ -77,7 +79,7 @@ std::string resolve_links(const std::string& path) {
   return target;
 }
 
-// Where a file system knows no permissions, nothing is lost if it refuses them.
+// If the file system has no permissions, nothing is lost when it refuses to set them.
 void take_permissions(int descriptor, const struct stat& replaced) {
   constexpr auto same_owner = static_cast<uid_t>(-1);
   mode_t mode = replaced.st_mode & 0777U;
@@ -126,7 +128,8 @@ void AtomicFile::open() {
 void AtomicFile::create(unsigned permissions) {
   const auto mode = static_cast<mode_t>(permissions);
 #if defined(O_TMPFILE)
-  // Without a name, so that not even a killed process leaves a file; some file systems cannot.
+  // The file has no name, so that not even a killed process leaves it; some file systems cannot do
+  // that.
   if (::access("/proc/self/fd", X_OK) == 0) {
     descriptor_ = ::open(directory_.empty() ? "." : directory_.c_str(),
                          O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Atomic files of Windows. A temporary file is marked to be deleted when it is closed, which the system
-// does too when the process ends in whatever way; the mark is taken away before the renaming.
+// Atomic files on Windows. A temporary file is marked to be deleted when it is closed, which the
+// system also does when the process ends in any way; the mark is removed before the file is
+// renamed.
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
@@ -39,7 +40,7 @@ HANDLE handle_of(int descriptor) {
       ::_get_osfhandle(descriptor));  // NOLINT(performance-no-int-to-ptr)
 }
 
-// A device or a pipe.
+// True for a device or a pipe.
 bool is_written_directly(const std::wstring& name) {
   constexpr DWORD all_may_share = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
   const HANDLE file =
@@ -90,7 +91,7 @@ void AtomicFile::create(unsigned /*permissions*/) {
                          FILE_ATTRIBUTE_NORMAL, nullptr);
     return file != INVALID_HANDLE_VALUE;
   });
-  // Where a file system has no such marks, discard() deletes the file.
+  // If the file system has no such marks, discard() deletes the file.
   mark_to_delete(file, true);
   descriptor_ = ::_open_osfhandle(reinterpret_cast<std::intptr_t>(file), _O_BINARY | _O_NOINHERIT);
   if (descriptor_ >= 0) return;
@@ -129,7 +130,7 @@ void AtomicFile::discard() noexcept {
 
 namespace rondel {
 
-// The system does it.
+// There is nothing to do, since the system deletes the files.
 void remove_temporaries() noexcept {}
 
 }  // namespace rondel

@@ -21,13 +21,13 @@ namespace fs = std::filesystem;
 constexpr const char* room_name = "room";
 
 struct FolderEntry {
-  std::string name;  // within the folder, with slashes
+  std::string name;  // path within the folder, with slashes
   bool is_folder = false;
   bool is_file = false;
 };
 
-// All that is in the folder, what is outside before what is inside, else in order. Links are not
-// followed.
+// Returns everything in the folder; a folder comes before its content, otherwise names are sorted.
+// Symbolic links are not followed.
 std::vector<FolderEntry> content_of(const std::string& path, std::error_code& error) {
   std::vector<FolderEntry> content;
   fs::recursive_directory_iterator at(path, error);
@@ -41,7 +41,7 @@ std::vector<FolderEntry> content_of(const std::string& path, std::error_code& er
   return content;
 }
 
-// Removes what is known, and folders that are empty then.
+// Removes the known files, and folders that are empty then.
 void remove_known(const std::string& path, const FolderKind& kind) {
   std::error_code ignored;
   std::vector<FolderEntry> content = content_of(path, ignored);
@@ -53,7 +53,7 @@ void remove_known(const std::string& path, const FolderKind& kind) {
   fs::remove(path, ignored);
 }
 
-// What the system would have called it.
+// Returns the number that the system has for the error.
 int number_of(const std::error_code& error) { return error.default_error_condition().value(); }
 
 std::string without_slashes(std::string path) {
@@ -133,7 +133,7 @@ void AtomicFolder::write(int& descriptor, std::string_view bytes) {
   }
 }
 
-// The room is a file in the folder, which becomes shorter while others are written.
+// The reserved space is a file in the folder, which is shortened while others are written.
 void AtomicFolder::reserve(std::uint64_t size) {
   if (size == 0) return;
   if (room_ < 0) room_ = make_file(room_name);
@@ -151,7 +151,7 @@ void AtomicFolder::close_room() noexcept {
   if (room_ >= 0) system::close(std::exchange(room_, -1));
 }
 
-// What is replaced is looked at again, as it may have changed.
+// Checks again what is replaced, as it may have changed.
 void AtomicFolder::commit() {
   std::error_code error;
   close_room();
@@ -176,7 +176,7 @@ void AtomicFolder::commit() {
     }
     temporary_ = old;
   }
-  discard();  // the folder that was replaced
+  discard();  // removes the folder that was replaced
 }
 
 void AtomicFolder::discard() noexcept {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Atomic folders of POSIX, and the names in them for signals.
+// Atomic folders on POSIX, and the names in them for signal handlers.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -65,7 +65,7 @@ void TemporaryTrees::for_each_path(const TreeSlot& slot, Visit visit) noexcept {
   }
 }
 
-// Files, then the folders that are empty now, and at last the outermost one.
+// Removes the files, then the folders, which are empty then, and at last the outermost one.
 void TemporaryTrees::remove(std::size_t slot) const noexcept {
   if (slot == num_slots) return;
   for_each_path(slots_[slot], [](const char* path) { ::unlink(path); });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Atomic folders of Windows, which stay, under their temporary names, if the process is ended.
+// Atomic folders on Windows, which remain under their temporary names if the process is killed.
 #include <filesystem>
 #include <system_error>
 

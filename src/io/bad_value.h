@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is wrong in a file, and where. Who finds it says what; on the way up the item is added, the
-// line, and at last the name of the file: `mesh.ply: face 7: index 12 is too large`.
+// What is wrong in a file, and where. The function that finds it says what; its callers add the
+// item, the line, and at last the name of the file: `mesh.ply: face 7: index 12 is too large`.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class RONDEL_API BadValue : public std::runtime_error {
   explicit BadValue(const std::string& what, std::uint64_t line = 0)
       : std::runtime_error(what), line_(line) {}
 
-  // From 1 on; 0 in a file without lines.
+  // Returns the line, counted from 1; 0 in a file without lines.
   [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
 
  private:
   std::uint64_t line_;
 };
 
-// Returns read(). A BadValue gets "row 3: " before what it says, if `item` is "row" and `number` 3.
+// Returns read(). If `item` is "row" and `number` 3, a BadValue gets "row 3: " before its message.
 template <class Read>
 decltype(auto) at_item(std::string_view item, std::uint64_t number, const Read& read) {
   try {
@@ -37,7 +37,7 @@ decltype(auto) at_item(std::string_view item, std::uint64_t number, const Read& 
   }
 }
 
-// Returns read(). A BadValue gets the line that lines.line() tells when it is thrown.
+// Returns read(). A BadValue gets the line that lines.line() returns when it is thrown.
 template <class Lines, class Read>
 decltype(auto) at_line_of(const Lines& lines, const Read& read) {
   try {
@@ -47,8 +47,8 @@ decltype(auto) at_line_of(const Lines& lines, const Read& read) {
   }
 }
 
-// Returns read(). A BadValue becomes a FileError: "sites.csv:12: ...", or "mesh.ply: ..." where
-// lines mean nothing.
+// Returns read(). A BadValue becomes a FileError "sites.csv:12: ...", or "mesh.ply: ..." if it has
+// no line.
 template <class Read>
 decltype(auto) in_file(const std::string& name, const Read& read) {
   try {

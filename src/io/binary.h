@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Numbers as the bytes of files, which are the same on every machine: the lowest byte first, unless a
-// reader is told otherwise.
+// Numbers as the bytes of files, which are the same on every machine: the lowest byte first, unless
+// another order is given.
+//
+// in    arrays of numbers, or of structures of numbers
+// out   their bytes; or numbers from bytes
 #pragma once
 
 #include <algorithm>
@@ -22,8 +25,8 @@
 
 namespace rondel::io {
 
-// Unsigned bits with their bytes the other way around: masks and shifts that compilers know as one instruction, and do for
-// several numbers at once.
+// Returns unsigned bits with their bytes reversed. The masks and shifts are a pattern that
+// compilers recognize as one instruction, and vectorize.
 template <typename Bits>
 constexpr Bits reversed(Bits bits) {
   static_assert(std::is_unsigned_v<Bits>);
@@ -40,7 +43,8 @@ constexpr Bits reversed(Bits bits) {
   }
 }
 
-// Copies `count` numbers of `size` bytes, each with its bytes the other way around. Neither place need be aligned.
+// Copies `count` numbers of `size` bytes, each with its bytes reversed. Neither address need be
+// aligned.
 template <std::size_t size>
 void copy_reversed(const char* numbers, std::size_t count, char* bytes) {
   using Bits = std::conditional_t<size == 8, std::uint64_t,
@@ -64,7 +68,7 @@ void store_all(std::span<const T> numbers, char* bytes, std::endian order) {
   }
 }
 
-// The number stored at `bytes`, which need not be aligned.
+// Returns the number stored at `bytes`, which need not be aligned.
 template <typename T>
 T load(const char* bytes, std::endian order = std::endian::little) {
   std::array<char, sizeof(T)> copy;
@@ -81,7 +85,7 @@ char* store(T number, char* bytes, std::endian order = std::endian::little) {
   return std::copy(copy.begin(), copy.end(), bytes);
 }
 
-// The numbers that an element of an array consists of.
+// The type of the numbers that an element of an array consists of.
 template <typename Element>
 struct NumbersOf {
   static_assert(std::is_arithmetic_v<Element>);
@@ -112,8 +116,9 @@ static_assert(sizeof(LonLat) == 2 * sizeof(double));
 static_assert(sizeof(Triple) == 3 * sizeof(Index));
 static_assert(sizeof(Duplicate) == 2 * sizeof(Index) && sizeof(Hidden) == 2 * sizeof(Index));
 
-// The bytes of an array of numbers, or of structures of numbers without gaps: the array's own, where
-// the machine stores numbers in the same order, otherwise those of a copy that lives as long as this.
+// The bytes of an array of numbers, or of structures of numbers without padding. They are the
+// array's own if the machine has the wanted byte order, and otherwise those of a copy that lives as
+// long as this object.
 class NumberBytes {
  public:
   template <typename Values>

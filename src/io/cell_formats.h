@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The formats of cells.
+// Writers of Voronoi cells, one function a format.
+//
+// in    sites, their triangulation and its Voronoi diagram
+// out   a file
+// index sites, which are the cells
 #pragma once
 
 #include "io/atomic_file.h"
@@ -9,7 +13,7 @@
 
 namespace rondel::io {
 
-// What write_cells got.
+// The arguments of write_cells().
 struct CellsToWrite {
   const SiteTable& table;
   const Triangulation& triangulation;
@@ -18,33 +22,34 @@ struct CellsToWrite {
   const Execution& execution;
 };
 
-// What a caller brings may be any arrays. Throws InvalidInput where a reader of the diagram would leave
-// an array.
+// Throws InvalidInput if the arrays of the diagram, which callers may have filled, do not belong to
+// the triangulation or have offsets or indices out of range.
 void require_diagram(const Triangulation& triangulation, const Diagram& diagram);
 
 // Throws InvalidInput (the first other site) if the sites of the table are not those of the
 // triangulation.
 void require_sites(const SiteTable& table, const Triangulation& triangulation);
 
-// The tolerance in degrees, but no less than least_tolerance_deg. Throws InvalidInput unless it is
+// Returns the tolerance in degrees, at least least_tolerance_deg. Throws InvalidInput unless it is
 // positive.
 double checked_tolerance(double tolerance_deg);
 
-// A FeatureCollection with a feature for each cell, in the order of the sites. Its properties are
-// `site`, `area` and the table's columns. A column whose name is taken (by these two or by a column
+// Writes a FeatureCollection with a feature for each cell, in the order of the sites. Its
+// properties are
 // before it) gets underscores at its end until it is not. Numbers stay as they are
-// written in the input, other text is a string, an empty cell is null. Coordinates have the
+// written in the input, other text becomes a string, an empty cell null. Coordinates have the
 // shortest digits that give back the same double, so that cells of any size stay valid. A cell no
 // wider than rounding has the geometry null. Hidden sites have no cell and no feature: the
 // collection's member "hidden" lists each with the three sites of a face below which it lies.
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells);
 
-// Polygons on the unit sphere, whose corners are the diagram's points, with the cell data `site`
-// and `area`. A cell that is the whole sphere has no polygon.
+// Writes polygons on the unit sphere, whose corners are the diagram's points, with the cell data
+// `site` and `area`. A cell that is the whole sphere has no polygon.
 void write_cells_vtp(AtomicFile& file, const CellsToWrite& to_write);
 
-// Six arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8), areas (n, f8), faces (m, 3; u4),
-// of which the first m points are the circumcenters, and hidden (h, 2; u4): site, a face above it.
+// Writes six arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8), areas (n, f8), faces (m,
+// 3; u4), whose circumcenters are the first m points, and hidden (h, 2; u4): a site and a face
+// above it.
 void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write);
 
 }  // namespace rondel::io

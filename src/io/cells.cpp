@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_cells: which format.
+// write_cells() picks the format and checks its arguments.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -16,7 +16,8 @@
 namespace rondel::io {
 namespace {
 
-// A foreign member (RFC 7946, section 6.1): each hidden site with the corners of the face above it.
+// Returns a foreign member (RFC 7946, section 6.1) with each hidden site and the corners of the
+// face above it.
 std::string hidden_member(const Triangulation& triangulation) {
   std::string text;
   for (const auto& [site, face] : triangulation.hidden()) {

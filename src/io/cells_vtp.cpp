@@ -9,7 +9,7 @@ namespace rondel::io {
 void write_cells_vtp(AtomicFile& file, const CellsToWrite& to_write) {
   const Cells& cells = to_write.diagram.cells;
   const std::vector<double>& areas = to_write.diagram.areas;
-  std::vector<Index> sites;  // those with a ring
+  std::vector<Index> sites;  // sites with a ring
   for (std::size_t site = 0; site + 1 < cells.offsets.size(); ++site) {
     if (cells.offsets[site] != cells.offsets[site + 1]) sites.push_back(static_cast<Index>(site));
   }

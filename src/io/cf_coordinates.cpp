@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the variables that are longitudes and latitudes, and those that belong together: sections 4.1, 4.2, 5 and 7.1 of CF 1.11.
+// Finds the variables that are longitudes and latitudes, and pairs those that belong together: CF
+// 1.11, sections 4.1, 4.2, 5 and 7.1.
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -28,7 +29,7 @@ constexpr int rank_of_uncrossed = 1;
 
 struct DirectionMarks {
   std::string_view standard_name;
-  std::string_view axis_type;  // of netCDF-Java
+  std::string_view axis_type;  // used by netCDF-Java
   std::vector<std::string_view> units;
 };
 
@@ -94,7 +95,7 @@ class CoordinateSearch {
     return found;
   }
 
-  // A sentence for each coordinate whose bounds are missing.
+  // Adds a sentence for each coordinate whose bounds are missing.
   void remark_missing_bounds(const CoordinatePair& pair) const {
     for (const std::size_t coordinate : {pair.lon, pair.lat}) {
       const std::string name = variables_[coordinate].text("bounds");
@@ -203,7 +204,7 @@ class CoordinateSearch {
     return pair;
   }
 
-  // Whether another variable has all dimensions of the pair.
+  // True if another variable has all dimensions of the pair.
   [[nodiscard]] bool is_used(const CoordinatePair& pair) const {
     for (std::size_t i = 0; i < variables_.size(); ++i) {
       if (i == pair.lon || i == pair.lat || i == pair.lon_bounds || i == pair.lat_bounds) continue;
@@ -223,7 +224,8 @@ class CoordinateSearch {
   std::size_t chosen_lon_ = none;
   std::size_t chosen_lat_ = none;
   std::size_t values_ = none;
-  std::vector<std::vector<std::string>> lists_;  // the words of attributes `coordinates`
+  std::vector<std::vector<std::string>> lists_;  // by variable: the words of its attribute
+                                                 // `coordinates`
 };
 
 }  // namespace
@@ -309,7 +311,8 @@ std::vector<bool> repeated_dimensions(std::span<const std::string> names,
   std::size_t stride = size;
   std::size_t num_kept = shape.size();
   for (std::size_t d = 0; d < shape.size(); ++d) {
-    const std::size_t block = stride;  // values of one index of the dimensions before this one
+    const std::size_t block = stride;  // number of values for one index of the dimensions before
+                                       // this one
     stride = shape[d] == 0 ? 0 : block / shape[d];
     const bool is_time = io::is_name_of_time(names[d]);
     if (shape[d] == 0 || (shape[d] == 1 && !is_time) || num_kept == 1) continue;

@@ -35,7 +35,8 @@ void require_finite_axis(std::span<const double> values, const std::string& what
   }
 }
 
-// Adds whole turns so that each longitude is less than half a turn, or in the direction of `sign` less than a turn, from the last.
+// Adds whole turns so that each longitude differs by less than half a turn from the one before; or
+// by less than a turn in the direction of `sign`.
 void unroll(std::vector<double>& values, double sign) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double turns = std::ceil(sign * (values[i - 1] - values[i]) / 360);
@@ -43,7 +44,7 @@ void unroll(std::vector<double>& values, double sign) {
   }
 }
 
-// Whether most steps go west when each takes the shorter way around; false if all values increase.
+// True if most steps go west when each takes the shorter way around; false if all values increase.
 bool goes_west(const std::vector<double>& values) {
   if (std::ranges::is_sorted(values)) return false;
   std::size_t num_west = 0;
@@ -100,7 +101,8 @@ std::vector<double> halves(const std::vector<double>& values) {
   return lines;
 }
 
-// Makes the ends of a grid around the globe meet without a gap of rounding; where the cells at both ends are one, each gets half of it.
+// Closes a grid around the globe: removes a gap that comes from rounding, and if the cells at both
+// ends are the same one, gives each half of it.
 void close_circle(std::vector<double>& lines, double first, double last) {
   const std::size_t n = lines.size();
   const double turn = lines.back() > lines.front() ? 360 : -360;
@@ -126,8 +128,8 @@ void end_at_poles(std::vector<double>& lines) {
   lines[n - 1] = to_pole(lines[n - 1], last_width);
 }
 
-// The sides of each cell, the lower one first. Longitudes may jump by a turn within a cell, from 350 to 10; the majority of the cells
-// tells which bound is the western one.
+// Returns the sides of each cell, the lower one first. Longitudes may jump by a turn within a cell,
+// from 350 to 10; the majority of the cells decides which bound is the western one.
 std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_longitude) {
   std::vector<CellSides> cells;
   std::ptrdiff_t num_forward = 0;
@@ -202,7 +204,7 @@ std::vector<double> lines_as_given(std::span<const double> bounds, std::span<con
   return lines;
 }
 
-// Coordinates may be anywhere in their cells, or beside them by as much as those are wide: not those of other cells.
+// Throws InvalidInput if a coordinate is farther from its cell than the cell is wide.
 void require_near_cells(std::span<const double> values, std::span<const double> lines,
                         const std::string& name) {
   constexpr double rounding = 1e-4;
@@ -218,7 +220,7 @@ void require_near_cells(std::span<const double> values, std::span<const double> 
   }
 }
 
-// pi / 2 in single precision is 90.0000025 degrees.
+// Replaces latitudes slightly beyond a pole: pi / 2 in single precision is 90.0000025 degrees.
 void end_before_poles(std::vector<double>& lines) {
   constexpr double rounding = 1e-5;
   for (double& line : lines) {

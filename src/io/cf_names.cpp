@@ -13,7 +13,8 @@ struct KnownNames {
   std::string_view lon;
   std::string_view lat;
 };
-// The names in lower case: plain ones, NEMO, ROMS, POP and CICE, MOM6, WRF and its preprocessor, NEMO's mesh masks, ICON, MPAS, SCRIP.
+// Names in lower case: plain ones, and those of NEMO, ROMS, POP and CICE, MOM6, WRF and its
+// preprocessor, NEMO's mesh masks, ICON, MPAS, SCRIP.
 constexpr std::array known_names = {
     KnownNames{"lon", "lat"},
     KnownNames{"longitude", "latitude"},

@@ -97,7 +97,7 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                const std::vector<std::size_t>& order, std::vector<double> values) {
   if (std::ranges::is_sorted(order) || values.empty()) return values;
   const std::size_t rank = order.size();
-  // The steps in `values` between neighbors along each dimension.
+  // By dimension: the distance of neighbors in `values`.
   std::vector<std::size_t> steps(rank, 1);
   for (std::size_t w = 0; w < rank; ++w) {
     for (std::size_t after = order[w] + 1; after < rank; ++after) steps[w] *= shape[after];
@@ -136,7 +136,8 @@ bool has_time_first(const NetcdfReader& file, const NetcdfReader::Variable& vari
          is_name_of_time(file.dimensions()[variable.dimensions.front()].name);
 }
 
-// Whether the values are the same at each place of the first dimension; read at one after the other.
+// True if the values are the same at each index of the first dimension, which are read one after
+// the other.
 bool is_repeated_along_first(const NetcdfReader& file, const NetcdfReader::Variable& variable) {
   const std::uint64_t size = variable.num_values / variable.shape.front();
   std::vector<double> first(size);
@@ -150,7 +151,7 @@ bool is_repeated_along_first(const NetcdfReader& file, const NetcdfReader::Varia
   return true;
 }
 
-// The variable without all but the first place of its first dimension.
+// Returns the variable with only the first index of its first dimension.
 NetcdfReader::Variable at_first_place(NetcdfReader::Variable variable) {
   variable.num_values /= variable.shape.front();
   variable.shape.front() = 1;
@@ -161,8 +162,9 @@ NetcdfReader::Variable at_first_place(NetcdfReader::Variable variable) {
 
 PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
                       const NetcdfReader::Variable& lat, UsualUnits usual) {
-  // Places at many times need not be in memory together.
-  const bool has_room = lon.num_values <= file.most_values();  // else it is told below
+  // Places that are repeated at many times need not be in memory together.
+  const bool has_room = lon.num_values <= file.most_values();  // otherwise reading them below is an
+                                                               // error
   if (has_room && has_time_first(file, lon) && has_time_first(file, lat) &&
       lon.shape == lat.shape && is_repeated_along_first(file, lon) &&
       is_repeated_along_first(file, lat)) {

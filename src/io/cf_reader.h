@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Variables of netCDF files by the rules of rondel/conventions.h and io/cf_values.h.
+// Reads variables of netCDF files by the rules of rondel/conventions.h and io/cf_values.h.
+//
+// in    an open netCDF file and its variables
+// out   numbers and coordinates in degrees, as the conventions mean them
+// index dimensions by their position in a variable
 #pragma once
 
 #include <cstddef>
@@ -17,12 +21,12 @@
 
 namespace rondel::io {
 
-// The headers of the variables of the file, in their order.
+// Return the headers of all variables of the file, in their order, and of one variable.
 RONDEL_API std::vector<VariableHeader> headers_of(const NetcdfReader& file);
 RONDEL_API VariableHeader header_of(const NetcdfReader& file,
                                     const NetcdfReader::Variable& variable);
 
-// The values as they are meant: unpacked, missing ones NaN. Throws BadValue.
+// Returns the values unpacked, with NaN for missing ones. Throws BadValue if they are no numbers.
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
@@ -31,32 +35,37 @@ RONDEL_API void require_sphere(const NetcdfReader& file);
 
 // The units of a coordinate that has none and is related to no variable with units.
 enum class UsualUnits { of_name, degrees, radians };
-// Coordinates in degrees; missing ones NaN. A variable without units has those of the first of its relatives that has some; null is
-// none. The first relative is of the same kind: corners of longitudes are west of Greenwich as the centers are, latitudes
-// are not. Throws BadValue for units that are neither degrees nor radians.
+// Returns coordinates in degrees, with NaN for missing ones. A variable without units has those of
+// the first of its relatives that has some; a relative may be null. The first relative is of the
+// same kind: if the longitudes of corners are west of Greenwich, so are the centers', but latitudes
+// say nothing about that. Throws BadValue for units that are neither degrees nor radians.
 RONDEL_API std::vector<double> degrees_of(
     const NetcdfReader& file, const NetcdfReader::Variable& variable,
     UsualUnits usual = UsualUnits::of_name,
     std::initializer_list<const NetcdfReader::Variable*> relatives = {});
 
-// An array with its dimensions in another order: `order` has the place of each among those of `shape`.
+// Returns an array with its dimensions in another order: order[k] is the new position of dimension
+// k of `shape`.
 RONDEL_API std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                           const std::vector<std::size_t>& order,
                                           std::vector<double> values);
-// The same for dimensions that are named by their numbers in the variable, which differ.
+// Returns the values with the dimensions in the wanted order; dimensions are given by their numbers
+// in the file, which differ.
 RONDEL_API std::vector<double> in_order(const NetcdfReader::Variable& variable,
                                         const std::vector<std::size_t>& wanted,
                                         std::vector<double> values);
 
-// Longitudes and latitudes of the same dimensions, in degrees; missing ones NaN.
+// Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
 struct PlaceArrays {
-  std::vector<std::size_t> dimensions;  // those of the longitudes along which places differ
+  std::vector<std::size_t> dimensions;  // dimensions of the longitudes along which places differ
+  // lengths of these dimensions
   std::vector<std::uint64_t> shape;
-  std::vector<std::size_t> repeated;  // the others: time
+  std::vector<std::size_t> repeated;  // other dimensions, such as time, along which places are
+                                      // repeated
   std::vector<double> lon;
   std::vector<double> lat;
 };
-// Throws BadValue.
+// Reads the places. Throws BadValue if the dimensions of `lon` and `lat` do not agree.
 RONDEL_API PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
                                  const NetcdfReader::Variable& lat,
                                  UsualUnits usual = UsualUnits::of_name);

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Units of angles as UDUNITS 2.2 spells them. Its names count in any case and have a plural; its symbols count as they are.
+// Units of angles as UDUNITS 2.2 spells them. Names may be in any case and have a plural; symbols
+// must match exactly.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -44,7 +44,7 @@ std::optional<double> number_of_text(const std::string& text) {
   }
 }
 
-// The numbers of an attribute, which may be a text.
+// Returns the numbers of an attribute, which may be a text.
 std::vector<double> numbers_of_attribute(const NetcdfVariable& variable, std::string_view name) {
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   if (attribute == nullptr) return {};
@@ -102,7 +102,7 @@ double default_fill(NetcdfType type) {
       return 18446744073709551614.0;
     case NetcdfType::float32:
     case NetcdfType::float64:
-      return 0x1.ep+122;  // 9.9692099683868690e+36
+      return 0x1.ep+122;  // this is 9.9692099683868690e+36
     case NetcdfType::int8:
     case NetcdfType::uint8:
     case NetcdfType::text:
@@ -189,7 +189,7 @@ void ValueRules::add_remark(const NetcdfVariable& variable, std::string_view att
   remark_ += "attribute " + std::string(attribute) + ' ' + what;
 }
 
-// The number after conversion to the type of the variable.
+// Returns the number converted to the type of the variable.
 double ValueRules::as_type(double value) const {
   if (type_ == NetcdfType::float32 && std::abs(value) <= std::numeric_limits<float>::max()) {
     return static_cast<double>(static_cast<float>(value));
@@ -222,7 +222,8 @@ void ValueRules::apply(std::span<double> values) const {
   }
 }
 
-// Integers that differ are a scale_factor apart, and unpacking in single precision moves them by less than a quarter of it.
+// Different integers are a scale_factor apart, and unpacking in single precision moves them by less
+// than a quarter of that, which is the tolerance here.
 void ValueRules::apply_to_unpacked(std::span<double> values) const {
   const double slack = is_packed() && !is_floating(type_) ? std::abs(scale_) / 4 : 0;
   const auto unpacked = [&](double value) { return value * scale_ + offset_; };

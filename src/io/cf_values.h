@@ -1,15 +1,20 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The meaning of the numbers of a variable: some are missing, and they may be packed. CF 1.11, sections 2.5.1 and 8.1; NetCDF
-// User's Guide, "Attribute Conventions".
+// Interprets the numbers of a variable, which may be missing or packed: CF 1.11, sections 2.5.1 and
+// 8.1; NetCDF User's Guide, "Attribute Conventions".
 //
-// 1. Missing are _FillValue, each number of missing_value, numbers outside of valid_min, valid_max or valid_range, NaN, and without
-//    _FillValue the fill that netCDF writes where nobody wrote (types of one byte have none).
-// 2. These attributes may have any type of numbers, or be a text of numbers; they are compared in the less precise of both types.
-// 3. They are compared with the packed numbers. valid_* are compared with the unpacked ones where their type is that of scale_factor or
-//    add_offset and not the variable's.
-// 4. _Unsigned = "true" makes signed integers unsigned, "false" the reverse.
+// in    a variable's attributes; its numbers as they are in the file
+// out   unpacked numbers, with NaN for missing ones
+//
+// 1. A number is missing if it is _FillValue, one of the numbers of missing_value, outside of
+//    valid_min, valid_max or valid_range, or NaN. Without _FillValue, the default fill value of
+//    netCDF is missing too (types of one byte have none).
+// 2. These attributes may have any type of numbers, or be a text of numbers; they are compared in
+//    the less precise of both types.
+// 3. They are compared with the packed numbers. valid_* are compared with the unpacked numbers if
+//    their type is that of scale_factor or add_offset and not the variable's.
+// 4. _Unsigned = "true" makes signed integers unsigned, "false" makes unsigned integers signed.
 #pragma once
 
 #include <span>
@@ -27,11 +32,11 @@ class RONDEL_API ValueRules {
   // Throws BadValue if scale_factor or add_offset is no finite number, or several.
   explicit ValueRules(const NetcdfVariable& variable);
 
-  // Unpacks numbers as they are in the file; missing ones become NaN.
+  // Unpacks numbers of the file; missing ones become NaN.
   void apply(std::span<double> values) const;
-  // Does the same with numbers that are unpacked already; missing ones may be NaN.
+  // Does the same with numbers that are already unpacked; missing ones may be NaN.
   void apply_to_unpacked(std::span<double> values) const;
-  // Whether apply() changes numbers that are not missing.
+  // True if apply() changes numbers that are not missing.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
   // What is odd about the attributes: a packing that is a text, bounds that are no numbers or that no number is between, an
   // _Unsigned that is no text of the two; else empty.
@@ -58,7 +63,7 @@ class RONDEL_API ValueRules {
   std::string remark_;
 };
 
-// The number that netCDF writes where nobody wrote; NaN for types that have none.
+// Returns the number that netCDF writes where nothing was written; NaN for types that have none.
 RONDEL_API double default_fill(NetcdfType type);
 
 }  // namespace rondel::io

@@ -48,7 +48,7 @@ std::string csv_of(std::span<const Column> columns) {
     for (const Column& column : columns) {
       if (&column != columns.data()) text += ',';
       const std::string_view field = field_of(column);
-      // A line with one empty field alone would be an empty line, which is no row.
+      // A line that consists of one empty field would be an empty line, which is skipped.
       if (field.empty()) {
         text += "\"\"";
       } else {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each level or band.
+// Writes isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each
+// level or band.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,7 +45,7 @@ struct BandsToWrite {
   const Execution& execution;
 };
 
-// The texts one after the other; each has a comma behind it, the last one none.
+// Joins texts that end with a comma, without the last comma.
 std::string joined(std::span<const std::string> texts) {
   std::string all;
   for (const std::string& text : texts) all += text;
@@ -52,7 +53,7 @@ std::string joined(std::span<const std::string> texts) {
   return all;
 }
 
-// The texts of items that several threads make.
+// Returns the texts of items, which several threads make.
 std::vector<std::string> made_texts(
     const Execution& execution, std::size_t count,
     const std::function<void(std::string& text, std::size_t item)>& append) {
@@ -104,7 +105,8 @@ void write_isolines_geojson(AtomicFile& file, const IsolinesToWrite& job) {
   file.write("\n]}\n");
 }
 
-// Whether each arc of the rings has one in the other direction: the bands cover the sphere.
+// True if each arc of the rings occurs in the other direction too, so that the bands cover the
+// sphere.
 bool is_closed_surface(const Bands& bands) {
   using Arc = std::array<double, 6>;
   std::vector<Arc> arcs;
@@ -126,8 +128,8 @@ bool is_unsure(const map::DrawnRegion& region) {
   return region.border != map::BorderKnowledge::is_known;
 }
 
-// Of bands that cover the sphere one has the border of the map inside. If that is known of none, it is the first one of
-// which it seems so, else the first one.
+// If the bands cover the sphere, one of them contains the border of the map. If it is not known
+// which, it is the first one for which it seems so, or else the first one.
 void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
   using map::BorderKnowledge;
   double covered = 0;
@@ -153,15 +155,16 @@ std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const 
   return rings;
 }
 
-// The area of a band tells on which side of its lines it is where these do not, by its points as they were before they were
-// merged.
+// If the lines of a band do not tell on which side of them it is, its area does, computed from its
+// points before they were merged.
 map::BorderKnowledge border_by_area(std::span<const map::UnitVectors> rings) {
   const double area = map::areas_on_left(rings);
   return area < 0 || area > 2 * std::numbers::pi ? map::BorderKnowledge::seems_inside
                                                  : map::BorderKnowledge::seems_outside;
 }
 
-// The polygons of each band; those of one are one region, as they may meet in points.
+// Returns the polygons of each band; a band is drawn as one region, since its polygons may touch in
+// points.
 std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   const Bands& bands = job.bands;
   const std::vector<Point> points = map::merged_points(bands.points);

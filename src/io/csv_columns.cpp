@@ -21,7 +21,7 @@ bool equal_but_for_case(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-// What may be wrong with a table whose header has not the columns.
+// Returns what may be wrong with a table whose header lacks the columns.
 std::string hint(const Header& header) {
   if (is_comment(header.front())) return "; a table has no lines of comments";
   if (std::ranges::all_of(header, is_json_number)) {
@@ -47,7 +47,7 @@ std::string found(const Header& header) {
 }
 
 struct Coordinate {
-  std::string_view word;      // for messages
+  std::string_view word;      // used in messages
   const std::string& chosen;  // the name in the options
   std::vector<std::string_view> usual;
 };
@@ -60,7 +60,7 @@ std::vector<std::size_t> all_equal_to(const Header& header, std::string_view nam
   return equal;
 }
 
-// A text such as `"lon" (column 1) and "longitude" (column 3)`.
+// Returns a text such as `"lon" (column 1) and "longitude" (column 3)`.
 std::string with_positions(const Header& header, std::span<const std::size_t> columns) {
   std::string text;
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -74,7 +74,7 @@ std::string with_positions(const Header& header, std::span<const std::size_t> co
   throw BadValue("two columns have the same name: " + with_positions(header, columns.first(2)));
 }
 
-// The column of a coordinate. An exact fit goes before one that differs in case.
+// Returns the column of a coordinate. An exact match is preferred to one that differs in case.
 std::optional<std::size_t> find(const Header& header, const Coordinate& coordinate) {
   const std::string_view chosen = trim(coordinate.chosen);
   std::vector<std::size_t> fitting;
@@ -121,8 +121,8 @@ std::size_t count_found(const Header& header, std::span<const Coordinate> coordi
       coordinates, [&](const auto& c) { return find(header, c).has_value(); }));
 }
 
-// A file may hold both kinds, or a part of one: what is complete counts, then what is named in part
-// so that the message says what is missing.
+// True if the coordinates are x, y, z. A file may have both kinds, or a part of one: a complete
+// kind is preferred, then one that is named in part, so that the message says what is missing.
 bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
             std::span<const Coordinate> xyz) {
   if (is_any_named(lonlat) && is_any_named(xyz)) {

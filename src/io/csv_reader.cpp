@@ -16,7 +16,7 @@
 namespace rondel::io {
 namespace {
 
-// Every line may be a site, and a site takes at least four bytes: "1,2\n".
+// Returns an upper bound: every line may be a site, and a site takes at least four bytes: "1,2\n".
 std::size_t most_sites(std::string_view text) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   return std::min(lines, text.size() / 4 + 1);
@@ -42,7 +42,7 @@ std::vector<bool> named_columns(const std::vector<std::string_view>& header) {
   return is_named;
 }
 
-// A comma at the end of each line makes a column with neither a name nor a text.
+// Drops columns with neither a name nor a text, which a comma at the end of each line makes.
 void drop_empty_columns(const std::vector<bool>& is_named, SiteTable& table) {
   std::vector<Column> kept;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {

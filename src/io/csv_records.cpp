@@ -38,7 +38,7 @@ void CsvRecords::skip_empty_lines() {
   }
 }
 
-// Reads one field and what ends it; false if the record ends too.
+// Reads a field and what ends it; returns false if the record ends too.
 bool CsvRecords::read_field() {
   if (next_ != end_ && *next_ == '"') {
     fields_.push_back(read_quoted());
@@ -52,7 +52,8 @@ bool CsvRecords::read_field() {
   return finish_field();
 }
 
-// At a delimiter, at the end of a line or of the text, or else behind a quoted field.
+// Goes past what ends a field, which must be a delimiter, the end of a line or the end of the text;
+// returns false if the record ends too.
 bool CsvRecords::finish_field() {
   bool is_return = false;
   for (; next_ != end_ && *next_ == '\r'; ++next_) is_return = true;
@@ -75,7 +76,7 @@ std::string_view CsvRecords::read_quoted() {
     next_line_ += static_cast<std::uint64_t>(std::count(first, quote, '\n'));
     const bool is_doubled = quote + 1 != end_ && quote[1] == '"';
     if (is_doubled && unescaped == nullptr) unescaped = &unescaped_.emplace_back();
-    const char* const stop = is_doubled ? quote + 1 : quote;  // of a doubled quote, one stays
+    const char* const stop = is_doubled ? quote + 1 : quote;  // one of two doubled quotes is kept
     if (unescaped != nullptr) unescaped->append(first, stop);
     if (!is_doubled) {
       const std::string_view field(next_, static_cast<std::size_t>(quote - next_));

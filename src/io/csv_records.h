@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The records of a CSV file (RFC 4180).
+//
+// in    the text of a table
+// out   one record after the other, as a list of fields
 #pragma once
 
 #include <cstddef>
@@ -15,11 +18,11 @@
 
 namespace rondel::io {
 
-// The bytes of a table without the byte order mark of UTF-8. Throws BadValue for UTF-16.
+// Returns the text of a table without the byte order mark of UTF-8. Throws BadValue for UTF-16.
 RONDEL_API std::string_view table_text(std::string_view bytes);
 
-// 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped. CR alone ends no record, and stands
-//    only in quotes.
+// 1. Records end with LF or CRLF, or with the text. Empty lines are skipped. A CR alone ends no
+//    record, and may stand only in quotes.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
 //    one and line ends are part of it. Elsewhere quotes are ordinary characters.
 class RONDEL_API CsvRecords {
@@ -27,14 +30,15 @@ class RONDEL_API CsvRecords {
   CsvRecords(std::string_view text, char delimiter)
       : next_(text.data()), start_(next_), end_(next_ + text.size()), delimiter_(delimiter) {}
 
-  // Goes to the next record; false at the end. Throws BadValue for a broken quote and for CR alone.
+  // Goes to the next record; returns false at the end. Throws BadValue for an unclosed quote and
+  // for a CR alone.
   bool next();
 
-  // Valid until the next call of next().
+  // The fields are valid until the next call of next().
   [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
-  // Where the record starts, from 1 on.
+  // Returns the line in which the record starts, counted from 1.
   [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
-  // How much of the text is done.
+  // Returns how many bytes of the text have been read.
   [[nodiscard]] std::size_t position() const noexcept {
     return static_cast<std::size_t>(next_ - start_);
   }

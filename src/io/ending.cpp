@@ -10,7 +10,7 @@ namespace rondel::io {
 
 std::string ending(const FileName& file) {
   std::string_view name = file.path;
-  while (name.ends_with('/')) name.remove_suffix(1);  // of a folder
+  while (name.ends_with('/')) name.remove_suffix(1);  // at the end of a folder
   name.remove_prefix(name.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
   std::string result;
@@ -29,7 +29,8 @@ bool has_netcdf_ending(const FileName& file) {
   return std::ranges::find(netcdf_endings, ending(file)) != netcdf_endings.end();
 }
 
-// A format such as "mpas" says what is in the file; then the ending of the path tells the kind of netCDF.
+// A format such as "mpas" says what is in the file; then the ending of the path says which kind of
+// netCDF it is.
 NetcdfOptions with_kind(NetcdfOptions options, const FileName& file) {
   constexpr std::string_view netcdf4 = ".nc4";
   const bool is_netcdf4 = ending(file) == netcdf4 || ending(file.path) == netcdf4;

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file's format is named, or told by its ending.
+// Finds the format of a file, which the user names or the ending of the file tells.
+//
+// in    the name of a file, and perhaps a format
+// out   a row of a table of formats
 #pragma once
 
 #include <array>
@@ -16,20 +19,22 @@
 
 namespace rondel::io {
 
-// ".csv" of the format "CSV" or, if none is named, of the path "data/Stations.CSV": in lower case;
-// empty if the path has no ending. Slashes at the end, as of a folder, do not count.
+// Returns ".csv" for the format "CSV" or, if no format is named, for the path "data/Stations.CSV":
+// the ending in lower case. Returns an empty text if the path has no ending. Slashes at the end, as
+// of a folder, do not count.
 RONDEL_API std::string ending(const FileName& file);
 
-// The endings that files of netCDF have, those of UGRID, Exodus and HDF5 among them.
+// The endings of netCDF files, including those of UGRID, Exodus and HDF5.
 inline constexpr std::array<std::string_view, 9> netcdf_endings = {
     ".nc", ".nc4", ".cdf", ".ncf", ".ug", ".exo", ".e", ".g", ".h5"};
-// Whether the format or, where none is named, the ending of the path is one of them.
+// True if the format or, if none is named, the ending of the path is one of them.
 RONDEL_API bool has_netcdf_ending(const FileName& file);
 
-// The options, with the kind that the file's name says if they have none.
+// Returns the options, with the kind that the file's name tells if they have none.
 RONDEL_API NetcdfOptions with_kind(NetcdfOptions options, const FileName& file);
 
-// The row of a table of formats whose member `ending` fits the file; null if there is none.
+// Returns the row of a table of formats whose member `ending` matches the file; null if there is
+// none.
 template <typename Format>
 const Format* find_format(std::span<const Format> formats, const FileName& file) {
   const std::string wanted = ending(file);
@@ -44,7 +49,7 @@ const Format* find_format(std::span<const Format> formats, const FileName& file)
 [[noreturn]] RONDEL_API void throw_unknown_ending(const FileName& file, std::string_view what,
                                                   std::span<const std::string_view> known);
 
-// The row of find_format(); where there is none, throw_unknown_ending() lists the endings of all.
+// Returns the row of find_format(); if there is none, throws FileError with all known endings.
 template <typename Format>
 const Format& require_format(std::span<const Format> formats, const FileName& file,
                              std::string_view what) {
@@ -54,14 +59,14 @@ const Format& require_format(std::span<const Format> formats, const FileName& fi
   throw_unknown_ending(file, what, known);
 }
 
-// A row of a table of formats: how what a job says is written.
+// A row of a table of writers: the ending of a format, and the function that writes it.
 template <typename Job>
 struct Writer {
   std::string_view ending;
   void (*write)(AtomicFile&, const Job&);
 };
 
-// Writes the whole file, in the format that require_format() finds, or nothing.
+// Writes the whole file in the format that require_format() finds, or nothing if it throws.
 template <typename Job>
 void write_whole(std::span<const Writer<Job>> writers, const FileName& output,
                  std::string_view what, const Job& job) {

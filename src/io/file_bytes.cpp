@@ -14,7 +14,7 @@
 namespace rondel::io {
 namespace {
 
-// The longest header of .npy of version 1 has 65545 bytes.
+// The longest header of .npy of version 1 has 65545 bytes, which is less.
 constexpr std::size_t head_size = 131072;
 
 constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", "gzip"},
@@ -24,7 +24,7 @@ constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", 
                                                                     "xz"},
                                                                    {"\x28\xB5\x2F\xFD", "zstd"}};
 
-// Whether standard input had bytes before; what is read of it once is gone.
+// True if standard input had bytes before, which cannot be read again.
 bool had_standard_input(bool has_bytes) {
   static std::atomic<bool> had_bytes = false;
   return has_bytes ? had_bytes.exchange(true) : had_bytes.load();
@@ -53,7 +53,7 @@ FileBytes::Descriptor::~Descriptor() {
   if (value > system::standard_input) system::close(value);
 }
 
-// The file may be longer than it claims: those of /proc say that they are empty.
+// The file may be longer than it claims: files in /proc claim to be empty.
 std::string_view FileBytes::text() {
   std::size_t capacity = head_size;
   while (!is_at_end_) {
@@ -87,7 +87,7 @@ void FileBytes::read_at(std::uint64_t place, char* bytes, std::size_t size) cons
   }
 }
 
-// Precondition: `bytes_` has room for so many.
+// Reads until `size` bytes are in memory. Precondition: `bytes_` has room for them.
 void FileBytes::read_up_to(std::size_t size) {
   while (num_read_ < size && !is_at_end_) {
     const std::ptrdiff_t count =

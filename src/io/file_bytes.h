@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The whole content of a file for reading.
+//
+// in    a path, or "-" for standard input
+// out   bytes
 #pragma once
 
 #include <cstddef>
@@ -14,30 +17,30 @@
 
 namespace rondel::io {
 
-// The file is read in two steps, so that what its head claims can be refused before the rest takes
-// time and memory.
+// A file that is read in two steps, so that false claims in its header can be refused before the
+// rest takes time and memory.
 class RONDEL_API FileBytes {
  public:
   // Opens the file and reads its head. "-" is standard input. Throws FileError:
   // "stations.csv: No such file or directory", "stations.csv: compressed (gzip); unpack it first".
   explicit FileBytes(const std::string& path, bool may_be_zip = false);
 
-  // The file in messages.
+  // Returns the name of the file for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  // Whether the name is that of a file, which others can open.
+  // True if the file has a name by which others can open it.
   [[nodiscard]] bool has_path() const noexcept { return descriptor_.value > 0; }
-  // The first bytes: 128 KiB, those that were asked for, or all.
+  // Returns the first bytes: 128 KiB, as many as longer_head() has read, or all.
   [[nodiscard]] std::string_view head() const noexcept { return {bytes_.get(), num_read_}; }
-  // The number of bytes as the system tells it; 0 if it does not know.
+  // Returns the size of the file as the system reports it; 0 if it is not known.
   [[nodiscard]] std::uint64_t claimed_size() const noexcept { return claimed_size_; }
 
-  // All bytes. Throws FileError.
+  // Reads and returns all bytes. Throws FileError if reading fails.
   std::string_view text();
-  // Returns at least so many of the first bytes, or all. Throws FileError.
+  // Returns at least `size` of the first bytes, or all. Throws FileError if reading fails.
   std::string_view longer_head(std::size_t size);
 
-  // Bytes of a file of known size, from this place on, without those before; several threads may ask.
-  // Throws FileError, also where the file has ended by now.
+  // Reads `size` bytes at `place` of a file of known size, without those before; several threads
+  // may call it. Throws FileError if reading fails or the file has become shorter.
   void read_at(std::uint64_t place, char* bytes, std::size_t size) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A variable of a file, as users name it: FILE.nc:NAME.
+// Names of variables of a file, which users write as FILE.nc:NAME.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace rondel::io {
 
-// The file and the name behind the last colon; no name where there is a file of the whole name, or none of the first part.
+// Returns the file, and the name behind the last colon. The name is empty if a file of the whole
+// name exists, or none of the part before the colon.
 RONDEL_API std::pair<FileName, std::string> split_part(const FileName& file);
 
 }  // namespace rondel::io

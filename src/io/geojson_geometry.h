@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Polygons as GeoJSON.
+// Appends polygons as GeoJSON.
+//
+// in    polygons with longitudes and latitudes in degrees
+// out   text
 #pragma once
 
 #include <span>
@@ -19,7 +22,7 @@ namespace rondel::io {
 void append_geometry(std::string& out, const std::vector<map::LonLatPolygon>& polygons);
 void append_geometry(std::string& out, const std::vector<map::PolygonWithHoles>& polygons);
 
-// Appends [[lon,lat],...].
+// Appends positions as [[lon,lat],...].
 void append_positions(std::string& out, std::span<const LonLat> positions);
 
 // Appends the coordinates of a Polygon.

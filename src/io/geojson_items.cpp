@@ -16,20 +16,22 @@ namespace {
 
 using nlohmann::json;
 
-// RFC 7946, sections 3.1 and 3.2: a feature without a place has the geometry null, or one whose
-// coordinates are empty.
+// A feature without a place has the geometry null, or one whose coordinates are empty (RFC 7946,
+// sections 3.1 and 3.2).
 bool is_unlocated(const JsonTree& geometry) {
   const JsonTree& coordinates = geometry.member("coordinates");
   return geometry.is_null() || (coordinates.is_array() && coordinates.items.empty());
 }
 
-// Whether a name of a coordinate reference system, "urn:ogc:def:crs:OGC:1.3:CRS84" or "EPSG:4326", means longitudes from
-// Greenwich and latitudes in degrees: those of WGS 84 or, within metres, NAD 83 and ETRS 89, or of another body.
+// True if the name of a coordinate reference system, such as "urn:ogc:def:crs:OGC:1.3:CRS84" or
+// "EPSG:4326", means longitudes from Greenwich and latitudes in degrees: in WGS 84, in NAD 83 or
+// ETRS 89, which differ by meters, or on another body.
 bool is_in_degrees(const std::string& name) {
   const std::size_t separator = name.find_last_of(":/#");
   const std::string code = separator == std::string::npos ? name : name.substr(separator + 1);
   const std::string authority = name.substr(0, name.size() - code.size());
-  if (authority.find("IAU") != std::string::npos) {  // 100 times the body, and 0 or 2 for degrees
+  if (authority.find("IAU") != std::string::npos) {  // the code is 100 times the body, plus 0 or 2
+                                                     // for degrees
     return code.size() > 2 && (code.ends_with("00") || code.ends_with("02"));
   }
   constexpr std::array<std::string_view, 8> known = {"CRS84", "CRS84h", "CRS83", "WGS84",
@@ -37,7 +39,8 @@ bool is_in_degrees(const std::string& name) {
   return std::ranges::find(known, code) != known.end();
 }
 
-// The member `crs`, which RFC 7946 has taken away and files still have, has the type "name", "EPSG" or "link".
+// Throws BadValue unless coordinates are degrees. The member `crs`, which RFC 7946 has removed but
+// files still have, has the type "name", "EPSG" or "link".
 void require_degrees(const JsonTree& object) {
   const JsonTree& crs = object.member("crs");
   if (crs.is_null()) return;
@@ -92,7 +95,7 @@ class GeoJsonItems::CursorIterator {
   TextPosition* cursor_;
 };
 
-// The members of the root have depth 1, the elements of their arrays depth 2.
+// Members of the root have depth 1, elements of their arrays depth 2.
 void GeoJsonItems::read(const ItemListener& listener) {
   const char* const end = bytes_.data() + bytes_.size();
   cursor_.position = bytes_.data();

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The geometries of a GeoJSON document (RFC 7946), one after the other. Features are taken out of the
-// document as they come, so that a large file never stands in memory as a tree. A member `crs` that names anything but
-// degrees of longitude and latitude is refused.
+// Reads the geometries of a GeoJSON document (RFC 7946) one after the other. Features are removed
+// from the document as they are read, so that no large file is in memory as a tree. A member `crs`
+// is refused unless it names longitudes and latitudes in degrees.
+//
+// in    the text of a document
+// out   a call for each geometry, with its properties
 #pragma once
 
 #include <cstddef>
@@ -19,27 +22,28 @@
 
 namespace rondel::io {
 
-// The member `type`; empty if it is no string.
+// Returns the member `type`; an empty text if it is not a string.
 std::string geojson_type(const JsonTree& object);
 
-// Text of a property: a string without its quotes, anything else as JSON.
+// Returns the text of a property: a string without its quotes, anything else as JSON.
 std::string unquoted(const JsonTree& value);
 
 class GeoJsonItems {
  public:
   struct ItemListener {
-    // Of a feature, or a bare one, which has no properties.
+    // Called for the geometry of a feature, and for a bare geometry, which has no properties.
     std::function<void(const JsonTree& geometry, const JsonTree& properties)> on_geometry;
-    // Of a feature without a place.
+    // Called for a feature without a place.
     std::function<void(const JsonTree& properties)> on_unlocated;
   };
 
   explicit GeoJsonItems(std::string_view bytes) : bytes_(bytes) {}
 
-  // Throws BadValue; line() then tells where. The members of a collection at the root are items, each.
+  // Reads the document. Throws BadValue; line() is then where. If the root is a collection, each of
+  // its members is an item.
   void read(const ItemListener& listener);
   [[nodiscard]] std::uint64_t line() const { return item_line_ != 0 ? item_line_ : cursor_.line; }
-  // How far it has come.
+  // Returns how many bytes have been read.
   [[nodiscard]] std::size_t num_bytes_read() const {
     return static_cast<std::size_t>(cursor_.position - bytes_.data());
   }
@@ -61,12 +65,12 @@ class GeoJsonItems {
   static void visit_feature(const JsonTree& feature, const ItemListener& listener);
 
   std::string_view bytes_;
-  TextPosition cursor_{};        // of the parser
-  std::uint64_t item_line_ = 0;  // of the feature or geometry in work, 0 between them
+  TextPosition cursor_{};        // position of the parser
+  std::uint64_t item_line_ = 0;  // line of the current feature or geometry, 0 between them
   std::size_t num_items_ = 0;
 };
 
-// Properties, row by row; a column has a cell in every row.
+// Collects properties, row by row, into columns; a column has a cell in every row.
 class PropertyColumns {
  public:
   explicit PropertyColumns(std::vector<Column>& columns) : columns_(columns) {}

@@ -66,7 +66,7 @@ class PolygonReader {
     return parts.items;
   }
 
-  // Whether it is one or more lines or points.
+  // Adds the geometry if it consists of lines or points; returns false otherwise.
   bool add_line(const JsonTree& geometry, const std::string& type) {
     auto& lines = features_.lines.back();
     if (type == "Point") {

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Polygons of GeoJSON (RFC 7946) as the file has them, and lines and points where these are wanted.
+// Reads polygons of GeoJSON (RFC 7946) without changing them, and lines and points if these are
+// wanted.
+//
+// in    a file
+// out   rings and lines of positions in degrees, and columns of properties
+// index features of the file, or bare geometries
 #pragma once
 
 #include <cstdint>
@@ -15,15 +20,15 @@
 namespace rondel::io {
 
 struct LonLatRing {
-  std::vector<LonLat> positions;  // degrees; the first one is not repeated
-  bool is_hole = false;           // a ring that is no hole begins a polygon
+  std::vector<LonLat> positions;  // degrees; the first position is not repeated
+  bool is_hole = false;           // a ring that is not a hole begins a polygon
   bool is_turn =
       false;  // its last position is the first one a whole turn of the globe away, and left out
 };
 
-// Row i is feature i of the file, or bare geometry i.
+// Row i belongs to feature i of the file, or to bare geometry i.
 struct PolygonFeatures {
-  std::string name;  // of the file, for messages
+  std::string name;  // name of the file for messages
   std::vector<std::vector<LonLatRing>> rings;
   std::vector<std::vector<std::vector<LonLat>>> lines;  // a point is a line of one position
   std::vector<Column> columns;
@@ -31,8 +36,9 @@ struct PolygonFeatures {
 
 enum class FeatureKinds : std::uint8_t { polygons, all };
 
-// Polygons, MultiPolygons, and collections of those, or of all kinds. A feature without a place has no rings.
-// Throws FileError.
+// Reads Polygons and MultiPolygons, alone or in collections, or all kinds of geometries. A feature
+// without a place has no rings. Throws FileError with the line of the first geometry that is not
+// valid.
 RONDEL_API PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds);
 
 }  // namespace rondel::io

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Columns as properties of features.
+// Writes columns as properties of features.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,12 @@
 
 namespace rondel::io {
 
-// `,"name":` for each column, with names that differ from each other and from those that are taken.
+// Returns `,"name":` for each column, with names that differ from each other and from those that
+// are taken.
 std::vector<std::string> property_keys(std::span<const Column> columns,
                                        std::set<std::string> taken);
 
-// null for an empty one.
+// Appends the cell of a row as JSON; null for an empty cell.
 void append_value(std::string& out, const Column& column, std::size_t row);
 
 }  // namespace rondel::io

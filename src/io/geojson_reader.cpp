@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites from GeoJSON (RFC 7946): every Point and every member of a MultiPoint, bare, in a geometry
-// collection or in features, whose properties become columns.
+// Reads sites from GeoJSON (RFC 7946): every Point and every member of a MultiPoint, alone, in a
+// geometry collection or in features, whose properties become columns.
 #include <string>
 
 #include "io/geojson_items.h"
@@ -24,7 +24,7 @@ class GeoJsonReader {
         columns_(table.columns),
         items_(bytes) {}
 
-  // Throws BadValue; line() then tells where.
+  // Throws BadValue if the document is not valid; line() is then where.
   void read() {
     items_.read({[this](const JsonTree& geometry, const JsonTree& properties) {
                    add_geometry(geometry, properties);
@@ -40,7 +40,7 @@ class GeoJsonReader {
   [[nodiscard]] double radius_in(const JsonTree& properties) const;
 
   std::size_t num_bytes_;
-  std::string radius_;  // the property
+  std::string radius_;  // name of the property
   bool keep_columns_;
   SiteTable& table_;
   SiteCollector collector_;
@@ -59,7 +59,7 @@ void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& prope
   const JsonTree& members = is_collection ? geometry.member("geometries") : coordinates;
   if (!members.is_array()) throw BadValue(type + " without members");
   for (const JsonTree& part : members.items) {
-    // Collections in collections are not Points: this bounds the recursion.
+    // Refuses collections in collections, which bounds the recursion.
     if (is_collection && geojson_type(part) == type) throw BadValue("nested GeometryCollection");
     if (is_collection) {
       add_geometry(part, properties);

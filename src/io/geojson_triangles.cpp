@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The solid faces as GeoJSON (RFC 7946), a feature each, with the property `sites`: the input
-// indices of the corners. A ghost face covers, seen from the center, nothing that is not covered by
-// others, flat or from behind; it is left out.
+// Writes the solid faces as GeoJSON (RFC 7946), each as a feature with the property `sites`, the
+// input indices of its corners. Ghost faces are left out: seen from the center they are flat or
+// seen from behind, and cover only what other faces cover.
 #include <string>
 
 #include "io/geojson_geometry.h"

@@ -74,7 +74,7 @@ bool JsonTreeBuilder::end_array() {
 
 bool JsonTreeBuilder::parse_error(std::size_t /*position*/, const std::string& /*token*/,
                                   const nlohmann::json::exception& error) {
-  // Without "[json.exception.parse_error.101] parse error at line 1, column 2: "
+  // Removes the beginning "[json.exception.parse_error.101] parse error at line 1, column 2: ".
   std::string_view reason = error.what();
   reason.remove_prefix(std::min(reason.find("] ") + 2, reason.size()));
   if (reason.starts_with("parse error at")) reason.remove_prefix(reason.find(": ") + 2);

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// JSON as a tree, parsed by nlohmann's parser but without its trees: their destructors ask for
-// memory, and end the program where there is none.
+// JSON as a tree. It is parsed by nlohmann's parser but does not use its trees, whose destructors
+// allocate memory and end the program if there is none.
+//
+// in    the text of a document
+// out   a tree; and calls for the objects in it as they are completed
 #pragma once
 
 #include <cstddef>
@@ -18,7 +21,7 @@
 
 namespace rondel::io {
 
-// The text is not JSON, or no JSON for this reader; where the parser stands.
+// The text is not JSON, or too deep for this reader; the message says at which line.
 class JsonError : public BadValue {
  public:
   using BadValue::BadValue;
@@ -28,7 +31,7 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   enum class Kind : std::uint8_t { scalar, array, object };
 
   Kind kind = Kind::scalar;
-  nlohmann::json scalar;  // null, a number, a string ...
+  nlohmann::json scalar;  // null, a boolean, a number or a string
   std::vector<JsonTree> items;
   std::map<std::string, JsonTree> members;
 
@@ -39,23 +42,23 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   [[nodiscard]] double number() const { return scalar.get<double>(); }
   [[nodiscard]] std::string string() const { return scalar.get<std::string>(); }
 
-  // The member of an object, null if there is none.
+  // Returns the member of an object, or null if there is none.
   [[nodiscard]] const JsonTree& member(const std::string& name) const;
-  // As text, without white space.
+  // Returns the tree as JSON without white space.
   [[nodiscard]] std::string text() const;
 };
 
 // Builds the tree from the parser's events (nlohmann::json::sax_parse). Throws JsonError.
 class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  // Trees deeper than this are refused: they are read and destroyed by recursion.
+  // Deeper trees are refused, since they are read and destroyed by recursion.
   static constexpr std::size_t max_depth = 512;
 
-  // What is asked of the user, with the number of values that a new one is in, and the name of the
-  // member of the root that these are in.
+  // Functions that are called with the number of values that contain a new one, and with the name
+  // of the member of the root that these are in.
   struct Listener {
     std::function<void(std::size_t depth, const std::string& member)> on_object_start;
-    // Whether the object was used and goes.
+    // Returns true if the object has been used and is removed from the tree.
     std::function<bool(std::size_t depth, const std::string& member, const JsonTree&)> on_object;
   };
   explicit JsonTreeBuilder(Listener listener) : listener_(std::move(listener)) {}
@@ -82,7 +85,7 @@ class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  private:
   struct Level {  // NOLINT(bugprone-exception-escape)
     JsonTree tree;
-    std::string key;  // of an object: of the member that comes
+    std::string key;  // key of the next member, in an object
   };
 
   bool open(JsonTree::Kind kind);

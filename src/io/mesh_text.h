@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites and faces as lines of text, for .csv .tsv .xyz .off and .obj.
+// Writes sites and faces as lines of text, for .csv .tsv .xyz .off and .obj.
 #pragma once
 
 #include <initializer_list>
@@ -13,14 +13,14 @@
 
 namespace rondel::io {
 
-// Appends "1.5 2 3\n", where the delimiter is a blank.
+// Appends a line such as "1.5 2 3\n", where the delimiter is a blank.
 void append_row(std::string& text, std::initializer_list<double> values, char delimiter);
 
-// A line "<prefix>x y z" for every site, where the delimiter is a blank.
+// Writes a line "<prefix>x y z" for every site, where the delimiter is a blank.
 void write_site_lines(AtomicFile& file, std::span<const Point> sites, unsigned threads,
                       std::string_view prefix, char delimiter);
 
-// A line "<prefix>a b c" for every face; the first site has the number `base`.
+// Writes a line "<prefix>a b c" for every face, where the first site has the number `base`.
 void write_face_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix,
                       Index base);
 

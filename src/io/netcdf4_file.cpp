@@ -21,10 +21,10 @@ using NetcdfName = std::array<char, netcdf_largest_name + 1>;
 
 constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
-// An attribute that is longer is damaged, or nothing that a reader of fields and meshes asks for.
+// A longer attribute is damaged, or is not one that readers of fields and meshes need.
 constexpr std::size_t longest_attribute = std::size_t{1} << 24U;
 
-// Opens the file by `open`, and says why it could not.
+// Returns the number of the file that `open` opens; throws BadValue with the reason if it fails.
 template <class Open>
 int opened(const NetcdfLibrary& library, const Open& open) {
   const NetcdfLock lock(netcdf_library_lock());
@@ -36,7 +36,8 @@ int opened(const NetcdfLibrary& library, const Open& open) {
   return number;
 }
 
-// Reads the header of a file, group by group. A dimension, variable or attribute that cannot be read is left out.
+// Reads the header of a file, group by group. Dimensions, variables and attributes that cannot be
+// read are left out.
 class Netcdf4Header {
  public:
   explicit Netcdf4Header(const NetcdfLibrary& library) : library_(library) {}
@@ -178,7 +179,7 @@ class Netcdf4Header {
 
   const NetcdfLibrary& library_;
   NetcdfHeader header_;
-  std::vector<int> numbers_;  // netCDF-C's, of the dimensions
+  std::vector<int> numbers_;  // by dimension: the number that netCDF-C has for it
 };
 
 }  // namespace
@@ -191,7 +192,7 @@ bool is_hdf5(std::string_view head) {
   return false;
 }
 
-// A whole path is never taken for an address in a network.
+// The path is made absolute, so that it is never taken for an address in a network.
 Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
   const std::string whole = std::filesystem::absolute(path).string();
   number_ = opened(library_, [&](int& number) { return library_.open(whole.c_str(), 0, &number); });
@@ -199,7 +200,7 @@ Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
 
 Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
   number_ = opened(library_, [&](int& number) {
-    // The file is opened for reading, so that nobody changes the bytes.
+    // The file is opened for reading, so that the bytes are not changed.
     return library_.open_memory("memory", 0, bytes.size(), const_cast<char*>(bytes.data()),
                                 &number);
   });

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file of netCDF-4 as netCDF-C reads it, for NetcdfReader.
+// Reads a netCDF-4 file by netCDF-C, for NetcdfReader.
+//
+// in    a path, or the bytes of a file
+// out   a header, and values
 #pragma once
 
 #include <cstdint>
@@ -15,30 +18,32 @@
 
 namespace rondel::io {
 
-// Whether a file with these first bytes is one of HDF5: its signature is at its start, or at 512 bytes, 1024, 2048 ...
+// True if the first bytes contain the signature of HDF5, at offset 0, 512, 1024, 2048, ...
 bool is_hdf5(std::string_view head);
 
 class Netcdf4File {
  public:
-  // Throws BadValue: also where netCDF-C is not there.
+  // Throws BadValue if the file cannot be read, or netCDF-C is not installed.
   explicit Netcdf4File(const std::string& path);
-  // Reads bytes, which live as long as this.
+  // Reads from bytes, which must outlive this object.
   explicit Netcdf4File(std::string_view bytes);
   ~Netcdf4File();
   Netcdf4File(const Netcdf4File&) = delete;
   Netcdf4File& operator=(const Netcdf4File&) = delete;
 
-  // The dimensions, attributes and variables, with their shapes. A variable that netCDF-C cannot describe is left out.
+  // Returns the dimensions, attributes and variables with their shapes. Variables that netCDF-C
+  // cannot describe are left out.
   [[nodiscard]] NetcdfHeader header() const;
 
-  // Reads as many values as there is room for, from this one on. Throws BadValue.
+  // Reads as many values as `out` has room for, from value `begin` on. Throws BadValue if reading
+  // fails.
   void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
             std::span<double> out) const;
   void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
                 std::span<double> out) const;
-  // The lengths of its chunks, if it has any.
+  // Sets the lengths of the variable's chunks, if it has chunks.
   void take_chunk(const NetcdfReader::Variable& variable, std::span<std::uint64_t> lengths) const;
-  // Precondition: they are integers.
+  // Reads integers. Precondition: the variable has a type of integers.
   void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
             std::span<std::int64_t> out) const;
   void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,

@@ -21,10 +21,12 @@ namespace {
 
 using OutputLock = std::lock_guard<system::Mutex>;
 
-// The number of values in a chunk is small enough for HDF5's cache of 1 MiB and more, and large enough for zlib.
+// The number of values in a chunk, which is small enough for HDF5's cache of 1 MiB and large enough
+// for zlib.
 constexpr std::uint64_t values_of_chunk = std::uint64_t{1} << 16U;
 
-// A chunk has the last dimensions as long as they fit, and as many places of the next one as fit, too.
+// Returns the lengths of a chunk: the last dimensions as far as they fit, and as many indices of
+// the next one as fit.
 std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) {
   std::vector<std::size_t> lengths(shape.size(), 1);
   std::uint64_t room = values_of_chunk;
@@ -178,7 +180,7 @@ void Netcdf4Output::define_variable(const NetcdfVariable& variable,
       require(library_.set_deflate(number_, output.number, shuffle, 1, deflate), what);
     }
   }
-  // All values are written, so netCDF-C need not fill any before.
+  // All values are written, so netCDF-C need not fill variables before.
   if (find_attribute(variable.attributes, "_FillValue") == nullptr) {
     require(library_.set_fill(number_, output.number, 1, nullptr), what);
   }

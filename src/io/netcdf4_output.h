@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file of netCDF-4 as netCDF-C writes it, for NetcdfWriter.
+// Writes a netCDF-4 file by netCDF-C, for NetcdfWriter.
+//
+// in    definitions, then the values of each variable in their order
+// out   a file
 #pragma once
 
 #include <cstddef>
@@ -21,8 +24,9 @@ struct Netcdf4Definitions {
   const std::vector<NetcdfVariable>& variables;
 };
 
-// netCDF-C needs a file in which it can write here and there. This file has the rights of the target and no name, where the
-// system allows it, and its content is copied to the target at the end.
+// netCDF-C needs a file in which it can write at any place. This file has the permissions of the
+// target and no name, if the system allows that, and its content is copied to the target at the
+// end.
 //
 // Variables are divided into chunks of runs of values, so that values can be written in their order, each chunk once.
 //
@@ -68,7 +72,7 @@ class Netcdf4Output {
   int descriptor_ = -1;
   int number_ = 0;
   bool is_open_ = false;
-  std::string left_name_;  // of a file that could not be unlinked while it is open
+  std::string left_name_;  // name of a file that could not be unlinked while it is open
   std::vector<DefinedVariable> variables_;
   std::uint64_t size_of_definitions_ = 0;  // at most, with the places of the chunks
   std::uint64_t size_with_room_ = 0;

@@ -20,7 +20,8 @@ std::size_t num_values_of(const BoxLengths& count) {
   return product;
 }
 
-// How far apart neighbors along each dimension are in an array of these lengths, the last one of which changes fastest.
+// Returns the distance of neighbors along each dimension of an array of these lengths, the last
+// dimension of which varies fastest.
 template <class Lengths>
 BoxLengths steps_of(const Lengths& lengths) {
   BoxLengths steps(lengths.size(), 1);
@@ -30,8 +31,9 @@ BoxLengths steps_of(const Lengths& lengths) {
   return steps;
 }
 
-// Calls visit(from, to) for the rows of a box along the last of the dimensions in `order`. `from` and `to` are the places of a row's
-// first value in two arrays, in which neighbors are `from_steps` and `to_steps` apart.
+// Calls visit(from, to) for the rows of a box along the last of the dimensions in `order`. `from`
+// and `to` are the positions of a row's first value in two arrays, in which neighbors are
+// `from_steps` and `to_steps` apart.
 template <class Visit>
 void for_each_row(const BoxLengths& count, std::span<const std::size_t> order,
                   const BoxLengths& from_steps, const BoxLengths& to_steps, const Visit& visit) {
@@ -54,7 +56,8 @@ void for_each_row(const BoxLengths& count, std::span<const std::size_t> order,
   }
 }
 
-// A chunk, and from the fastest dimension on as many more as there is room for.
+// Returns the lengths of pieces: a chunk, extended from the fastest dimension on as far as there is
+// room.
 BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint64_t> chunk,
                              std::size_t most_of_piece) {
   BoxLengths lengths(count.size());
@@ -118,13 +121,14 @@ void read_in_order(const NetcdfReader& file, const BoxVariable& variable, const 
 
 namespace {
 
-// Reads boxes of files whose values are in their order: run by run, or where runs and what is between them are short, many of them
-// at once.
+// Reads boxes of files whose values are in their order: one contiguous run at a time, or many at
+// once if the runs and the gaps between them are short.
 class RunReader {
  public:
   RunReader(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box)
       : file_(file), variable_(variable), box_(box), steps_(steps_of(variable.shape)) {
-    // Of dimensions that are wanted as a whole, and of the one before them, values follow each other.
+    // The values of dimensions that are wanted as a whole, and of the dimension before these, are
+    // contiguous.
     first_of_run_ = box.count.size();
     while (first_of_run_ > 0) {
       run_ *= box.count[--first_of_run_];
@@ -132,7 +136,8 @@ class RunReader {
     }
   }
 
-  // The values at one place of the dimensions before d, which is value number `begin`.
+  // Reads the values at one index of the dimensions before d; `begin` is the number of the first of
+  // them.
   void read(std::size_t d, std::uint64_t begin, std::span<double> out) {
     if (d >= first_of_run_) {
       file_.read_numbers(variable_, begin + offset_after(d), out);
@@ -161,7 +166,7 @@ class RunReader {
     return offset;
   }
 
-  // `number` places along d, with all that is between them.
+  // Reads `number` indices along d, with everything between them.
   void read_dense(std::size_t d, std::size_t number, std::uint64_t first, std::span<double> out) {
     const auto from_d = static_cast<std::ptrdiff_t>(d);
     BoxLengths count(box_.count.begin() + from_d, box_.count.end());
@@ -186,7 +191,7 @@ class RunReader {
   const NetcdfBox& box_;
   BoxLengths steps_;
   std::size_t first_of_run_ =
-      0;  // the first dimension along which values of the box follow each other
+      0;  // the first dimension along which values of the box are contiguous
   std::size_t run_ = 1;
   std::vector<double> values_;
 };

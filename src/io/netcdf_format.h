@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What files of netCDF's classic formats consist of: CDF-1, CDF-2 (offsets of 64 bits) and CDF-5 (all
-// counts of 64 bits). https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html
+// The elements of netCDF's classic formats: CDF-1, CDF-2 (offsets of 64 bits) and CDF-5 (all counts
+// of 64 bits). https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace rondel::io {
 
-// The types of CDF-5, by their numbers in the file; the first six are those of CDF-1 and CDF-2.
+// The types of CDF-5 by their numbers in the file; CDF-1 and CDF-2 have the first six.
 enum class NetcdfType : std::uint32_t {
   int8 = 1,
   text = 2,
@@ -27,7 +27,7 @@ enum class NetcdfType : std::uint32_t {
   uint64 = 11,
 };
 
-// The bytes of a value; 0 for a number that names no type.
+// Returns the size of a value in bytes; 0 if the number is not a type.
 constexpr std::size_t size_of(NetcdfType type) {
   constexpr std::size_t sizes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
   return static_cast<std::uint32_t>(type) < std::size(sizes)
@@ -40,20 +40,20 @@ inline constexpr std::uint32_t netcdf_dimensions_tag = 10;
 inline constexpr std::uint32_t netcdf_variables_tag = 11;
 inline constexpr std::uint32_t netcdf_attributes_tag = 12;
 
-// What is padded is so to a multiple of this.
+// Names and values are padded to a multiple of this.
 inline constexpr std::uint64_t netcdf_alignment = 4;
 
 constexpr std::uint64_t netcdf_padded(std::uint64_t size) {
   return (size + netcdf_alignment - 1) / netcdf_alignment * netcdf_alignment;
 }
 
-// 0 is written for the dimension of records, which may grow.
+// A dimension. The dimension of records, which may grow, has the size 0 in the file.
 struct NetcdfDimension {
   std::string name;
   std::uint64_t size = 0;
 };
 
-// Either a text or numbers.
+// An attribute, which is either a text or numbers.
 struct NetcdfAttribute {
   std::string name;
   NetcdfType type = NetcdfType::text;
@@ -66,7 +66,7 @@ struct NetcdfAttribute {
 struct NetcdfVariable {
   std::string name;
   NetcdfType type = NetcdfType::float64;
-  std::vector<std::size_t> dimensions;  // the last one changes fastest
+  std::vector<std::size_t> dimensions;  // the last one varies fastest
   std::vector<NetcdfAttribute> attributes;
 };
 

@@ -11,7 +11,8 @@
 namespace rondel::io {
 namespace {
 
-// The header's fields, one after the other. A count is refused where what it counts cannot be there.
+// Reads the header's fields one after the other. Refuses a count if the bytes cannot hold as many
+// members.
 class HeaderFields {
  public:
   HeaderFields(std::string_view bytes, int version) : rest_(bytes), version_(version) {}
@@ -20,7 +21,7 @@ class HeaderFields {
   std::uint64_t count() { return version_ == 5 ? next<std::uint64_t>() : u32(); }
   std::uint64_t offset() { return version_ == 1 ? u32() : next<std::uint64_t>(); }
 
-  // A count of members that take `least` bytes or more.
+  // Returns a count of members of at least `least` bytes.
   std::size_t count_of(std::size_t least) {
     const std::uint64_t number = count();
     if (number > rest_.size() / least) {
@@ -30,7 +31,7 @@ class HeaderFields {
     return static_cast<std::size_t>(number);
   }
   std::string name() { return std::string(take(count_of(1))); }
-  // So many bytes, without the padding behind them.
+  // Returns the next `size` bytes, and skips the padding behind them.
   std::string_view take(std::size_t size) {
     const std::uint64_t padded = netcdf_padded(size);
     if (padded > rest_.size()) throw BadValue("the header is cut off");
@@ -38,7 +39,7 @@ class HeaderFields {
     rest_.remove_prefix(padded);
     return taken;
   }
-  // The length of a list whose members take `least` bytes or more.
+  // Returns the length of a list whose members have at least `least` bytes.
   std::size_t list(std::uint32_t tag, std::size_t least) {
     const std::uint32_t found = u32();
     const std::size_t size = count_of(least);
@@ -95,7 +96,7 @@ double number_at(const char* at, NetcdfType type) {
 }
 
 std::vector<NetcdfAttribute> attributes_of(HeaderFields& fields) {
-  // A name of no bytes, a type, a count.
+  // A member has a name of at least no bytes, a type and a count.
   std::vector<NetcdfAttribute> attributes(fields.list(netcdf_attributes_tag, 12));
   for (NetcdfAttribute& attribute : attributes) {
     attribute.name = fields.name();
@@ -131,7 +132,7 @@ void read_variable(HeaderFields& fields, std::size_t num_dimensions,
   }
   variable.attributes = attributes_of(fields);
   variable.type = fields.type();
-  fields.count();  // its size, which follows from the rest and does not fit here if it is large
+  fields.count();  // skips its size, which follows from the rest and is not correct if it is large
   variable.offset = fields.offset();
 }
 
@@ -159,7 +160,8 @@ NetcdfHeader parse_netcdf_header(std::string_view bytes) {
     dimension.size = fields.count();
   }
   header.attributes = attributes_of(fields);
-  // A name of no bytes, no dimensions, no attributes, a type, a size and an offset.
+  // A member has at least an empty name, no dimensions, no attributes, a type, a size and an
+  // offset.
   header.variables.resize(fields.list(netcdf_variables_tag, 28));
   for (NetcdfReader::Variable& variable : header.variables) {
     read_variable(fields, header.dimensions.size(), variable);

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The header of a file of netCDF's classic formats, from its bytes.
+// Parses the header of a file of netCDF's classic formats.
+//
+// in    bytes
+// out   dimensions, attributes and variables
 #pragma once
 
 #include <cstddef>
@@ -15,16 +18,16 @@
 namespace rondel::io {
 
 struct NetcdfHeader {
-  int version = 1;
-  std::uint64_t num_records = 0;  // all ones of its width: not known
-  bool counts_records = true;     // whether num_records is known
+  int version = 1;                // number of classic format: 1, 2 or 5
+  std::uint64_t num_records = 0;  // all bits are 1 if it is not known
+  bool counts_records = true;     // true if num_records is known
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfAttribute> attributes;
   std::vector<NetcdfReader::Variable> variables;  // types, dimensions, attributes, offset
   std::vector<std::string> passed_over;  // names of variables of types that are not read
 };
 
-// Throws BadValue.
+// Throws BadValue if the header is damaged or cut off.
 NetcdfHeader parse_netcdf_header(std::string_view bytes);
 
 }  // namespace rondel::io

@@ -24,7 +24,8 @@ std::string& named_netcdf_library() {
   return name;
 }
 
-// Tries the names of the library with the numbers of its interface, from those that may come on down to that of 4.4.
+// Tries the names of the library with the versions of its interface, from future ones down to that
+// of netCDF-C 4.4.
 void* open_netcdf_library() {
   if (const char* const name = std::getenv("RONDEL_NETCDF"); name != nullptr && *name != '\0') {
     return system::open_library(name);
@@ -127,7 +128,7 @@ void require_netcdf(const NetcdfLibrary& library, int error) {
 
 }  // namespace io
 
-// A pipe could not be read again.
+// Looks only at regular files, since a pipe could not be read again.
 bool is_netcdf_file(const FileName& file) {
   std::error_code error;
   if (file.format.empty() && std::filesystem::is_regular_file(file.path, error)) {

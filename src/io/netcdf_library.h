@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The library netCDF-C, which is loaded when a file of netCDF-4 is to be read or written: Rondel is built and runs without it. These
-// are functions of its C interface, whose binary form is the same since netCDF-C 4.4.
+// The library netCDF-C, which is loaded when a netCDF-4 file is to be read or written; Rondel is
+// built and runs without it. The members are functions of its C interface, whose binary form is the
+// same since netCDF-C 4.4.
 #pragma once
 
 #include <cstddef>
@@ -47,22 +48,23 @@ struct NetcdfLibrary {
   int (*write)(int, int, const std::size_t*, const std::size_t*, const void*);
 };
 
-// Calls of the library come one at a time: it is made for one thread, and all its users here hold this lock.
+// Calls of the library must hold this lock, since netCDF-C is not thread-safe.
 system::Mutex& netcdf_library_lock();
 
-// The library that the variable RONDEL_NETCDF names, or set_netcdf_library(), or the newest that the system finds.
-// Throws BadValue if there is none.
+// Returns the library that the environment variable RONDEL_NETCDF or set_netcdf_library() names, or
+// else the newest one that the system finds. Throws BadValue if there is none.
 const NetcdfLibrary& netcdf_library();
 
-// Throws BadValue with the message of the library if the number is that of an error.
+// Throws BadValue with the library's message if `error` is the number of an error.
 void require_netcdf(const NetcdfLibrary& library, int error);
 
-// Numbers of the interface.
+// Constants of the interface.
 inline constexpr int netcdf_largest_name = 256;
 inline constexpr int netcdf_most_dimensions = 1024;
-inline constexpr int netcdf_whole_file = -1;  // in place of a variable that has an attribute
+inline constexpr int netcdf_whole_file = -1;  // stands for the file in place of a variable that has
+                                              // an attribute
 inline constexpr int netcdf_string_type = 12;
-inline constexpr int netcdf_in_chunks = 0;            // how a variable is stored
-inline constexpr int netcdf_create_netcdf4 = 0x1000;  // replaces a file of the name
+inline constexpr int netcdf_in_chunks = 0;            // a way in which variables are stored
+inline constexpr int netcdf_create_netcdf4 = 0x1000;  // replaces a file of that name
 
 }  // namespace rondel::io

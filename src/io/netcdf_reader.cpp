@@ -41,7 +41,7 @@ void require_signed(const NetcdfReader::Variable& variable, std::span<const std:
   }
 }
 
-// Where it ends of which `size` bytes are at `offset`, held against the file.
+// Throws BadValue if the `size` bytes at the variable's offset end after the file.
 void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
                    std::uint64_t file_size) {
   if (size == 0) return;
@@ -76,7 +76,7 @@ NetcdfReader::NetcdfReader(FileBytes& file) : file_(&file), size_(file.claimed_s
       parse(file.head());
       return;
     } catch (const BadValue&) {
-      // It may be the head that is cut off, and not the file.
+      // The head that was read may be cut off, and not the file.
       file.longer_head(growth * file.head().size());
     }
   }
@@ -116,8 +116,8 @@ void NetcdfReader::parse(std::string_view head) {
   place_records(counts_records ? num_records : std::numeric_limits<std::uint64_t>::max());
 }
 
-// The records of all variables follow each other; of a single variable they are not padded. Where the
-// header does not count them, they are as many as the file has whole ones.
+// The records of all variables are interleaved, and padded unless there is only one variable. If
+// the header does not count them, there are as many as the file has whole ones.
 void NetcdfReader::place_records(std::uint64_t claimed) {
   std::size_t num_variables = 0;
   std::uint64_t unpadded = 0;
@@ -172,7 +172,7 @@ std::uint64_t NetcdfReader::place(const Variable& variable, std::uint64_t index)
   return variable.offset + record * record_size_ + index % variable.record_values * size;
 }
 
-// What is together in the file is read together: all, or what is left of a record.
+// Reads contiguous values together: all of them, or the rest of a record.
 template <typename T, typename Out>
 void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const {
   std::vector<char> buffer;
@@ -246,7 +246,7 @@ std::vector<double> NetcdfReader::rounded_numbers(const Variable& variable,
 // Values that were never written take no bytes, and those that are all the same hardly any: of netCDF-4 this only keeps a damaged
 // size from taking all of the memory.
 std::uint64_t NetcdfReader::most_values() const {
-  constexpr unsigned most_packed = 20;  // the logarithm
+  constexpr unsigned most_packed = 20;  // logarithm of the largest number of values a byte
   return netcdf4_ == nullptr ? size_
                              : std::min(size_, ~std::uint64_t{0} >> most_packed) << most_packed;
 }

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files of netCDF: of the classic formats, read in place; of netCDF-4 (HDF5), read by netCDF-C where it is installed.
+// Reads netCDF files: the classic formats in place, netCDF-4 (HDF5) by netCDF-C if it is installed.
+//
+// in    a file, or its bytes
+// out   dimensions, attributes, variables, and values as doubles or integers
+// index dimensions of the file, dimensions of a variable; values of a variable, its last dimension
+//       fastest
 #pragma once
 
 #include <cstddef>
@@ -21,13 +26,13 @@ namespace rondel::io {
 class Netcdf4File;
 struct NetcdfHeader;
 
-// `count[d]` places from `start[d]` on along dimension d of a variable.
+// A box of a variable: `count[d]` indices from `start[d]` on along each dimension d.
 struct NetcdfBox {
   std::vector<std::size_t> start;
   std::vector<std::size_t> count;
 };
 
-// Whether the bytes that a file begins with are those of a netCDF file, of any of its formats.
+// True if a netCDF file of any format begins with these bytes.
 RONDEL_API bool is_netcdf(std::string_view head);
 
 // A file of netCDF-4 has what the classic formats have, and more:
@@ -38,30 +43,33 @@ RONDEL_API bool is_netcdf(std::string_view head);
 class RONDEL_API NetcdfReader {
  public:
   struct Variable : NetcdfVariable {
-    std::vector<std::uint64_t> shape;  // of records as many as there are
+    std::vector<std::uint64_t> shape;  // with the number of records that the file has
     std::uint64_t offset = 0;          // in the file
     bool has_records = false;
-    std::uint64_t record_values = 0;  // values in a record; else all
+    std::uint64_t record_values = 0;  // values in a record; all values if there are no records
     std::uint64_t num_values = 0;
-    int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for itself
+    int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for the variable
     int number = 0;
   };
 
-  // Reads the header and holds it against the bytes, which live as long as this. Throws BadValue:
-  // nothing is allocated for what a count claims before the bytes can have it, and every value of every
-  // variable is there. netCDF-4 is compressed, and is held against what compression can do.
+  // Reads the header and checks it against the bytes, which must outlive this object. Throws
+  // BadValue if it is not valid. Nothing is allocated for a count before the bytes can hold as
+  // much, and every value of every variable is present. netCDF-4 is compressed, and is checked
+  // against what compression can achieve.
   explicit NetcdfReader(std::string_view bytes);
-  // The same of a file, which lives as long as this, of which only the header is in memory, and values are read when they are
-  // asked for; all of it, where its size is not known. Throws FileError, too.
+  // Reads a file, which must outlive this object. Only the header is kept in memory, and values are
+  // read when they are asked for; if the size of the file is not known, all of it is read. Also
+  // throws FileError.
   explicit NetcdfReader(FileBytes& file);
 
   [[nodiscard]] std::uint64_t num_bytes() const { return size_; }
-  // No variable has more values than this: as many as there are bytes, or as compression can make of these.
+  // Returns an upper bound of the number of values of a variable, given the size of the file and
+  // compression.
   [[nodiscard]] std::uint64_t most_values() const;
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
-  // Null if there is none.
+  // Returns null if there is no variable of this name.
   [[nodiscard]] const Variable* find(std::string_view name) const;
   // Throws BadValue if there is none, or none of a type that is read.
   [[nodiscard]] const Variable& require(std::string_view name) const;
@@ -74,15 +82,19 @@ class RONDEL_API NetcdfReader {
                                                     bool& is_rounded) const;
   // Throws BadValue if the variable is a text, or has more values than the file can have: before there is room for them.
   void require_room(const Variable& variable) const;
-  // As many as there is room for, from this one on. Throws BadValue as numbers() and integers() do.
+  // Read as many values as `out` has room for, from value `begin` on. Throw BadValue like numbers()
+  // and integers().
   void read_numbers(const Variable& variable, std::uint64_t begin, std::span<double> out) const;
   void read_integers(const Variable& variable, std::uint64_t begin,
                      std::span<std::int64_t> out) const;
-  // The numbers of a box of one value or more, its last dimension changing fastest. Throws BadValue as numbers() does.
+  // Reads the numbers of a box of one or more values, its last dimension varying fastest. Throws
+  // BadValue like numbers().
   void read_box(const Variable& variable, const NetcdfBox& box, std::span<double> out) const;
-  // The lengths along its dimensions of the chunks that are compressed one by one; 1 where there are none.
+  // Returns the lengths of the compressed chunks along the variable's dimensions; 1 if there are
+  // none.
   [[nodiscard]] std::vector<std::uint64_t> chunk_of(const Variable& variable) const;
-  // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
+  // Returns all values as integers. Throws BadValue if they are a text, floating-point numbers, or
+  // 2^63 or more.
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 
  private:
@@ -97,7 +109,7 @@ class RONDEL_API NetcdfReader {
   void place_records(std::uint64_t claimed);
 
   std::string_view bytes_;
-  const FileBytes* file_ = nullptr;  // where the bytes are not in memory
+  const FileBytes* file_ = nullptr;  // null if the bytes are in memory
   std::shared_ptr<const Netcdf4File> netcdf4_;
   std::uint64_t size_ = 0;
   std::vector<NetcdfDimension> dimensions_;
@@ -107,15 +119,16 @@ class RONDEL_API NetcdfReader {
   std::uint64_t record_size_ = 0;
 };
 
-// The text of an attribute; empty if there is none, or it is a number.
+// Returns the text of an attribute; an empty text if there is none, or it is a number.
 RONDEL_API std::string netcdf_text(std::span<const NetcdfAttribute> attributes,
                                    std::string_view name);
-// The attribute; null if there is none.
+// Returns the attribute, or null.
 RONDEL_API const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
                                                  std::string_view name);
 
-// The lengths of a grid of `size` cells, which SCRIP names from the fastest one on, in the order of arrays, the slowest one
-// first; empty if there is one or none, which says nothing. Throws BadValue if several do not multiply to the size.
+// Returns the lengths of a grid of `size` cells, which SCRIP lists from the fastest dimension on,
+// with the slowest dimension first. Returns an empty vector if there are fewer than two. Throws
+// BadValue if their product is not the size.
 RONDEL_API std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
                                                     const NetcdfReader::Variable& lengths,
                                                     std::uint64_t size);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Divides a run of an array's values into boxes, as netCDF-C reads and writes them.
+// Divides successive values of an array into boxes, as netCDF-C reads and writes them.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,11 @@
 
 namespace rondel::io {
 
-// Calls visit(start, count, offset, size) for boxes that together are the values [begin, begin + size) of an array of this
-// shape, whose last dimension changes fastest. The box with `count` places along each dimension from `start` on has `size` values,
-// the first of which is number `offset` of the run. Each is the largest one that can be next: at most 2 rank - 1 are needed.
-// Precondition: the values are there.
+// Calls visit(start, count, offset, size) for boxes that together are the values [begin, begin +
+// size) of an array of this shape, whose last dimension varies fastest. A box has `count` indices
+// along each dimension from `start` on; it has `size` values, the first of which is value `offset`
+// of the interval. Each box is the largest possible one, so that at most 2 rank - 1 boxes are
+// needed. Precondition: the values exist.
 template <class Visit>
 void for_each_slab(std::span<const std::uint64_t> shape, std::uint64_t begin, std::size_t size,
                    const Visit& visit) {
@@ -30,11 +31,12 @@ void for_each_slab(std::span<const std::uint64_t> shape, std::uint64_t begin, st
       rest /= shape[d];
       count[d] = 1;
     }
-    // The box takes whole dimensions, from the last one on, while it begins with their first place and all of them is wanted.
+    // From the last dimension on, the box takes whole dimensions, as long as it begins with their
+    // first index and all of them is wanted.
     std::size_t in_box = 1;
     for (std::size_t d = rank; d-- > 0;) {
       const auto left = static_cast<std::size_t>(shape[d]) - start[d];
-      count[d] = std::min(left, (size - offset) / in_box);  // 1 at least
+      count[d] = std::min(left, (size - offset) / in_box);  // at least 1
       in_box *= count[d];
       if (start[d] != 0 || count[d] != shape[d]) break;
     }

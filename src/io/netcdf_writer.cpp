@@ -15,12 +15,13 @@ namespace {
 // The largest dimension, and the largest variable, of CDF-1 and CDF-2.
 constexpr std::uint64_t largest_dimension = 0x7fff'ffff;
 constexpr std::uint64_t largest_variable = 0xffff'fffc;
-// Smaller ones stay in memory until long after they are written.
+// Smaller files stay in memory long after they are written, so that reserving space is not worth
+// it.
 constexpr std::uint64_t large_file = std::uint64_t{1} << 25U;
-// Where a variable may start at most in CDF-1.
+// The largest offset at which a variable may start in CDF-1.
 constexpr std::uint64_t largest_offset = 0x7fff'ffff;
 
-// The header as it grows. Counts have the width that the version gives them.
+// Builds the header. Counts have the width of the version.
 class HeaderBytes {
  public:
   explicit HeaderBytes(int version) : version_(version), bytes_("CDF") {
@@ -38,7 +39,7 @@ class HeaderBytes {
     bytes_ += text;
     pad();
   }
-  // The head of a list; of one without members nothing follows.
+  // Appends the head of a list; an empty list has no tag.
   void list(std::uint32_t tag, std::size_t size) {
     u32(size == 0 ? 0 : tag);
     count(size);
@@ -106,7 +107,7 @@ void NetcdfWriter::add_variable(NetcdfVariable variable) {
   variables_.push_back(std::move(variable));
 }
 
-// Without the padding.
+// Returns the size without the padding.
 std::uint64_t NetcdfWriter::size_of_values(const NetcdfVariable& variable) const {
   std::uint64_t size = size_of(variable.type);
   for (const std::size_t dimension : variable.dimensions) size *= dimensions_[dimension].size;
@@ -127,7 +128,7 @@ int NetcdfWriter::needed_version() const {
   return last_offset > largest_offset ? 2 : 1;
 }
 
-// A variable of records says how long one of them is.
+// For variables of records, the header has the size of one record.
 std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const {
   HeaderBytes bytes(version);
   bytes.count(0);  // records

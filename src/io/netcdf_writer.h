@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes files of netCDF from front to back: the classic formats by own code, netCDF-4 by netCDF-C.
+// Writes netCDF files from front to back: the classic formats by own code, netCDF-4 by netCDF-C.
+//
+// in    definitions, then the values of each variable in the order of definition
+// out   a file
+// index dimensions and variables in the order in which they were added
 #pragma once
 
 #include <algorithm>
@@ -26,13 +30,14 @@ namespace rondel::io {
 
 class Netcdf4Output;
 
-// A header of its own for each of the formats: the lowest one is taken that can say what is to be said.
-// CDF-5 if a variable has 64-bit integers, 4 GiB or a dimension of 2^31; CDF-2 if one starts beyond
-// 2 GiB; else CDF-1, which everything reads.
+// The classic formats are tried in their order: CDF-1, which everything reads; CDF-2 if a variable
+// starts beyond 2 GiB; CDF-5 if a variable has 64-bit integers, 4 GiB or more, or a dimension of
+// 2^31 or more.
 //
-// First the definitions, then begin(), then the values of all variables in the order of their
-// definition, in as many pieces as are wanted, then finish(). Equal calls give equal bytes, of netCDF-4 by equal libraries.
-// A dimension of no size is the one of records, of which there are none: one may be such.
+// First come the definitions, then begin(), then the values of all variables in the order of their
+// definition, in any number of pieces, then finish(). Equal calls give equal bytes; for netCDF-4,
+// with the same library. A dimension of size 0 is the dimension of records, of which there are
+// none; there may be one such dimension.
 class RONDEL_API NetcdfWriter {
  public:
   explicit NetcdfWriter(AtomicFile& file);
@@ -40,23 +45,26 @@ class RONDEL_API NetcdfWriter {
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
-  // The number by which variables name it.
+  // Returns the number by which variables refer to the dimension.
   std::size_t add_dimension(std::string name, std::uint64_t size);
   void add_attribute(std::string name, std::string text);
   void add_attribute(NetcdfAttribute attribute);
   void add_variable(NetcdfVariable variable);
-  // Of this version, 1, 2 or 5; of 0 the lowest one that can. Throws BadValue if that version cannot.
+  // Writes the header of this version, 1, 2 or 5; with 0, the lowest version that suffices. Throws
+  // BadValue if the version does not suffice.
   void begin(int version = 0);
-  // The file has the kind that the options name; if they name none, it is the lowest classic one that can hold the variables. Throws
-  // BadValue also where netCDF-C is not there.
+  // Writes a header of the kind that the options name; if they name none, of the lowest classic
+  // format that can hold the variables. Also throws BadValue if netCDF-C is needed and not
+  // installed.
   void begin(const NetcdfOptions& options);
 
-  // The next values of the variable; T is that of its type: char, int8_t, int32_t, int64_t, float or double.
+  // Writes the next values of the variable. T must be its type: char, int8_t, int32_t, int64_t,
+  // float or double.
   template <typename T>
   void write(std::span<const T> values) {
     write_values<T>(values.size(), [&](std::size_t i) { return values[i]; });
   }
-  // The same of value(0), ..., value(count - 1).
+  // Writes value(0), ..., value(count - 1) as the next values.
   template <typename T, typename Value>
   void write_values(std::size_t count, Value value) {
     std::array<T, 4096> block;
@@ -67,7 +75,8 @@ class RONDEL_API NetcdfWriter {
     }
   }
 
-  // The same of rows, `of_each` values each, which fill(begin, end, values) makes, called by several threads. The values are 0 before.
+  // Writes rows of `of_each` values. Several threads call fill(begin, end, values), which computes
+  // rows begin ... end - 1; the values are 0 before.
   template <typename T, typename Fill>
   void write_rows(unsigned threads, std::size_t rows, std::size_t of_each, const Fill& fill) {
     const std::size_t of_row = std::max<std::size_t>(of_each, 1) * sizeof(T);
@@ -94,13 +103,14 @@ class RONDEL_API NetcdfWriter {
     count_bytes(static_cast<std::uint64_t>(rows) * of_each * sizeof(T));
   }
 
-  // Precondition: all values are written.
+  // Ends the file. Precondition: all values have been written.
   void finish();
 
  private:
-  // One thread's work at a time, which stays in its cache; a row at least.
+  // The size of what a thread computes at a time, so that it stays in the cache; at least one row.
   static constexpr std::size_t bytes_per_piece = std::size_t{1} << 18U;
-  // Kept by each thread: to ask the system for memory in each piece would cost as much as to fill it.
+  // Each thread keeps its buffer, since allocating it for every piece would take as long as filling
+  // it.
   template <typename T>
   static std::vector<T>& values_of_rows() {
     thread_local std::vector<T> values;
@@ -120,20 +130,20 @@ class RONDEL_API NetcdfWriter {
     }
   }
   void write_netcdf4(const void* values, std::size_t num_bytes);
-  // Before the first rows.
+  // Tells the system the size of the file, before the first rows.
   void find_room();
   void write_bytes(std::string_view bytes);
   void count_bytes(std::uint64_t size);
   void end_full_variables();
 
   AtomicFile& file_;
-  std::unique_ptr<Netcdf4Output> netcdf4_;  // where the file is one
+  std::unique_ptr<Netcdf4Output> netcdf4_;  // null for a classic file
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<NetcdfVariable> variables_;
   std::size_t current_ = 0;        // the variable whose values are next
-  std::uint64_t num_written_ = 0;  // bytes of it
-  std::uint64_t expected_ = 0;     // bytes of the file, until there is room for them
+  std::uint64_t num_written_ = 0;  // bytes of its values so far
+  std::uint64_t expected_ = 0;     // bytes of the file, until the system has been told
 };
 
 }  // namespace rondel::io

@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::string_view magic = "\x93NUMPY";
 
-// The few Python literals that a header may hold.
+// Parses the few Python literals that a header may contain.
 class Literals {
  public:
   explicit Literals(std::string_view text) : text_(text) {}
 
-  // Takes `token` if it comes next.
+  // Takes `token` if it comes next; returns false otherwise.
   bool take(std::string_view token) {
     text_.remove_prefix(std::min(text_.find_first_not_of(" \t\n"), text_.size()));
     if (!text_.starts_with(token)) return false;
@@ -50,7 +50,7 @@ class Literals {
     require("(");
     while (!take(")")) {
       std::uint64_t value = 0;
-      take("");  // the blanks
+      take("");  // skips blanks
       const auto [stop, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
       if (error != std::errc{}) throw BadValue("the shape in the .npy header is damaged");
       text_.remove_prefix(static_cast<std::size_t>(stop - text_.data()));
@@ -67,7 +67,7 @@ class Literals {
   std::string_view text_;
 };
 
-// The dictionary has exactly these keys, in any order.
+// Parses the dictionary, which has exactly these keys in any order.
 void parse_dictionary(std::string_view text, NpyHeader& header) {
   Literals literals(text);
   unsigned seen = 0;
@@ -161,7 +161,7 @@ NpyTable NpyTable::piece(std::string_view bytes, std::size_t num_rows) const {
   return piece;
 }
 
-// A header may claim anything: nothing is allocated before its claim is compared with the file.
+// Throws BadValue if the shape does not match the size of the file, before anything is allocated.
 void NpyTable::check_size(std::uint64_t num_bytes) const {
   std::uint64_t needed = 0;
   if (__builtin_mul_overflow(header_.shape[0], header_.shape[1], &needed) ||

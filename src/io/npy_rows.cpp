@@ -47,7 +47,7 @@ constexpr std::array adders = {
 };
 static_assert(number_types.size() == adders.size());
 
-// The rows whose numbers are those of points in memory.
+// True if the rows are stored as points are in memory.
 bool are_points(const NpyTable& table) {
   return table.type() == "f8" && table.num_columns() == 3 && table.has_native_rows();
 }
@@ -101,7 +101,7 @@ void NpyRows::read(std::uint64_t first, std::span<Point> sites, unsigned threads
   try {
     system::parallel_for(threads, sites.size(), grain, read_piece);
   } catch (const FileError&) {
-    system::parallel_for(1, sites.size(), grain, read_piece);  // throws because of the first row
+    system::parallel_for(1, sites.size(), grain, read_piece);  // throws for the first invalid row
     throw;
   }
 }
@@ -120,7 +120,7 @@ void NpyRows::read_some(std::uint64_t first, std::span<Point> sites,
   if (!positions.empty()) std::ranges::copy(read.positions, positions.begin());
 }
 
-// The bytes of some rows, in the order of the file.
+// Returns the bytes of some rows, in the order of the file.
 std::string NpyRows::rows(std::uint64_t first, std::size_t count) const {
   const std::size_t num_runs = table_.is_by_columns() ? table_.num_columns() : 1;
   const std::size_t run = table_.row_bytes() / num_runs * count;

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The sites of an array, all at once or some at a time.
+// Reads the sites of an array, all at once or some at a time.
+//
+// in    a .npy file of longitudes and latitudes (n, 2) or of points (n, 3), and for circles a
+//       radius
+// out   sites as points
+// index rows of the array
 #pragma once
 
 #include <cstdint>
@@ -15,13 +20,15 @@
 
 namespace rondel::io {
 
-// The array in the bytes of a file, or of its head. Throws BadValue unless it is one of sites.
+// Returns the array in the bytes of a file, or of its head. Throws BadValue unless it is an array
+// of sites.
 NpyTable site_table(std::string_view bytes, std::uint64_t file_size);
 
-// Adds all rows. Throws BadValue, which counts the rows from `first_row` on.
+// Adds all rows. Throws BadValue for the first invalid row, counting from `first_row`.
 void add_rows(const NpyTable& array, std::uint64_t first_row, SiteCollector& collector);
 
-// A file of sites that is never in memory as a whole. Every function throws FileError.
+// A file of sites that is never in memory as a whole. Every function throws FileError if reading
+// fails.
 class RONDEL_API NpyRows {
  public:
   NpyRows(const std::string& path, bool are_radians);
@@ -34,11 +41,11 @@ class RONDEL_API NpyRows {
   [[nodiscard]] bool are_radians() const { return options_.radians; }
   [[nodiscard]] const std::string& name() const { return path_; }
 
-  // Whether rows are longitudes and latitudes.
+  // True if rows are longitudes and latitudes, false if they are points.
   [[nodiscard]] bool are_positions() const { return table_.num_columns() == 2; }
 
-  // Reads the rows `first`, `first` + 1, ..., by several threads. They are numbers that are finite.
-  // Of positions also these, in degrees, if there is room for them.
+  // Reads the rows from `first` on, by several threads, and checks that they are finite. If rows
+  // are longitudes and latitudes, also returns these in degrees, unless `positions` is empty.
   void read(std::uint64_t first, std::span<Point> sites, unsigned threads,
             std::span<LonLat> positions = {}) const;
 

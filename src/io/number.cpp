@@ -20,7 +20,7 @@ constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Skips one or more digits; false if there are none.
+// Skips one or more digits; returns false if there are none.
 bool skip_digits(const char*& p, const char* end) {
   const char* const start = p;
   while (p != end && is_digit(*p)) ++p;
@@ -116,7 +116,7 @@ bool is_json_number(std::string_view text) {
 std::string one_line(std::string_view text, std::size_t longest) {
   std::string line(text.substr(0, longest));
   if (text.size() > longest) {
-    // Do not cut a UTF-8 sequence: drop its bytes 10xxxxxx and then its first byte.
+    // Does not cut a UTF-8 sequence: drops its bytes 10xxxxxx and then its first byte.
     while (!line.empty() && (line.back() & 0xC0) == 0x80) line.pop_back();
     if (!line.empty() && (line.back() & 0x80) != 0) line.pop_back();
     line += "...";
@@ -141,8 +141,8 @@ LonLat checked_position(double lon, double lat, bool is_radians) {
     }
     return {lon, lat};
   }
-  // Half of pi as a double times this is exactly 90. A latitude that a computation left at most
-  // four ulp beyond the pole is the pole.
+  // Half of pi as a double, times this, is exactly 90. A latitude that is up to four ulp beyond the
+  // pole counts as the pole.
   constexpr double limit = std::numbers::pi / 2 + 4 * std::numeric_limits<double>::epsilon();
   if (std::abs(lat) > limit) {
     throw BadValue("latitude " + text_of(lat) + " is outside [-pi/2, pi/2]");

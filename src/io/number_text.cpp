@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A double v = m 2^e, m < 2^53, is what decimals within half of 2^e round to. For exponents as
-// those of coordinates and degrees all of this is exact in two words: with the least s for which
-// 10^-s <= 2^e, and D = -e - s,
+// Computes the shortest digits of doubles. A double v = m 2^e, m < 2^53, is the double nearest to
+// all decimals within half of 2^e. For exponents of usual coordinates all of the following is exact
+// in two words. With the least s for which 10^-s <= 2^e, and D = -e - s,
 //
 //     10^s v = m 5^s / 2^D,     10^s 2^e / 2 = (5^s / 2) / 2^D,     1 <= 5^s / 2^D < 10.
 //
-// So in units of 10^-s the decimals around v are an interval as wide as 1 to 10: it has an integer,
-// and at most one multiple of 10. That one, without its zeros, is the shortest decimal; where
-// there is none, the integer nearest to 10^s v is. At a power of 2 the interval is not symmetric: that and
-// all other exponents are left to std::to_chars.
+// So in units of 10^-s the decimals around v are an interval whose length is between 1 and 10: it
+// contains an integer, and at most one multiple of 10. That multiple, without its zeros, is the
+// shortest decimal; if there is none, the integer nearest to 10^s v is. At a power of 2 the
+// interval is not symmetric; std::to_chars handles that and all other exponents.
 #include "io/number_text.h"
 
 #include <array>
@@ -27,7 +27,7 @@ namespace {
 
 using exact::Word;
 
-// Of the numbers from 2^-30 to 2^30. 5^s < 2^59 and 10 * 2^(D + 1) < 2^62 then.
+// The exponents of numbers from 2^-30 to 2^30, for which 5^s < 2^59 and 10 * 2^(D + 1) < 2^62.
 constexpr int least_exponent = -82;
 constexpr int greatest_exponent = -23;
 
@@ -52,14 +52,14 @@ constexpr auto scales = [] {
   return all;
 }();
 
-// The shortest decimal of m 2^e, in units of 10^-s.
+// Returns the shortest decimal of m 2^e, in units of 10^-s.
 // Precondition: m is between 2^52 and 2^53.
 Word shortest_decimal(Word m, const Scale& scale) {
   const exact::TwoWords product = exact::multiply_and_add(m, scale.power_of_5, 0, 0);
   const unsigned d = scale.fraction;
   const Word whole = product.high << (64 - d) | product.low >> d;
-  // In units of 2^-(D + 1), in which half of the interval is 5^s. That is odd and all else is even, so
-  // that nothing lies at an end of it.
+  // Computes in units of 2^-(D + 1), in which half of the interval is 5^s. That is odd and
+  // everything else is even, so that nothing lies at an end of the interval.
   const Word one = Word{2} << d;
   const Word rest = 2 * (product.low & ((Word{1} << d) - 1));
   const Word half = scale.power_of_5;
@@ -84,7 +84,7 @@ void write_pair(char* out, std::uint32_t value) {
   std::memcpy(out, digit_pairs.data() + std::size_t{2} * value, 2);
 }
 
-// Eight digits, with zeros in front.
+// Writes eight digits, with leading zeros.
 void write_eight(char* out, std::uint32_t value) {
   const std::uint32_t high = value / 10000;
   const std::uint32_t low = value % 10000;
@@ -96,7 +96,7 @@ void write_eight(char* out, std::uint32_t value) {
 
 constexpr int num_digits = 17;
 
-// The digits of a number below 10^17, and '0' up to the end.
+// The digits of a number below 10^17, filled up with '0'.
 struct Digits {
   explicit Digits(Word number) {
     constexpr Word eight = 100'000'000;
@@ -108,7 +108,7 @@ struct Digits {
   }
 
   std::array<char, num_digits> text{};
-  int count = num_digits;  // without the zeros at the end
+  int count = num_digits;  // without trailing zeros
 };
 
 char* copy(char* out, const char* text, int count) {
@@ -116,7 +116,7 @@ char* copy(char* out, const char* text, int count) {
   return out + count;
 }
 
-// "1.25e-05"; of one digit, "2e-05".
+// Writes "1.25e-05", or "2e-05" for one digit.
 char* write_scientific(char* out, const Digits& digits, int exponent) {
   *out++ = digits.text[0];
   if (digits.count > 1) {
@@ -129,8 +129,8 @@ char* write_scientific(char* out, const Digits& digits, int exponent) {
   return out + 2;
 }
 
-// Digits d.ddd times 10^exponent, as std::to_chars writes them: without an exponent unless it is
-// shorter with one.
+// Writes the digits d.ddd times 10^exponent like std::to_chars: without an exponent unless that is
+// longer.
 char* write_digits(char* out, const Digits& digits, int exponent) {
   const char* const text = digits.text.data();
   const int scientific = digits.count + (digits.count > 1 ? 1 : 0) + 4;
@@ -163,7 +163,7 @@ char* write_number(char* out, double value) {
   }
   const Scale& scale = scales[static_cast<std::size_t>(e - least_exponent)];
   Word decimal = shortest_decimal(fraction | (fraction_mask + 1), scale);
-  // 10^s v is at least m, so that it has 16 digits or 17.
+  // 10^s v is at least m, so it has 16 or 17 digits.
   constexpr Word least_of_17 = 10'000'000'000'000'000;
   int exponent = num_digits - 1 - scale.decimals;
   if (decimal < least_of_17) {

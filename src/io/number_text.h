@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Doubles as text, fast: what files of text consist of.
+// Writes doubles as text, fast, since text files consist of little else.
 #pragma once
 
 namespace rondel::io {
 
-// What write_number() needs room for; the longest double takes 24: -2.2250738585072014e-308
+// The room that write_number() needs; the longest double has 24 characters:
+// -2.2250738585072014e-308
 inline constexpr int number_room = 32;
 
 // Writes the shortest digits that give back the same bits, as std::to_chars does, and returns their

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Wavefront's .obj: lines "v x y z" and "f a b c"; indices count from 1.
+// Reads and writes Wavefront's .obj: lines "v x y z" and "f a b c"; indices count from 1.
 #include "io/mesh_text.h"
 #include "io/number.h"
 #include "io/text_lines.h"
@@ -10,7 +10,8 @@
 namespace rondel::io {
 namespace {
 
-// A corner is v, v/vt, v//vn or v/vt/vn; a negative v counts back from the last vertex so far.
+// Reads a corner, which is v, v/vt, v//vn or v/vt/vn; a negative v counts back from the last vertex
+// so far.
 Index read_corner(std::string_view word, std::int64_t num_vertices) {
   const std::int64_t number = parse_integer(word.substr(0, word.find('/')), "index");
   if (number == 0) throw BadValue("index 0 where indices count from 1");

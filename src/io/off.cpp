@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Geomview's .off: "OFF", the numbers of vertices, faces and edges, the vertices, the faces.
+// Reads and writes Geomview's .off: "OFF", the numbers of vertices, faces and edges, the vertices,
+// the faces.
 #include <algorithm>
 
 #include "io/mesh_text.h"
@@ -63,7 +64,7 @@ std::vector<Triple> read_off(std::string_view bytes) {
 }
 
 void write_off(AtomicFile& file, const MeshToWrite& mesh) {
-  // Readers ignore the number of edges; on a closed surface it is 3/2 of that of the faces.
+  // Readers ignore the number of edges; on a closed surface it is 3/2 times the number of faces.
   const std::size_t num_faces = mesh.triangulation.num_faces();
   file.write("OFF\n" + std::to_string(mesh.table.sites.size()) + " " + std::to_string(num_faces) +
              " " + std::to_string(3 * num_faces / 2) + "\n");

@@ -10,7 +10,7 @@
 
 namespace rondel::io {
 
-// While one wave of texts is written, the next one is made.
+// While the texts of one wave are written, those of the next one are made.
 void write_in_parallel(AtomicFile& file, unsigned threads, std::size_t count, std::size_t grain,
                        const std::function<void(std::string&, std::size_t, std::size_t)>& append,
                        const std::function<void(std::size_t)>& report) {

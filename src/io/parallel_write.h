@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes what takes longer to make than to write: made by several threads, written in order. The
-// bytes do not depend on the number of threads.
+// Writes text that takes longer to make than to write: several threads make it, and it is written
+// in order. The bytes do not depend on the number of threads.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@
 
 namespace rondel::io {
 
-// So many items, each with a short text, are one thread's work at a time.
+// The number of items with a short text that one thread takes at a time.
 inline constexpr std::size_t items_per_piece = 4096;
 
 // Calls append(text, begin, end) for the pieces of [0, count), which appends their text, and writes
-// the texts one after the other. In memory are those of 4 pieces for each thread. Between pieces
-// calls report(end), from the calling thread, if there is something to call.
+// the texts one after the other. The texts of four pieces a thread are in memory at once. Between
+// pieces it calls report(end) from the calling thread, if that is given.
 RONDEL_API void write_in_parallel(
     AtomicFile& file, unsigned threads, std::size_t count, std::size_t grain,
     const std::function<void(std::string& text, std::size_t begin, std::size_t end)>& append,

@@ -56,7 +56,7 @@ PlyProperty property_of(Words words) {
   return property;
 }
 
-// One line of the header; false at its end.
+// Parses a line of the header; returns false at its end.
 bool parse_line(Words words, PlyHeader& header, bool& has_format) {
   if (words[0] == "end_header") return false;
   if (words[0] == "format" && words.size() >= 2) {

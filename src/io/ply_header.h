@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The header of Stanford's .ply: a list of elements, each with a list of properties.
+// Parses the header of a Stanford .ply file: a list of elements, each with a list of properties.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct PlyProperty {
   std::string name;
   PlyType type{};
   bool is_list = false;
-  PlyType size_type{};  // of the length of a list
+  PlyType size_type{};  // type of the length of a list
 };
 
 struct PlyElement {
@@ -35,7 +35,7 @@ struct PlyHeader {
   std::size_t data_offset = 0;
 };
 
-// Throws BadValue.
+// Throws BadValue if the header is not valid.
 PlyHeader parse_ply_header(std::string_view bytes);
 
 }  // namespace rondel::io

@@ -13,7 +13,8 @@
 namespace rondel::io {
 namespace {
 
-// The numbers of the body, one after the other. A double holds each of PLY's types exactly.
+// Reads the numbers of the body one after the other. A double represents each of PLY's types
+// exactly.
 class PlyNumbers {
  public:
   PlyNumbers(std::string_view body, PlyEncoding encoding)
@@ -45,7 +46,7 @@ class PlyNumbers {
     return take<double>();
   }
 
-  // The next number, which must be an integer.
+  // Returns the next number, which must be an integer.
   std::int64_t next_integer(PlyType type) {
     const double value = next(type);
     if (!(std::abs(value) < 0x1p62) || value != std::floor(value)) {
@@ -97,7 +98,7 @@ Triple read_corners(PlyNumbers& numbers, const PlyProperty& property) {
   return corners;
 }
 
-// Goes through the elements up to the faces.
+// Reads the elements up to the faces, and returns these.
 std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header) {
   PlyNumbers numbers(bytes.substr(header.data_offset), header.encoding);
   for (const PlyElement& element : header.elements) {

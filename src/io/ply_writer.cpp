@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Stanford's .ply, binary little-endian with coordinates in double precision.
+// Writes Stanford's .ply: binary, little-endian, with coordinates in double precision.
 #include <array>
 
 #include "io/binary.h"
@@ -17,7 +17,7 @@ void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
              std::to_string(mesh.triangulation.num_faces()) +
              "\nproperty list uchar int vertex_indices\nend_header\n");
   file.write(NumberBytes(sites));
-  // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
+  // Most readers expect a signed index; it suffices, as there are fewer than 2^30 sites.
   static_assert(max_sites < (std::size_t{1} << 30U));
   mesh.write_faces(file, [&](std::string& bytes, Index begin, Index end) {
     for (const Triple& face : mesh.triangulation.faces().subspan(begin, end - begin)) {

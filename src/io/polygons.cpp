@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Polygons in flat arrays: pieces are drawn in parallel and joined in order.
+// Makes polygons in flat arrays: pieces are drawn in parallel and joined in order.
 #include "rondel/polygons.h"
 
 #include "io/cell_formats.h"
@@ -44,7 +44,7 @@ LonLatPolygons joined(const std::vector<LonLatPolygons>& pieces) {
   return all;
 }
 
-// Calls draw(piece, begin, end) for the pieces of [0, count).
+// Calls draw(piece, begin, end) for the pieces of [0, count), in parallel.
 template <class Draw>
 LonLatPolygons collect(unsigned threads, std::size_t count, const Draw& draw) {
   std::vector<LonLatPolygons> pieces(system::num_pieces(count, grain));

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells of any form as GeoJSON (RFC 7946): a FeatureCollection with a feature for each cell that has rings.
+// Writes cells of any form as GeoJSON (RFC 7946): a FeatureCollection with a feature for each cell
+// that has rings.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -51,7 +52,7 @@ class RingsOfCell {
           for (const Index corner : corners) ring.push_back(cells.points[corner]);
         }) {}
 
-  // `append_ring` appends the points of corners.
+  // Calls append_ring(corners, ring), which appends the points of the corners.
   template <class AppendRing>
   RingsOfCell(const CellRings& cells, std::size_t cell, const AppendRing& append_ring) {
     for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r)
@@ -70,8 +71,8 @@ double area_of(std::span<const map::UnitVectors> rings) {
   return area < 0 ? area + 4 * std::numbers::pi : area;
 }
 
-// The lines around a cell. Where they do not tell on which side of them the cell is, its area does, by the corners as they were
-// before points were merged.
+// Returns the lines around a cell. If they do not tell on which side of them the cell is, its area
+// does, computed from the corners before points were merged.
 map::LoopsOfRegion loops_of_cell(const RegionsToWrite& job, std::size_t cell,
                                  std::span<const map::UnitVectors> rings) {
   map::DrawnRegion region = map::draw_region(rings, job.tolerance);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What replaces a file or a folder on POSIX: where it lies, and what it takes over.
+// Files and folders that are replaced on POSIX: where they are, and what the new ones take over.
 #pragma once
 
 #include <string>
@@ -10,11 +10,12 @@ struct stat;
 
 namespace rondel::io {
 
-// Where the file of that name is, or would be made: the last symbolic link may lead to nothing.
+// Returns the path of the file of that name with symbolic links resolved; the file need not exist.
 std::string resolve_links(const std::string& path);
 
-// Gives what is open owner, group and permissions of what it replaces, as far as this process may.
-// It was made for its owner alone, so that it has at no moment more rights than it may have.
+// Gives an open file or folder the owner, group and permissions of what it replaces, as far as this
+// process may. It was created for its owner alone, so that it never has more permissions than it
+// should.
 void take_permissions(int descriptor, const struct stat& replaced);
 
 }  // namespace rondel::io

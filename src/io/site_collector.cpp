@@ -45,7 +45,8 @@ void SiteCollector::make_circle(double radius) {
   table_.radii_deg.push_back(radius_deg);
 }
 
-// The lines of the sites are listed from the first one on that does not follow its predecessor.
+// Line numbers are stored from the first site on whose line does not follow that of the site
+// before.
 void SiteCollector::note_line(std::uint64_t line) {
   const std::size_t n = table_.sites.size();
   require_indices(n + 1);

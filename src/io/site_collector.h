@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the readers of sites have in common: checks, unit vectors, lines and progress.
+// The parts that the readers of sites share: checks, unit vectors, lines and progress.
+//
+// in    coordinates of sites, as a file has them
+// out   a SiteTable
 #pragma once
 
 #include <cstddef>
@@ -11,25 +14,27 @@
 
 namespace rondel::io {
 
-// Throws BadValue if no triangulation can hold n sites, before any of them is read.
+// Throws BadValue if n sites are too many for a triangulation. Call it before any of them is read.
 void require_indices(std::uint64_t n);
 
 class SiteCollector {
  public:
-  // Fills `table`, whose name is set.
+  // Fills `table`, whose name has been set.
   SiteCollector(SiteTable& table, const ReadJob& options) : table_(table), options_(options) {}
 
-  // Room for n sites, as far as one triangulation can hold them.
+  // Reserves memory for n sites, at most for as many as a triangulation can have.
   void reserve(std::size_t n, bool is_lonlat);
 
-  // Adds the next site, which stands in `line` (0: the format has no lines). Throws BadValue.
+  // Adds the next site, which is in `line` (0 if the format has no lines). Throws BadValue if it is
+  // not valid.
   void add_position(double lon, double lat, std::uint64_t line);
   void add_point(const Point& point, std::uint64_t line);
 
-  // Turns the site just added into the circle of that radius around it. Throws BadValue.
+  // Turns the site just added into a circle with that radius. Throws BadValue if the radius is not
+  // valid.
   void make_circle(double radius);
 
-  // Reports, now and then, that `done` of `total` is read.
+  // Reports, now and then, that `done` of `total` has been read.
   void report_progress(std::size_t done, std::size_t total) const;
 
   [[nodiscard]] std::size_t size() const noexcept { return table_.sites.size(); }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// read_sites, write_sites and write_file: which format, and what all have in common.
+// read_sites(), write_sites() and write_file() pick the format and do what all formats have in
+// common.
 #include <array>
 
 #include "io/atomic_file.h"
@@ -20,7 +21,7 @@ struct SiteReader {
   std::string_view ending;
   void (*read)(std::string_view, const io::ReadJob&, SiteTable&);
   bool has_columns = false;
-  // What can be refused by the head of a file and its size.
+  // Throws BadValue for what can be refused given the head of a file and its size.
   void (*check)(std::string_view, std::uint64_t) = nullptr;
 };
 constexpr std::array<SiteReader, 6> site_readers = {

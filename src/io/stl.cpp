@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Binary .stl. The format has neither indices nor doubles: corners are repeated as 32-bit
-// floats, so close sites may fall together. It serves printing and viewing, not exchange.
+// Writes binary .stl. The format has neither indices nor doubles: corners are repeated as 32-bit
+// floats, so that close sites may coincide. It serves printing and viewing, not exchange.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace rondel::io {
 namespace {
 
-// The unit normal; zero, which readers then compute themselves, where rounding leaves none.
+// Returns the unit normal, or zero if rounding leaves none; readers then compute it themselves.
 Point normal(const Point& a, const Point& b, const Point& c) {
   const Point n = scaled(cross(scaled(b - a), scaled(c - a)));
   const double length = norm(n);
@@ -44,7 +44,7 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
   write_values<std::uint32_t>(file, 1, [=](std::size_t) { return num_faces; });
   const auto append = [&](std::string& bytes, const Triple& face) {
     const auto& [a, b, c] = face;
-    std::array<char, 12 * sizeof(float) + 2> record = {};  // the last two: no attributes
+    std::array<char, 12 * sizeof(float) + 2> record = {};  // the last two bytes: no attributes
     char* end = record.data();
     for (const Point& p : {normal(sites[a], sites[b], sites[c]), sites[a], sites[b], sites[c]}) {
       for (const double value : {p.x, p.y, p.z}) end = store(static_cast<float>(value), end);

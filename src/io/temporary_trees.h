@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// POSIX: the names in temporary folders, for signal handlers, which may touch neither the heap nor a lock.
+// The names in temporary folders, for signal handlers on POSIX, which may use neither the heap nor
+// a lock.
 #pragma once
 
 #include <array>
@@ -11,24 +12,25 @@
 
 namespace rondel::io {
 
-// A slot goes free -> in_use -> free and keeps its memory; handlers read slots in use, to which names
-// are only added.
+// A slot goes from free to in_use and back, and keeps its memory. Handlers read slots in use, to
+// which names are only added.
 class TemporaryTrees {
  public:
-  // A folder that finds no free slot is not removed by a signal.
+  // If no slot is free, a signal does not remove the folder.
   static constexpr std::size_t num_slots = 4;
 
-  // Returns the number of a slot, for the others.
+  // Returns the number of a slot, which the other functions need.
   std::size_t claim() noexcept;
-  // The path of a file or folder that will be made; the outermost folder first. Throws bad_alloc.
+  // Adds the path of a file or folder that will be created; the outermost folder comes first.
+  // Throws bad_alloc.
   void add(std::size_t slot, const std::string& path);
   void forget(std::size_t slot) noexcept;
-  // Removes all that was added, without memory.
+  // Removes all files and folders that were added, without allocating memory.
   void remove(std::size_t slot) const noexcept;
   void remove_all() const noexcept;
 
  private:
-  // Paths, each with a zero behind it.
+  // Paths, each ending with a zero byte.
   struct NameBlock {
     std::atomic<std::size_t> used{0};
     std::atomic<NameBlock*> next{nullptr};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The lines of a text file as words between blanks, for .xyz .off .obj and ASCII .ply.
+// Divides a text file into lines, and these into words between blanks, for .xyz .off .obj and ASCII
+// .ply.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +12,20 @@
 
 namespace rondel::io {
 
-// Lines end with LF or CRLF. '#' starts a comment; lines without words are skipped.
+// Lines end with LF or CRLF. A '#' begins a comment; lines without words are skipped.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
   }
 
-  // Goes to the next line that has words; false at the end.
+  // Goes to the next line that has words; returns false at the end.
   bool next();
 
   [[nodiscard]] const std::vector<std::string_view>& words() const noexcept { return words_; }
-  // The number of the current line, from 1 on.
+  // Returns the number of the current line, counted from 1.
   [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
-  // How many bytes are done, of how many.
+  // Returns how many bytes have been read.
   [[nodiscard]] std::size_t position() const noexcept { return position_; }
   [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites as text: .csv, .tsv and .xyz.
+// Writes sites as text: .csv, .tsv and .xyz.
 #include <string>
 
 #include "io/mesh_text.h"

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The formats of triangles, one function each way.
+// Readers and writers of triangles, one function a format and direction.
+//
+// in    the bytes of a file; or a triangulation with its sites
+// out   triangles; or a file
+// index corners are indices of sites in the order of the input, from 0 on
 #pragma once
 
 #include <functional>
@@ -15,14 +19,14 @@
 
 namespace rondel::io {
 
-// What the writers write: corners are input indices, and vertices are all sites in input order.
+// The argument of the writers: all sites are vertices of the file, in the order of the input.
 struct MeshToWrite {
   const SiteTable& table;
   const Triangulation& triangulation;
   const Execution& execution;
 
-  // Writes the texts of the faces from `begin` to `end`, as write_in_parallel does, and reports how
-  // far it is.
+  // Writes the texts of the faces begin ... end - 1, like write_in_parallel(), and reports the
+  // progress.
   void write_faces(
       AtomicFile& file,
       const std::function<void(std::string& text, Index begin, Index end)>& append) const;
@@ -36,20 +40,20 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh);
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
-// Formats of several files.
+// These formats consist of several files.
 void write_pvtp(const std::string& path, const MeshToWrite& mesh);
 void write_zarr_mesh(const std::string& path, const MeshToWrite& mesh);
 
-// Each reads the triangles of `bytes`, the content of a file. Indices count from 0 and may be too
-// large for the sites. Throws BadValue.
+// Each of these reads the triangles of `bytes`, the content of a file. Indices count from 0 and may
+// be too large for the sites. They throw BadValue if the content is not as the format says.
 std::vector<Triple> read_npy(std::string_view bytes);
 std::vector<Triple> read_off(std::string_view bytes);
 std::vector<Triple> read_ply(std::string_view bytes);
 std::vector<Triple> read_obj(std::string_view bytes);
 std::vector<Triple> read_vtp(std::string_view bytes);
 
-// Throws BadValue if the head of a file of `file_size` bytes, or of a size not known (0), claims
-// what read_npy would refuse.
+// Throws BadValue if read_npy() would refuse the head of a file of `file_size` bytes (0: not
+// known).
 void check_npy(std::string_view head, std::uint64_t file_size);
 
 }  // namespace rondel::io

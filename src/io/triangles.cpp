@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// read_triangles and write_triangles: which format, and what all have in common.
+// read_triangles() and write_triangles() pick the format and do what all formats have in common.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -23,7 +23,7 @@ namespace {
 struct TriangleReader {
   std::string_view ending;
   std::vector<Triple> (*read)(std::string_view);
-  // What can be refused by the head of a file and its size.
+  // Throws BadValue for what can be refused given the head of a file and its size.
   void (*check)(std::string_view, std::uint64_t) = nullptr;
 };
 constexpr std::array<TriangleReader, 5> triangle_readers = {
@@ -42,7 +42,7 @@ constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write
                                                              {".vtp", &io::write_vtp_triangles},
                                                              {".geojson", &io::write_geojson}}};
 
-// A format of several files, which do not fit into one stream.
+// A format of several files, which cannot be written to one stream.
 struct TriangleFolderWriter {
   std::string_view ending;
   void (*write)(const std::string& path, const io::MeshToWrite& mesh);

@@ -7,8 +7,8 @@
 namespace rondel::io {
 namespace {
 
-// The length of the UTF-8 sequence at `p`, 0 if there is none (RFC 3629: the shortest form, no
-// surrogates, nothing above U+10FFFF; hence the bounds on the second byte).
+// Returns the length of the UTF-8 sequence at `p`, or 0 if there is none (RFC 3629: the shortest
+// form, no surrogates, nothing above U+10FFFF; hence the bounds of the second byte).
 std::size_t sequence_length(const char* p, const char* end) {
   const auto byte = [p](int i) { return static_cast<unsigned char>(p[i]); };
   const unsigned first = byte(0);

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a file may hold as text: it goes into JSON and messages.
+// Checks text of files, which goes into JSON and messages.
 #pragma once
 
 #include <string_view>
 
 namespace rondel::io {
 
-// Whether `text` is UTF-8 (RFC 3629).
+// True if `text` is UTF-8 (RFC 3629).
 bool is_utf8(std::string_view text);
 
 }  // namespace rondel::io

@@ -9,7 +9,7 @@ std::string attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + value + "\"";
 }
 
-// The head grows with the list of arrays whose bytes must follow in the same order.
+// Builds the XML head together with the list of arrays whose bytes follow in the same order.
 class Head {
  public:
   void open(const std::string& tag) { text_ += "<" + tag + ">\n"; }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// VTK's XML PolyData (.vtp), the format of ParaView: an XML head that describes the arrays, then
-// their bytes ("appended raw", little-endian, each after its length in a UInt64).
+// Writes VTK's XML PolyData (.vtp), the format of ParaView: an XML head that describes the arrays,
+// then their bytes ("appended raw", little-endian, each array after its length as a UInt64).
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ struct VtpArray {
   std::function<void(AtomicFile&)> write;  // writes exactly that many bytes
 };
 
-// `count` numbers of 8 bytes or of one, of which value(i) is number i.
+// Returns an array of `count` numbers of 8 bytes or of one; value(i) is number i.
 template <typename T, typename Value>
 VtpArray vtp_array(const char* name, std::size_t count, Value value) {
   constexpr bool is_real = std::is_floating_point_v<T>;
@@ -33,19 +33,19 @@ VtpArray vtp_array(const char* name, std::size_t count, Value value) {
           [count, value](AtomicFile& file) { write_values<T>(file, count, value); }};
 }
 
-// The coordinates of points, which live until the array is written.
+// Returns the array of the coordinates of points, which must live until it is written.
 inline VtpArray vtp_points(std::span<const Point> points) {
   return {"Points", "Float64", 3, points.size_bytes(),
           [points](AtomicFile& file) { file.write(NumberBytes(points)); }};
 }
 
 struct VtpMesh {
-  std::string_view comment{};  // none if it is empty
+  std::string_view comment{};  // not written if it is empty
   std::size_t num_points = 0;
   std::size_t num_polys = 0;
   VtpArray points;        // Float64, 3 components
   VtpArray connectivity;  // Int64: the points of all polygons, one after the other
-  VtpArray offsets;       // Int64: where each polygon ends in it
+  VtpArray offsets;       // Int64: the end of each polygon in `connectivity`
   std::vector<VtpArray> point_data;
   std::vector<VtpArray> cell_data;
 };

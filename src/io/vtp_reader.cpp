@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The triangles of a .vtp file whose arrays are appended raw and not compressed, as Rondel
+// Reads the triangles of a .vtp file whose arrays are appended raw and not compressed, as Rondel
 // writes them and VTK can. The arrays of the polygons are found by their tags; the rest of the XML
-// does not matter.
+// is ignored.
 #include <bit>
 #include <functional>
 #include <optional>
@@ -15,12 +15,12 @@
 namespace rondel::io {
 namespace {
 
-// The tags of an XML text, one after the other.
+// Goes through the tags of an XML text.
 class Tags {
  public:
   explicit Tags(std::string_view text) : rest_(text) {}
 
-  // The next tag that starts with `name`, without the angle brackets.
+  // Returns the next tag that starts with `name`, without the angle brackets.
   std::optional<std::string_view> next(std::string_view name) {
     while (true) {
       const std::size_t open = rest_.find('<');
@@ -41,7 +41,7 @@ class Tags {
   std::string_view rest_;
 };
 
-// The value of an attribute of a tag; empty if it has none.
+// Returns the value of an attribute of a tag; an empty text if it has none.
 std::string_view attribute(std::string_view tag, std::string_view name) {
   std::string key(1, ' ');
   (key += name) += "=\"";
@@ -65,7 +65,7 @@ class AppendedData {
                                                                 : std::endian::little),
         has_long_header_(attribute(file_tag, "header_type") == "UInt64") {}
 
-  // The array that a DataArray tag describes.
+  // Returns the array that a DataArray tag describes.
   [[nodiscard]] Integers array(std::string_view tag) const {
     const std::string_view type = attribute(tag, "type");
     if (attribute(tag, "format") != "appended") throw BadValue("data that is not appended raw");
@@ -78,7 +78,7 @@ class AppendedData {
   }
 
  private:
-  // The bytes behind the length that stands at `offset`.
+  // Returns the bytes behind the length that is stored at `offset`.
   [[nodiscard]] std::string_view block(std::int64_t offset) const {
     const std::size_t head = has_long_header_ ? 8 : 4;
     if (offset < 0 || bytes_.size() < head ||

@@ -6,7 +6,7 @@
 
 namespace rondel::io {
 
-// Points are the sites, polygons the faces; the cell data "ghost" is 1 for ghost faces.
+// The points are the sites and the polygons the faces; the cell data "ghost" is 1 for ghost faces.
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh) {
   const std::span<const Triple> faces = mesh.triangulation.faces();
   const std::size_t m = faces.size();

@@ -7,7 +7,7 @@
 #include "io/site_formats.h"
 #include "io/text_lines.h"
 
-// Three numbers a line with blanks between; '#' starts a comment.
+// Reads three numbers a line with blanks between them; '#' begins a comment.
 namespace rondel::io {
 namespace {
 

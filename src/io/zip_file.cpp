@@ -10,8 +10,9 @@
 namespace rondel::io {
 namespace {
 
-constexpr std::uint64_t see_zip64 = 0xffff'ffff;  // also the largest value of a 32-bit field
-constexpr unsigned needed_version = 45;           // 4.5 introduced zip64
+constexpr std::uint64_t see_zip64 = 0xffff'ffff;  // stands for a value in the zip64 field; also the
+                                                  // largest value of a 32-bit field
+constexpr unsigned needed_version = 45;           // zip64 was introduced in 4.5
 constexpr unsigned first_of_1980 = 0x21;
 
 // Little-endian fields, one after the other.
@@ -37,7 +38,7 @@ class Record {
 
 std::uint64_t clipped(std::uint64_t value) { return std::min(value, see_zip64); }
 
-// The zip64 extra field, with sizes in 64 bits.
+// Returns the zip64 extra field, with sizes in 64 bits.
 Record zip64_extra(std::uint64_t size) { return Record().u16(1).u16(16).u64(size).u64(size); }
 
 }  // namespace
@@ -48,7 +49,7 @@ void ZipWriter::write(std::string_view bytes) {
 }
 
 void ZipWriter::add(const std::string& name, std::string_view head, std::string_view body) {
-  // A null pointer would mean "start anew" to crc32_z.
+  // A null pointer would reset the checksum in crc32_z.
   const auto bytes = [](std::string_view text) {
     return reinterpret_cast<const Bytef*>(text.empty() ? "" : text.data());
   };

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Zip archives of uncompressed members, written from front to back (PKWARE's APPNOTE 6.3.9).
+// Writes zip archives of uncompressed members from front to back (PKWARE's APPNOTE 6.3.9).
+//
+// in    names and contents of members
+// out   a file
 #pragma once
 
 #include <cstdint>
@@ -14,8 +17,8 @@
 
 namespace rondel::io {
 
-// Equal members give equal bytes: the date is always the first of 1980. Members and archives
-// of 4 GiB and more use the zip64 fields.
+// Equal members give equal bytes, since the date is always January 1, 1980. Members and archives of
+// 4 GiB and more use the zip64 fields.
 class RONDEL_API ZipWriter {
  public:
   explicit ZipWriter(AtomicFile& file) : file_(file) {}

@@ -22,10 +22,10 @@ constexpr std::uint32_t wide_locator_magic = 0x07064b50;
 constexpr std::uint32_t wide_end_magic = 0x06064b50;
 constexpr std::size_t end_size = 22;
 constexpr std::uint64_t is_wide = 0xffff'ffff;  // the value is in an extra field
-// Deflate makes at most 1032 bytes of one.
+// Deflate expands a byte to at most 1032 bytes.
 constexpr std::uint64_t most_per_byte = 1032;
 
-// A number of the archive at any place.
+// Returns a number at any position of the archive.
 template <typename T>
 T field(std::string_view bytes, std::uint64_t place) {
   if (place > bytes.size() || bytes.size() - place < sizeof(T)) {
@@ -41,7 +41,7 @@ std::string_view part(std::string_view bytes, std::uint64_t place, std::uint64_t
   return bytes.substr(place, size);
 }
 
-// One entry of the directory.
+// An entry of the directory.
 struct ZipEntry {
   std::string_view name;
   unsigned method = 0;
@@ -51,7 +51,7 @@ struct ZipEntry {
   std::uint64_t offset = 0;
 };
 
-// What does not fit 32 bits is in an extra field, in this order.
+// Reads the values that do not fit 32 bits, which are in an extra field in this order.
 void read_wide_fields(std::string_view extra, ZipEntry& entry) {
   while (extra.size() >= 4) {
     const std::string_view body = part(extra, 4, field<std::uint16_t>(extra, 2));
@@ -67,7 +67,7 @@ void read_wide_fields(std::string_view extra, ZipEntry& entry) {
   }
 }
 
-// Where the directory starts and how many entries it has.
+// The offset and the number of entries of the directory.
 struct Directory {
   std::uint64_t offset = 0;
   std::uint64_t count = 0;
@@ -111,7 +111,7 @@ std::optional<ZipEntry> find_entry(std::string_view bytes, std::string_view name
   return std::nullopt;
 }
 
-// All of a stream of deflate, which may take several calls: zlib counts in 32 bits.
+// Returns the inflated stream, which may take several calls since zlib counts in 32 bits.
 std::string inflated(std::string_view packed, std::uint64_t size) {
   if (size / most_per_byte > packed.size()) throw BadValue("the zip archive is damaged");
   std::string text(size, '\0');

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The members of zip archives, stored or deflated.
+// Reads members of zip archives, stored or deflated.
 #pragma once
 
 #include <string>
@@ -11,11 +11,12 @@
 
 namespace rondel::io {
 
-// The content of a member of the archive in `bytes`. Throws BadValue, also where its checksum is wrong;
-// no memory is taken for a size that the archive's bytes cannot have.
+// Returns the content of a member of the archive in `bytes`. Throws BadValue if there is none, the
+// archive is damaged, or a checksum is wrong; no memory is allocated for a size that the archive's
+// bytes cannot have.
 RONDEL_API std::string zip_member(std::string_view bytes, std::string_view name);
 
-// Whether the archive has such a member.
+// True if the archive has such a member.
 RONDEL_API bool has_zip_member(std::string_view bytes, std::string_view name);
 
 }  // namespace rondel::io
