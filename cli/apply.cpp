@@ -85,7 +85,7 @@ std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const
 }
 
 bool are_columns_named(const ReadOptions& read) {
-  return !(read.lon + read.x + read.radius).empty();  // the others go with these
+  return !(read.lon + read.x + read.radius).empty();  // the others are given together with these
 }
 
 void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
@@ -95,14 +95,14 @@ void require_places_of_table(const ApplyCommandOptions& options, const WeightFil
     table = read_sites(options.values_file, options.common.read);
   } catch (const FileError&) {
     if (are_columns_named(options.common.read)) throw;
-    return;  // it has no places
+    return;  // the table has no places
   }
   require_places(options, file, table.sites, true);
 }
 
 bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
 
-// A slice has 32 MiB: larger ones are no faster.
+// A slice has 32 MiB; larger ones are not faster.
 constexpr std::size_t most_values = std::size_t{1} << 22U;
 
 struct AppliedCounts {
@@ -110,7 +110,7 @@ struct AppliedCounts {
   std::size_t missing = 0;
 };
 
-// Applies the weights slice by slice, so that fields may be larger than the memory.
+// Applies the weights slice by slice, so that fields may be larger than memory.
 AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                         const FieldFile& in) {
   const Weights& weights = file.weights;

@@ -17,7 +17,7 @@
 namespace rondel::cli {
 namespace {
 
-// The number that a cell has; not a number where it is empty or says so.
+// Returns the number in a cell; NaN if the cell is empty or says so.
 double number_in(std::string_view cell, const SiteTable& table, std::size_t site,
                  const std::string& name) {
   double value = std::numeric_limits<double>::quiet_NaN();
@@ -35,7 +35,8 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
   throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' " + why);
 }
 
-// A field of a netCDF file at the sites: of a variable that has one, or of one of several.
+// Returns a field of a netCDF file at the sites: that of a variable with one field, or one of
+// several.
 std::vector<double> netcdf_values(const SiteTable& table, const std::string& name,
                                   const std::string& option) {
   const FieldFile file(table.name, {&name, 1}, table.sites.size(), {}, {}, {table.positions, 1e-9});

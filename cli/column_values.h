@@ -12,10 +12,11 @@
 
 namespace rondel::cli {
 
-/// The numbers of a column that was kept, one of each site; not a number where the cell is empty,
-/// "nan", "NA" or "null". Of a netCDF file also one of several fields of a variable, by its place, as FieldFile takes it.
-/// \throws UsageError, which begins with the option, if the table has no such column, or names one that is several; FileError with
-/// the place of the first cell that is no finite number.
+/// Returns the numbers of a column that was kept as text, one for each site; NaN if the cell is
+/// empty, "nan", "NA" or "null". For a netCDF file, `name` may also be one of several fields of a
+/// variable, "NAME[3]", as FieldFile takes it.
+/// \throws UsageError, which begins with the option, if the table has no such column, or `name`
+/// means several fields; FileError with the place of the first cell that is not a finite number.
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option);
 

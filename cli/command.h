@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the commands of the tool share: their common options, the stages of a job with clock and
-/// progress, the report at the end. A command is two functions: one describes its
-/// arguments to the parser, the other runs when they are parsed.
+/// What the commands of the tool share: their common options, a job whose stages are timed and
+/// whose progress is shown, and the report at the end. A command is two functions: one describes
+/// its arguments to the parser, the other runs when they have been parsed.
 ///
 ///     Command add_plot_command(CLI::App& tool) {
 ///       auto options = std::make_shared<PlotOptions>();   // holds a CommonOptions `common`
@@ -35,8 +35,8 @@ class Option;
 
 namespace rondel::cli {
 
-/// The exit status of the tool. Exceptions become one line on stderr, "rondel: <what>", and:
-/// FileError, InvalidInput, bad_alloc, anything else -> failed; UsageError -> usage.
+/// The exit status of the tool. An exception becomes one line on stderr, "rondel: <what>", and one of
+/// these: FileError, InvalidInput, bad_alloc, anything else -> failed; UsageError -> usage.
 enum ExitStatus : int { done = 0, failed = 1, usage = 2 };
 
 /// The command line asks for something that the tool does not offer.
@@ -65,20 +65,21 @@ struct CommonOptions {
 
   [[nodiscard]] FileName source() const { return {input, input_format}; }
   [[nodiscard]] FileName target() const { return {output, output_format}; }
-  /// The format of the output, "ply", by its name or ending in lower case.
+  /// Returns the format of the output in lower case, "ply": the named one, or the ending.
   [[nodiscard]] std::string format() const;
 };
 
-/// \pre comes before add_build_options(): --radius sets the model, which --model may contradict.
+/// Adds INPUT and the options that say how to read it. \pre this comes before add_build_options(),
+/// since --radius sets the model, which --model may contradict.
 void add_input_options(
     CLI::App& command, CommonOptions& options,
     const std::string& what =
         "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
         "Longitude and latitude in degrees, or x, y, z.");
-/// The same for a command that takes points in space: x, y, z only.
+/// Does the same for a command that takes points in space: x, y, z only.
 void add_point_input_options(CLI::App& command, CommonOptions& options);
-/// --output, which the caller may require, and --format. `what` says what is written and to which
-/// endings, for the help.
+/// Adds --output, which the caller may require, and --format. `what` says for the help what is
+/// written, and to which endings.
 CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
 void add_build_options(CLI::App& command, CommonOptions& options);
 void add_threads_option(CLI::App& command, CommonOptions& options);
@@ -113,32 +114,34 @@ class Job {
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  /// The sites of INPUT. \throws FileError
+  /// Reads the sites of INPUT. \throws FileError if it cannot be read
   SiteTable read();
-  /// The sites of another file; of netCDF those of the variables `names`, which are also the columns, unless FILE:NAME names one.
-  /// Sites that netCDF masks are left out. \throws FileError
+  /// Reads the sites of another file. From netCDF it reads the sites of the variables `names`,
+  /// which become the columns, unless FILE:NAME names a variable. Sites that netCDF masks are left
+  /// out. \throws FileError if it cannot be read
   SiteTable read(const FileName& file, const ReadOptions& read,
                  std::span<const std::string> names = {});
-  /// Reads sites as read() does, also those that netCDF masks, and what it says of their grid. \throws FileError
+  /// Does the same, but keeps sites that netCDF masks, and returns what the file says of their
+  /// grid. \throws FileError if it cannot be read
   NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
                         std::span<const std::string> names = {});
-  /// \throws FileError with the file and line of a site that the library does not accept.
-  /// The result refers to the table's sites, which must live as long.
+  /// Triangulates the sites. \throws FileError with the file and line of a site that the library
+  /// does not accept. The result refers to the table's sites, which must outlive it.
   Triangulation triangulate(const SiteTable& table);
-  /// \throws FileError as triangulate()
+  /// Returns the convex hull of the sites. \throws FileError like triangulate()
   Triangulation hull(const SiteTable& table);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
-  /// The threads that are wanted, and a progress, empty where none is shown.
+  /// Returns the wanted number of threads, and a progress, which is empty if none is shown.
   [[nodiscard]] Execution execution() const;
-  /// The time so far.
+  /// Returns the times up to now.
   [[nodiscard]] Seconds seconds() const;
 
-  /// Prints the summary, or the JSON object of --json, or nothing with --quiet or where standard
-  /// output has the output. `what` names what
-  /// was written to OUTPUT: "the triangulation". \throws FileError if stdout cannot be written.
+  /// Prints the summary, or the JSON object of --json; prints nothing with --quiet, or if the
+  /// output goes to standard output. `what` says what was written to OUTPUT, for example "the
+  /// triangulation". \throws FileError if stdout cannot be written
   void report(const Triangulation& triangulation, const std::string& what);
-  /// The same for a command with a report of its own; `json` is printed under --json.
+  /// Does the same for a command with its own report; `json` is printed with --json.
   void report(const std::string& json, const std::string& summary);
 
  private:
@@ -146,8 +149,8 @@ class Job {
   std::unique_ptr<State> state_;
 };
 
-/// Runs `work`, which calls the library with the sites of `table`. What the library
-/// does not accept becomes a FileError that names the site's place in the file.
+/// Returns work(), which calls the library with the sites of `table`. An InvalidInput becomes a
+/// FileError that names the site's place in the file.
 template <class Work>
 auto with_places(const SiteTable& table, Work&& work) {
   try {
@@ -158,7 +161,7 @@ auto with_places(const SiteTable& table, Work&& work) {
   }
 }
 
-/// \throws UsageError if the name of a further result than OUTPUT has another ending than .npy or .zarr;
+/// \throws UsageError if the name of a result beside OUTPUT has an ending other than .npy or .zarr;
 /// it may have none
 void require_array(const char* option, const std::string& path);
 

@@ -20,7 +20,7 @@
 namespace rondel::cli {
 namespace {
 
-// Its areas are numbers.
+// Checks a radius, whose areas must not overflow.
 std::string earth_radius_error(const std::string& text) {
   std::string error = positive_error(text);
   if (!error.empty()) return error;

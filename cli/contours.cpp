@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel contours: isolines and bands of a column.
+// rondel contours writes isolines and bands of a column.
 #include "rondel/contours.h"
 
 #include <CLI/CLI.hpp>

@@ -13,7 +13,7 @@
 namespace rondel::cli {
 namespace {
 
-// The numbers of rows of `width` of them, as an array of as many columns.
+// Returns the numbers in rows of `width` numbers, as a flat array.
 template <std::size_t width, class Number, class Row>
 std::span<const Number> numbers_of(std::span<const Row> rows) {
   static_assert(sizeof(Row) == width * sizeof(Number) && std::is_standard_layout_v<Row>);
@@ -31,7 +31,8 @@ void write_points(const std::string& path, std::span<const Point> points) {
   write_numbers(path, numbers_of<3, double>(points), shape);
 }
 
-// Whether an array is wanted in the group that OUTPUT is. What is neither that nor a .npy file is refused.
+// True if an array goes into the group that OUTPUT is. Throws UsageError if it is neither that nor
+// a .npy file.
 bool is_in_group(const char* option, const std::string& path, const CommonOptions& common) {
   const auto without_slashes = [](std::string name) {
     while (name.ends_with('/')) name.pop_back();

@@ -12,7 +12,7 @@
 namespace rondel::cli {
 namespace {
 
-// From the newest that may come on down to 3.0.
+// Tries the versions of GDAL from future ones down to 3.0.
 void* open_gdal() {
   if (const char* const name = std::getenv("RONDEL_GDAL"); name != nullptr) {
     return open_library(name);

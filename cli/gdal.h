@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// GDAL, loaded when a file is to be written that only it can write: `rondel` needs it neither to be built nor to run.
-/// These are functions of its C interface, whose binary form is the same since GDAL 3.0.
+/// GDAL, which is loaded when a file is to be written that only GDAL can write; `rondel` is built
+/// and runs without it. The members are functions of its C interface, whose binary form is the same
+/// since GDAL 3.0.
 #pragma once
 
 #include <string>
 
 namespace rondel::cli {
 
-/// Names of GDAL's opaque handles; what belongs to what is in its documentation.
+/// GDAL's opaque handles; its documentation says which function takes which handle.
 using GdalHandle = void*;
 
 struct Gdal {
@@ -46,8 +47,9 @@ struct Gdal {
   void (*free_bytes)(void*);
 };
 
-/// The library that the variable RONDEL_GDAL names, or the newest that the system finds, with its drivers. Keeps quiet
-/// about errors, which last_error() tells. \throws FileError, which begins with `path`, if there is none.
+/// Returns the library that the environment variable RONDEL_GDAL names, or else the newest that the
+/// system finds, with its drivers registered. It does not print errors; last_error() returns them.
+/// \throws FileError, which begins with `path`, if there is no GDAL.
 const Gdal& load_gdal(const std::string& path);
 
 }  // namespace rondel::cli

@@ -25,7 +25,7 @@ Point combine(double s, const Point& a, double t, const Point& b) {
 
 Spot spot(const Point& p) { return {p.x, p.y}; }
 
-// An ellipse center + u cos t + v sin t: the projection of a circle of the sphere.
+// An ellipse center + u cos t + v sin t, which is the projection of a circle of the sphere.
 struct Ellipse {
   Spot center, u, v;
 
@@ -42,8 +42,8 @@ struct Ellipse {
 constexpr Ellipse limb{{0, 0}, {1, 0}, {0, 1}};
 
 // Continues the path along the ellipse, in pieces of at most 30 degrees. The usual cubic for an
-// angle d, with controls at distance k = 4/3 tan(d/4) along the tangents, leaves a unit circle by
-// 4/27 sin^6(d/4) / cos^2(d/4) at most: 7.5e-7 for 30 degrees. An affine image
+// angle d, with controls at the distance k = 4/3 tan(d/4) along the tangents, deviates from a unit
+// circle by at most 4/27 sin^6(d/4) / cos^2(d/4), which is 7.5e-7 for 30 degrees. An affine image
 // with axes of length at most 1 does not enlarge that.
 void trace_ellipse(Pen& pen, const Ellipse& ellipse, double from, double to, Spot end) {
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::abs(to - from) / (pi / 6))));
@@ -61,7 +61,7 @@ void trace_ellipse(Pen& pen, const Ellipse& ellipse, double from, double to, Spo
 }
 
 // Continues the path from a along the shorter arc to b. A chord stays within 1 - cos(angle / 2),
-// that is less than angle² / 8, of its arc.
+// which is less than angle² / 8, of its arc.
 void trace_shorter_arc(Pen& pen, const Point& a, const Point& b, double tolerance) {
   const Point difference = combine(1, b, -1, a);
   if (dot(difference, difference) < 8 * tolerance) {
@@ -73,14 +73,14 @@ void trace_shorter_arc(Pen& pen, const Point& a, const Point& b, double toleranc
   trace_ellipse(pen, {{0, 0}, spot(a), spot(tangent)}, 0, angle_between(a, b), spot(b));
 }
 
-// Where the arc between a front and a back point meets the limb.
+// Returns the point where the arc between a front and a back point meets the limb.
 Point limb_crossing(const Point& a, const Point& b) {
   const Point c = combine(std::abs(b.z), a, std::abs(a.z), b);
   return normalized({c.x, c.y, 0});
 }
 
 // Continues the path counterclockwise along the limb. The visible part of a convex region has at
-// most half of the limb; what looks longer is an arc of length zero after rounding.
+// most half of the limb; a longer turn comes from an arc of length zero after rounding.
 void trace_limb(Pen& pen, const Point& from, const Point& to) {
   const double start = std::atan2(from.y, from.x);
   double turn = std::atan2(to.y, to.x) - start;
@@ -92,9 +92,10 @@ void trace_limb(Pen& pen, const Point& from, const Point& to) {
   }
 }
 
-// Whether a convex region without a corner in front is all that is in front: then the middle is to the left of its
-// edges. A region that is none has an edge with the middle to its right, or is as small as rounding. The chords of
-// its edges may turn either way, as the arcs bend towards the limb.
+// True if a convex region without a corner in front covers the whole front. Then the middle of the
+// front is to the left of its edges. A region that does not cover it has an edge with the middle to
+// its right, or is as small as rounding errors. The chords of its edges may turn either way, as the
+// arcs bend towards the limb.
 bool is_all_in_front(std::span<const Point> corners) {
   constexpr double rounding = 1e-12;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -161,8 +162,9 @@ void trace_line(Pen& pen, std::span<const Point> points, Side side, double toler
 void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side) {
   const double radius = radius_deg * pi / 180;
   const double sign = side == Side::front ? 1 : -1;
-  // The circle is center + u cos t + v sin t with v level, so z is center.z + u.z cos t and u
-  // points to its highest point, on the back side to its lowest.
+  // The circle is center + u cos t + v sin t with v horizontal in depth, so z is center.z + u.z cos
+  // t, and u points to the nearest point of the circle in front, or on the back side to the
+  // farthest one.
   const Point level =
       axis.x == 0 && axis.y == 0 ? Point{1, 0, 0} : normalized({-axis.y, axis.x, 0});
   const Point highest = cross(level, axis);

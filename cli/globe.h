@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The orthographic globe: points and arcs of the unit sphere as curves in the unit disc. No
-/// drawing library here: curves go to a Pen.
+/// The orthographic globe: points and arcs of the unit sphere as curves in the unit disc. The
+/// curves go to a Pen, so that this file does not depend on a drawing library.
 ///
 /// The *view frame* has x to the right, y up and z towards the viewer, so (x, y) is the picture,
 /// and the *limb*, the circle z = 0, is the outline of the globe. A circle of the sphere
@@ -34,8 +34,8 @@ struct Spot {
   double y = 0;
 };
 
-/// Of a polygon without holes, as seen in the picture, in squares of the unit of its corners: positive
-/// if x, y and the order of the corners turn the same way.
+/// Returns the area of a polygon without holes as seen in the picture, in squares of the unit of
+/// its corners. It is positive if the corners turn in the direction from the x-axis to the y-axis.
 template <class Place>
 double signed_area(std::span<const Place> corners) {
   double sum = 0;
@@ -56,14 +56,14 @@ class Pen {
   virtual void curve_to(Spot control1, Spot control2, Spot to) = 0;
 };
 
-/// Where the globe is looked at from.
+/// The direction from which the globe is viewed.
 class View {
  public:
-  /// `center` comes to the middle of the picture; `up_deg` turns the picture: the
-  /// direction, clockwise from north at the center, that points up.
+  /// `center` (degrees) is in the middle of the picture, and the direction `up_deg` degrees
+  /// clockwise from north at the center points up.
   explicit View(const LonLat& center, double up_deg = 0);
 
-  /// A vector in the view frame.
+  /// Returns a vector in the view frame.
   [[nodiscard]] Point turn(const Point& p) const;
 
  private:
@@ -73,13 +73,14 @@ class View {
 /// The hemisphere towards the viewer, and the one behind.
 enum class Side { front, back };
 
-/// The unit vector of v. \pre v is finite and not zero.
+/// Returns the unit vector of v. \pre v is finite and not zero
 Point normalized(const Point& v);
 
-/// The angle between two unit vectors, accurate also where it is tiny or near 180 degrees.
+/// Returns the angle between two unit vectors in radians, accurate also if it is tiny or near 180
+/// degrees.
 double angle_between(const Point& a, const Point& b);
 
-/// The part of the shorter arc from a to b on one side of the globe.
+/// Returns the part of the shorter arc from a to b on one side of the globe, or nothing.
 /// 1. A cut end lies on the limb: z = 0 and x² + y² = 1 to a few ulp.
 /// 2. An arc along the limb belongs to the front.
 /// 3. The choice rests on the signs of a.z and b.z alone, so that arcs with a common end agree.
@@ -90,17 +91,17 @@ std::optional<std::pair<Point, Point>> visible_part(const Point& a, const Point&
 /// the projected arc, or within 1e-6 if that is more.
 void trace_arc(Pen& pen, const Point& a, const Point& b, Side side, double tolerance);
 
-/// Traces a line of shorter arcs from point to point, its parts on that side each without a break.
-/// \pre as visible_part() of neighbors.
+/// Traces a line of shorter arcs from point to point; each part on that side is traced without a
+/// break. \pre like visible_part() for successive points
 void trace_line(Pen& pen, std::span<const Point> points, Side side, double tolerance);
 
 /// Traces the visible parts of the circle of radius `radius_deg` (90: a great circle)
 /// around `axis`, a unit vector in the view frame.
 void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side);
 
-/// Traces the outline of the visible part of a convex region of the sphere, given by its
-/// corners counterclockwise seen from outside; where the region goes beyond the
-/// limb the outline follows the limb. \returns whether anything is visible.
+/// Traces the outline of the visible part of a convex region of the sphere, given by its corners
+/// counterclockwise seen from outside; where the region goes beyond the limb the outline follows
+/// the limb. Returns false if nothing is visible.
 bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance);
 
 }  // namespace rondel::cli

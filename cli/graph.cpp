@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel graph: graphs of near sites, hulls, alpha shapes and empty circles.
+// rondel graph makes graphs of near sites, hulls, alpha shapes and empty circles.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <numbers>

@@ -10,7 +10,7 @@
 
 namespace rondel::cli {
 
-/// Shows what to type, "--threads N", and leaves the rest to the description.
+/// Shows what to type, as in "--threads N"; the rest is left to the description.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { column_width(25); }

@@ -11,14 +11,15 @@
 namespace rondel::cli {
 namespace {
 
-// A polygon as a closed surface: each triangle of a fan on both sides.
+// Returns a polygon as a closed surface: both sides of each triangle of a fan.
 Triangulation two_sided(const Triangulation& flat) {
   const auto ring = flat.ring();
   std::vector<Triple> faces;
   std::vector<Triple> neighbors;
   const auto triangles = static_cast<Index>(ring.size() - 2);
   for (Index i = 0; i < triangles; ++i) {
-    // The upper side is face i, the lower one face triangles + i. Where the fan ends, they meet.
+    // The upper side is face i, the lower side face triangles + i. They meet at the border of the
+    // fan.
     const Index lower = triangles + i;
     faces.push_back({ring[0], ring[i + 1], ring[i + 2]});
     neighbors.push_back({lower, i + 1 < triangles ? i + 1 : lower, i > 0 ? i - 1 : lower});
@@ -47,7 +48,7 @@ struct Mesh {
   Triangulation surface;
 };
 
-// The vertices alone, in the order of input.
+// Returns the surface with its vertices only, in the order of the input.
 Mesh compact(const SiteTable& table, const Triangulation& surface) {
   std::vector<Index> name(table.sites.size(), no_index);
   for (const Triple& face : surface.faces()) {

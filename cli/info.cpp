@@ -71,7 +71,7 @@ std::vector<NamedRange> bounds_of(const SiteTable& table) {
   return bounds;
 }
 
-// Scaled, so that no square overflows or vanishes.
+// Scales the coordinates, so that no square overflows or underflows.
 double length(double x, double y, double z) {
   const double scale = std::max({std::abs(x), std::abs(y), std::abs(z)});
   if (scale == 0) return 0;
@@ -91,7 +91,7 @@ Range heights_of(std::span<const Point> sites, const Sphere& sphere) {
   return range;
 }
 
-// A site at the center is a fact to tell here, not an error.
+// A site at the center is reported here, and is not an error.
 Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
   Facts facts;
   facts.bounds = bounds_of(table);
@@ -110,7 +110,7 @@ Json json_of(const Range& range) {
   return {{"min", range.min}, {"max", range.max}};
 }
 
-// null where there are no sites.
+// Returns null if there are no sites.
 Json json_of_coordinates(const SiteTable& table) {
   if (table.sites.empty()) return nullptr;
   return table.is_lonlat() ? "lonlat" : "xyz";
@@ -148,7 +148,8 @@ std::string text_of(const char* name, const Range& range) {
   return text;
 }
 
-// Nothing where there are no sites: the table does not say what its header names.
+// Returns an empty text if there are no sites, since the table then does not say which coordinates
+// it has.
 std::string coordinates_of(const SiteTable& table) {
   if (table.sites.empty()) return {};
   const std::string given = ", given as ";

@@ -70,7 +70,8 @@ Triangulation triangulated(Job& job, const InterpolateOptions& options, const Si
   return triangulation;
 }
 
-// Carries fields to the targets: one triangulation for all that have no gaps, one more for those with the same gaps in a row.
+// Interpolates fields at the targets. All fields without gaps share one triangulation; successive
+// fields with the same gaps share another one.
 class FieldCarrier {
  public:
   FieldCarrier(Job& job, const InterpolateOptions& options, const SiteTable& table,
@@ -114,7 +115,7 @@ class FieldCarrier {
   InterpolateCounts& counts_;
   std::optional<Interpolator> whole_;
   std::optional<Interpolator> partial_;
-  SiteTable kept_;  // of `partial_`
+  SiteTable kept_;  // the sites of `partial_`
   std::vector<bool> is_known_;
 };
 
@@ -133,7 +134,8 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
            [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
 }
 
-// Carries the fields of netCDF along the dimensions that they have beside that of the sites; one at a time is in memory.
+// Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
+// a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                         const Targets& targets, InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
@@ -162,7 +164,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   job.time(Stage::write, [&] { writer.finish(); });
 }
 
-// The numbers of the cells that are not masked.
+// Returns the numbers of the cells that are not masked.
 std::vector<Index> unmasked_sites(const NetcdfSites& grid) {
   const std::vector<bool> is_kept = grid.unmasked();
   std::vector<Index> numbers;
@@ -172,7 +174,7 @@ std::vector<Index> unmasked_sites(const NetcdfSites& grid) {
   return numbers;
 }
 
-// Weights of the cells that are not masked become those of all.
+// Turns weights of the cells that are not masked into weights of all cells.
 void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFile& file) {
   Weights& weights = file.weights;
   for (Index& column : weights.columns) column = numbers[column];
@@ -188,7 +190,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   const SiteTable& table = grid.table;
   const std::vector<Index> numbers = unmasked_sites(grid);
   const bool has_masked = numbers.size() < table.sites.size();
-  SiteTable kept;  // what the triangulation refers to
+  SiteTable kept;  // the triangulation refers to it
   if (has_masked) kept = table.selection(grid.unmasked());
   const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table, counts);
   const Interpolator interpolator(triangulation);

@@ -47,7 +47,7 @@ struct Job::State {
   }
 
   Seconds seconds{};
-  std::uint64_t num_unlocated = 0;  // features read
+  std::uint64_t num_unlocated = 0;  // number of features read without a geometry
   Clock::time_point start = Clock::now();
 };
 

@@ -36,7 +36,7 @@ double rounded_to_15_digits(double value) {
           .ptr;
   double rounded = value;
   std::from_chars(text.data(), end, rounded);
-  return rounded + 0.0;  // not -0
+  return rounded + 0.0;  // turns -0 into 0
 }
 
 }  // namespace

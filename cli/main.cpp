@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The command line tool: finds the command, runs it, and turns every failure into one
-// line on stderr and an exit status.
+// The command line tool: finds the command, runs it, and turns every failure into one line on
+// stderr and an exit status.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -63,7 +63,7 @@ void configure(CLI::App& tool) {
       "  rondel plot sites.csv -o globe.png");
 }
 
-// The parser would only say that it did not expect the word.
+// Names the unknown command; the parser would only say that it did not expect the word.
 void require_known_command(const std::vector<Command>& commands, int argc,
                            const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -84,7 +84,7 @@ void require_known_command(const std::vector<Command>& commands, int argc,
   }
 }
 
-// A hint where the name of a file was taken for an option.
+// Returns a hint if the name of a file was taken for an option.
 std::string file_like_an_option(int argc, const char* const* argv) {
   for (const std::string name : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
     std::error_code ignored;
@@ -94,7 +94,7 @@ std::string file_like_an_option(int argc, const char* const* argv) {
   return {};
 }
 
-// The command, "mesh scvt", that the arguments chose.
+// Returns the command that the arguments chose, such as "mesh scvt".
 std::string name_of_parsed(const CLI::App& tool) {
   std::string name;
   const CLI::App* app = &tool;
@@ -105,7 +105,7 @@ std::string name_of_parsed(const CLI::App& tool) {
   return name;
 }
 
-// "help COMMAND" is "COMMAND --help".
+// Turns "help COMMAND" into "COMMAND --help".
 std::vector<const char*> without_help_command(std::span<const char* const> arguments) {
   std::vector<const char*> result(arguments.begin(), arguments.end());
   if (result.size() < 2 || std::string_view(result[1]) != "help") return result;

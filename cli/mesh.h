@@ -23,13 +23,13 @@ inline constexpr const char* mesh_input_help =
     "The mesh, .nc (MPAS, UGRID, SCRIP, ESMF), or its sites: .csv .tsv .xyz .txt .npy\n"
     ".geojson, or - for standard input. Longitude and latitude in degrees, or x, y, z.";
 
-/// The files that a command writes for a mesh: OUTPUT and those beside it.
+/// The files that a command writes for a mesh: OUTPUT and others beside it.
 struct MeshOutput {
-  CommonOptions common;          ///< INPUT where the command has one; output, --format, threads
+  CommonOptions common;          ///< INPUT if the command has one; output, --format, threads
   NetcdfOptions netcdf;          ///< --kind --deflate
   std::string graph;             ///< --graph; empty: not written
   std::string report;            ///< --report; empty: not written
-  std::optional<double> radius;  ///< --sphere-radius; none: 1, or that of the mesh that is read
+  std::optional<double> radius;  ///< --sphere-radius; if not given: 1, or that of the input mesh
 };
 
 struct MeshConvertOptions {
@@ -59,10 +59,11 @@ ExitStatus run_mesh_convert(const MeshConvertOptions& options);
 ExitStatus run_mesh_cull(const MeshCullOptions& options);
 ExitStatus run_mesh_quality(const MeshQualityOptions& options);
 
-/// Writes the mesh, and graph and report if they are wanted; says so.
+/// Writes the mesh, and graph and report if they are wanted, and prints what was written.
 void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
 
-/// The mesh of a file: read_mesh() reads netCDF, and arrays() makes one of sites. \throws FileError with the place of a site
+/// Returns the mesh of a file: read_mesh() reads netCDF, and the mesh of sites is computed. \throws
+/// FileError with the place of a site that is not accepted
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     std::optional<double> radius, bool allow_zero_edges);
 
@@ -78,18 +79,20 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
                          const std::vector<NamedFile>& outputs = {});
 /// Whether OUTPUT is a mesh, not sites.
 bool is_mesh_file(const CommonOptions& common);
-/// The format of --format, or of the ending: nc is mpas, exo exodus. \pre is_mesh_file()
+/// Returns the format that --format names, or the ending: nc means mpas, exo means exodus. \pre
+/// is_mesh_file()
 mesh::MeshFormat mesh_format(const CommonOptions& common);
 /// Writes graph and report if they are wanted, and OUTPUT if it is a mesh.
 void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
 
-/// The report of 'rondel mesh quality' in the format of its ending: .svg a picture, .txt as it is printed, else JSON.
+/// Writes the report of 'rondel mesh quality' in the format of the path's ending: .svg is a
+/// picture, .txt the printed text, anything else JSON.
 void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
                        const mesh::Quality& quality, const Execution& execution);
 void add_mesh_report_option(CLI::App& parser, std::string& report,
                             const std::string& names = "--report");
 
-/// FILE and what is behind its last colon, but that of C:\.
+/// Returns FILE and the text behind its last colon, except for the colon of C:\.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);
 
 Command add_mesh_cull_command(CLI::App& mesh);

@@ -34,12 +34,13 @@ void add_map_options(CLI::App& parser, MeshCullOptions& options) {
   add("--vertex-map", options.vertex_map, "vertex");
 }
 
-// A mask of regions as MPAS-Tools writes it, (nCells, nRegions), removes the cells of all regions. Times are no regions.
+// True if a mask has regions as its dimension, (nCells, nRegions), as MPAS-Tools writes it; cells
+// of any region are removed. A dimension of time is not one of regions.
 bool are_regions(const FieldArray& array) {
   return array.dimensions.size() == 1 && array.dimensions.front().find("ime") == std::string::npos;
 }
 
-// 1 for each cell that goes.
+// Returns 1 for each cell that is removed.
 std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
   const auto [file, name] = split_at_colon(text);
   if (name.empty() && (file.ends_with(".csv") || file.ends_with(".tsv"))) {
@@ -69,7 +70,7 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
   return mask;
 }
 
-// Marks the cells whose sites lie in the polygons, or do not.
+// Marks the cells whose sites lie in the polygons, or do not lie in them.
 void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool is_inside,
                       const mesh::MeshArrays& arrays, const Execution& execution,
                       std::vector<std::uint8_t>& is_removed) {

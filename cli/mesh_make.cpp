@@ -34,7 +34,7 @@ nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
           {"least_edge_ratio", defects.least_edge_ratio}};
 }
 
-// Writes all that is wanted of these sites; returns the quality as JSON where it was computed.
+// Writes all files that are wanted for these sites; returns the quality as JSON if it was computed.
 nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Point>& sites,
                                   const mesh::SizeFunction* size, Job& job) {
   const CommonOptions& common = output.common;
@@ -45,7 +45,7 @@ nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Po
     if (size != nullptr) {
       for (const Point& site : sites) density.push_back(size->density(site));
     }
-    // Models that take MPAS's meshes divide by the lengths of edges; what only has cells does not.
+    // Models that read MPAS meshes divide by lengths of edges; programs that only use cells do not.
     const bool is_for_model = is_mesh_file(common) && mesh_format(common) == mesh::MeshFormat::mpas;
     const mesh::MeshOptions options{
         .radius = output.radius.value_or(1), .density = density, .allow_zero_edges = !is_for_model};
@@ -88,10 +88,10 @@ void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& opt
   execution.progress(text.data(), static_cast<double>(step.step) / options.max_steps);
 }
 
-// The options of `rondel mesh scvt`, with what their files hold.
+// The options of `rondel mesh scvt` with the content of their files.
 struct ScvtTask {
   mesh::ScvtOptions scvt;
-  SiteTable start;  // no sites: none are given
+  SiteTable start;  // empty if no sites are given
   FixedSites fixed;
 };
 
@@ -222,7 +222,7 @@ ExitStatus run_area_partition(const AreaPartitionCommandOptions& options) {
   if (!options.column.empty()) {
     targets = column_values(table, options.column, "--area");
     double sum = 0;
-    // Of a cell without a number the library names the site.
+    // If a cell has no number, the library will name the site.
     for (const double area : targets) sum += std::isfinite(area) ? area : 0;
     for (double& area : targets) area *= 4 * std::numbers::pi / sum;
   }

@@ -17,7 +17,8 @@
 
 namespace rondel::cli {
 
-/// Kilometers on the Earth, a sphere of 6371.229 km as MPAS has it, for a radian.
+/// The kilometers in a radian on a sphere of radius 6371.229 km, which is that of the Earth in
+/// MPAS.
 inline constexpr double kilometers_per_radian = 6371.229;
 
 struct ScvtCommandOptions {
@@ -44,7 +45,7 @@ struct MeshPointsOptions {
   MeshOutput output;
   std::string kind;
   std::size_t size = 0;  ///< --size
-  double radius_km = 0;  ///< --radius, of poisson
+  double radius_km = 0;  ///< --radius, for the kind poisson
   std::uint64_t seed = 1;
 };
 
@@ -54,13 +55,14 @@ struct AreaPartitionCommandOptions {
   double tolerance = 1e-12;
 };
 
-/// Adds them to `rondel mesh`: mesh_commands.cpp.
+/// Adds the commands to `rondel mesh`; they are in mesh_commands.cpp.
 std::vector<Command> add_mesh_making_commands(CLI::App& mesh);
 
-/// The places of --fixed and --along.
+/// The sites of --fixed and --along.
 struct FixedSites {
   std::vector<Point> sites;
-  std::size_t num_left_out = 0;  ///< on lines and beside them
+  std::size_t num_left_out = 0;  ///< number of sites on lines and beside them that were too close
+                                 ///< to others
 };
 
 /// The files of --spacing, --refine, --density, --fixed, --along and --start.
@@ -68,7 +70,8 @@ std::vector<NamedFile> files_read(const ScvtCommandOptions& options);
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution);
-/// Sites on lines, and rows beside them, have the spacing of a mesh of `scvt`, which starts with so many sites; 0: with none.
+/// Returns the fixed sites. On lines, and in rows beside them, they have the spacing of a mesh of
+/// `scvt`, which starts with `num_start` given sites (0: none).
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
                        std::size_t num_start, const Execution& execution);
 

@@ -26,12 +26,12 @@ std::string requirement_error(const std::string& text) {
   return finite_error(bound_part(text));
 }
 
-// A number that is good when it is large; all others are when they are small.
+// True if a number is better when it is larger; all others are better when smaller.
 bool is_at_least(const std::string& name) {
   return name.starts_with("min-") || name.starts_with("min_") || name.starts_with("share");
 }
 
-// What of the requirements does not hold, in one line.
+// Returns the requirements that are not met, in one line.
 std::string unmet(const MeshQualityOptions& options, const mesh::Quality& quality) {
   std::string text;
   for (const auto& [name, bound] : options.required) {

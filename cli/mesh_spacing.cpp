@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What `rondel mesh scvt` is asked for: spacings, and places that are sites.
+// Reads what `rondel mesh scvt` is given: spacings, and places that become sites.
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@ namespace {
 
 constexpr double usual_slope = 0.05;
 
-// Half of the circumference, the farthest that two places are from each other.
+// Half of the circumference, which is the largest distance of two places.
 constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
 
-// The number of kilometers; nothing if the text is no number but the name of a file.
+// Returns the number of kilometers, or nothing if the text is the name of a file.
 std::optional<double> as_kilometers(const std::string& option, const std::string& text) {
   char* end = nullptr;
   const double kilometers = std::strtod(text.c_str(), &end);
@@ -37,7 +37,8 @@ std::optional<double> as_kilometers(const std::string& option, const std::string
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
 
-// Refuses spacings that mean more cells than a mesh can have; without -n they alone say how many there are.
+// Throws if the spacings need more cells than a mesh can have; without -n they alone determine the
+// number of cells.
 void require_possible_count(const std::string& what, const mesh::SizeFunction& size) {
   const double cells = size.count();
   if (cells < static_cast<double>(max_sites) + 1) return;
@@ -50,7 +51,8 @@ void require_possible_count(const std::string& what, const mesh::SizeFunction& s
   throw FileError(what + text.data());
 }
 
-// Half of the smallest spacing for a step of the raster, in the middle of a face of the cube.
+// Chooses the raster such that in the middle of a face of the cube a step is half of the smallest
+// spacing.
 std::size_t raster_steps(const ScvtCommandOptions& options) {
   double least = std::strtod(options.spacing.c_str(), nullptr);
   for (const std::string& refinement : options.refine) {
@@ -61,7 +63,7 @@ std::size_t raster_steps(const ScvtCommandOptions& options) {
   return steps;
 }
 
-// Spacings of as many cells as there will be.
+// Returns spacings for the number of cells that the mesh will have.
 mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_start) {
   const std::size_t n = num_start > 0 ? num_start : scvt.count;
   if (!scvt.size) {
@@ -72,7 +74,7 @@ mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_sta
   return scvt.size->scaled(std::sqrt(scvt.size->count() / static_cast<double>(n)));
 }
 
-// Points that --fixed names may be in one place; places on lines and beside them are apart.
+// Throws if two points of --fixed are in one place; places on lines and beside them are apart.
 void require_apart(const std::vector<Point>& sites, const std::string& file,
                    const Execution& execution) {
   if (sites.size() < 2) return;
@@ -147,7 +149,7 @@ FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOption
   const mesh::SizeFunction size = size_along(scvt, num_start);
   const auto add = [&](const std::vector<std::string>& files, auto read, auto sites_of) {
     std::vector<std::vector<Point>> lines;
-    std::vector<std::size_t> ends;  // of the lines of each file
+    std::vector<std::size_t> ends;  // by file: the end of its lines
     for (const std::string& file : files) {
       std::vector<std::vector<Point>> more = read({file, {}}, {.edges = options.edges}, execution);
       std::ranges::move(more, std::back_inserter(lines));

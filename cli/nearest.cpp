@@ -52,7 +52,7 @@ std::string_view cell(const Column& column, Index row) {
   return std::string_view(column.text).substr(begin, column.ends[row] - begin);
 }
 
-// The sites of each query in compressed rows.
+// Returns the sites of each query in compressed rows.
 SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
   if (options.within_deg >= 0) {
     const double angle = options.within_deg / degrees_per_radian;
@@ -98,7 +98,7 @@ std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
   return text;
 }
 
-// Rows of k sites, whatever there are.
+// Writes rows of k sites; missing ones are filled with no_index.
 void write_npy(QueryJob& job, const QueryOptions& options, const SiteLists& lists) {
   const std::size_t k = std::max<std::uint64_t>(options.k, 1);
   const std::size_t num_queries = job.queries().size();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The option --kind of the commands that write netCDF.
+/// The options --kind and --deflate of the commands that write netCDF.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 
 namespace rondel::cli {
 
-/// --kind and --deflate.
+/// Adds --kind and --deflate.
 inline void add_netcdf_options(CLI::App& parser, NetcdfOptions& options) {
   add_word<NetcdfKind>(
       parser, "--kind", options.kind,

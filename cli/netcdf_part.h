@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// FILE.nc:NAME, a variable of a netCDF file.
+/// FILE.nc:NAME, which is a variable of a netCDF file.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 
 namespace rondel::cli {
 
-/// The file, and the name behind a colon, which may have colons itself; the whole path and no name, if there is a file of that name
-/// or nothing before a colon is a netCDF file.
+/// Returns the file and the name behind a colon; the name may have colons itself. Returns the whole
+/// path and no name if there is a file of that name, or if no part before a colon is a netCDF file.
 inline std::pair<FileName, std::string> netcdf_part(const FileName& file) {
   std::error_code error;
   if (std::filesystem::exists(file.path, error)) return {file, {}};

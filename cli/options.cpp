@@ -50,7 +50,7 @@ void add_columns(CLI::App& command, ReadOptions& read) {
       ->excludes(x);
 }
 
-// "-" for the name that the system has for a standard stream.
+// Returns "-" for the name that the system has for a standard stream, and other names unchanged.
 std::string standard(const std::string& name, const char* stream) {
   return name == stream ? "-" : name;
 }
@@ -120,7 +120,7 @@ void add_point_input_options(CLI::App& command, CommonOptions& options) {
 }
 
 CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
-  // The first ending that the help names is an example of a format.
+  // The first ending in the help text serves as an example of a format.
   const std::size_t dot = what.find(" .") + 2;
   const std::string example = what.substr(dot, what.find_first_not_of(letters, dot) - dot);
   command
@@ -138,7 +138,7 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
 
 std::string CommonOptions::format() const {
   std::string name = output;
-  while (name.ends_with('/')) name.pop_back();  // of a folder
+  while (name.ends_with('/')) name.pop_back();  // at the end of a folder
   std::string format = std::filesystem::path(name).extension().string();
   if (!output_format.empty()) format = output_format;
   if (format.starts_with('.')) format.erase(0, 1);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel delaunay --scratch: from a file to files.
+// rondel delaunay --scratch triangulates from a file to files.
 
 #include "rondel/out_of_core.h"
 
@@ -11,7 +11,7 @@
 namespace rondel::cli {
 namespace {
 
-// The library goes by the ending alone.
+// True if OUTPUT is a Zarr group by its ending too, since the library uses the ending alone.
 bool is_group(const CommonOptions& common) {
   CommonOptions by_ending = common;
   by_ending.output_format.clear();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel plot: figures of the triangulation and its dual on the globe, and pages to turn it.
+// rondel plot draws figures of the triangulation and its dual on the globe, and pages to turn it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -38,19 +38,20 @@ std::optional<FigureFormat> figure_format(const std::string& name) {
   return std::nullopt;
 }
 
-// The directions of the sites from the center of the sphere.
+// Returns the directions of the sites from the center of the sphere.
 std::vector<Point> directions(std::span<const Point> sites, const Point& center) {
   std::vector<Point> result(sites.size());
   std::ranges::transform(sites, result.begin(), [&](const Point& p) {
-    // Halved, so that a difference of huge coordinates is finite.
+    // The coordinates are halved, so that a difference of huge coordinates is finite.
     const Point half{p.x / 2 - center.x / 2, p.y / 2 - center.y / 2, p.z / 2 - center.z / 2};
     return half == Point{} ? Point{} : normalized(half);
   });
   return result;
 }
 
-// Looks at the middle of the sites if they are on one side of the globe: their mean is then
-// far from the center. Otherwise a little from the north at the meridian of Greenwich.
+// Views the middle of the sites if they are on one side of the globe, so that their mean is far
+// from the center. Otherwise views the globe from a little north of the equator at the meridian of
+// Greenwich.
 View default_view(std::span<const Point> sites, double up_deg) {
   Point sum{};
   for (const Point& p : sites) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
@@ -78,8 +79,8 @@ std::vector<ArcEnds> line_arcs(const Isolines& lines) {
   return arcs;
 }
 
-// The vertices: all sites but duplicates, hidden ones and one at the center of the sphere, which a
-// hull may have as a corner.
+// Returns the vertices: all sites except duplicates, hidden ones and one at the center of the
+// sphere, which a hull may have as a corner.
 std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Point> points) {
   std::vector<bool> is_vertex(points.size(), true);
   for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
@@ -99,7 +100,7 @@ Show shown(const PlotOptions& options) {
   return filling(options) == Fill::none ? Show::delaunay : Show::voronoi;
 }
 
-// The field, its isolines and what the colors mean.
+// Adds the field, its isolines and the scale of its colors.
 void add_values(Figure& figure, const PlotOptions& options, const Triangulation& triangulation,
                 std::span<const Point> directions, std::vector<double> values,
                 const Execution& execution) {
@@ -166,8 +167,8 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   return figure;
 }
 
-// A drawing of very many arcs is hardly what was wanted: programs take minutes to open it. Pixels
-// cannot be magnified.
+// Warns of a drawing of very many arcs, which programs take minutes to open. Pictures of pixels are
+// not affected.
 void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat format) {
   const std::size_t arcs =
       figure.triangulation.arcs.size() + figure.diagram.arcs.size() + figure.circles.size();

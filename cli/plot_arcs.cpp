@@ -12,8 +12,9 @@
 namespace rondel::cli {
 namespace {
 
-// The sites of a ring that covers less than a half circle have one gap that is no edge. The
-// shorter arc across it runs back over all others, so that the sum falls short of 360 degrees.
+// Returns the arcs between consecutive sites of a ring. If the ring covers less than a half circle,
+// it has one gap that is not an edge: the shorter arc across it runs back over all others, so that
+// the sum of the arcs is less than 360 degrees.
 std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Point> directions) {
   std::vector<ArcEnds> arcs;
   if (ring.size() < 2) return arcs;
@@ -23,7 +24,7 @@ std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Poin
     const ArcEnds ends{ring[i], ring[(i + 1) % ring.size()]};
     const double length = angle_between(directions[ends[0]], directions[ends[1]]);
     sum += length;
-    // The last of equals, so that of two sites the first arc stays.
+    // Of equal arcs the last one is taken, so that the first arc between two sites stays.
     if (length >= longest) {
       longest = length;
       gap = i;
@@ -34,7 +35,7 @@ std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Poin
   const bool has_gap =
       sum < 2 * std::numbers::pi - rounding || longest > std::numbers::pi - rounding;
   if (has_gap) arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(gap));
-  // Antipodal sites are joined by no shorter arc.
+  // Antipodal sites have no shorter arc between them.
   std::erase_if(arcs, [&](const ArcEnds& ends) {
     return angle_between(directions[ends[0]], directions[ends[1]]) > std::numbers::pi - rounding;
   });
@@ -98,8 +99,8 @@ std::vector<Point> in_order_of_arcs(std::span<ArcEnds> arcs, std::span<const Poi
 }
 
 double median_spacing(std::span<const ArcEnds> arcs, std::span<const Point> points) {
-  // In a Delaunay triangulation the nearest site is a neighbor.
-  // Squares of lengths, whose order is the same.
+  // In a Delaunay triangulation the nearest site is a neighbor. Squared lengths have the same order
+  // as lengths.
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<double> nearest(points.size(), none);
   for (const auto& [a, b] : arcs) {

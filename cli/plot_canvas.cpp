@@ -25,7 +25,7 @@ using Owned = std::unique_ptr<Object, Release>;
 
 namespace {
 
-constexpr double margin = 0.02;  // of the side, on each of the four
+constexpr double margin = 0.02;  // share of the side, on each of the four sides
 
 void require(cairo_status_t status) {
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
@@ -34,7 +34,7 @@ void require(cairo_status_t status) {
   }
 }
 
-// Runs inside Cairo, which is C: no exception may pass.
+// Cairo calls this function from C, so no exception may leave it.
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) noexcept {
   try {
     static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
@@ -50,7 +50,7 @@ cairo_surface_t* make_surface(FigureFormat format, int size, int height, std::st
       return cairo_svg_surface_create_for_stream(append, &bytes, size, height);
     case FigureFormat::pdf: {
       cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, &bytes, size, height);
-      // An empty date is no date: otherwise each run would write its own.
+      // An empty date writes no date; otherwise each run would write its own.
       cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
       return surface;
     }
@@ -60,7 +60,8 @@ cairo_surface_t* make_surface(FigureFormat format, int size, int height, std::st
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, size, height);
 }
 
-// Cairo numbers the surfaces of a process and writes the number into the drawing.
+// Removes the number of the surface: Cairo numbers the surfaces of a process and writes the number
+// into the drawing.
 void drop_surface_number(std::string& svg) {
   constexpr std::string_view id = "<g id=\"surface";
   const std::size_t start = svg.find(id);
@@ -69,9 +70,9 @@ void drop_surface_number(std::string& svg) {
   svg.erase(digits, svg.find('"', digits) - digits);
 }
 
-// The same of the images in it, which are numbered here from 0 on.
+// Renumbers the images in the drawing from 0 on, for the same reason.
 void number_images(std::string& svg) {
-  for (const std::string word : {"image", "source-"}) {  // of one version of Cairo and of others
+  for (const std::string word : {"image", "source-"}) {  // versions of Cairo differ
     const std::string id = "id=\"" + word;
     std::size_t count = 0;
     for (std::size_t at = svg.find(id); at != std::string::npos; at = svg.find(id, at + 1)) {
@@ -173,7 +174,7 @@ void Canvas::stroke(const Color& color, double width) {
   cairo_t* context = state_->context.get();
   set_source(context, color);
   cairo_set_line_width(context, width);
-  // Ends of thin lines are smaller than a pixel, and round ones cost most of the time.
+  // The ends of thin lines are smaller than a pixel, and round ones take most of the time.
   cairo_set_line_cap(context, width < 1 ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_stroke(context);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// A square picture of the globe in one of the formats that Cairo writes. The only file that knows
-/// the drawing library is plot_canvas.cpp.
+/// A square picture of the globe in one of the formats that Cairo writes. Only plot_canvas.cpp uses
+/// Cairo.
 #pragma once
 
 #include <cstdint>
@@ -20,23 +20,24 @@ enum class FigureFormat { png, svg, pdf };
 
 enum class TextAlign { left, center, right };
 
-/// Paths in the coordinates of the unit disc; widths and radii in pixels (points in a PDF).
+/// A picture. Paths are in the coordinates of the unit disc; widths and radii are in pixels (points
+/// in a PDF).
 class Canvas final : public Pen {
  public:
-  /// `below`: what the picture is higher than wide, for a legend below the globe.
+  /// The picture is `size` wide and `size + below` high; `below` is room for a legend.
   Canvas(FigureFormat format, int size, int below = 0);
   ~Canvas() override;
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// The radius of the globe in pixels. Its center is the middle.
+  /// Returns the radius of the globe in pixels. Its center is the middle of the square.
   [[nodiscard]] double radius() const noexcept;
   static double radius_of(int size) noexcept;
 
   void move_to(Spot to) override;
   void line_to(Spot to) override;
   void curve_to(Spot control1, Spot control2, Spot to) override;
-  /// Adds a small disc to the path.
+  /// Adds a small disc to the path; its radius is in pixels.
   void dot(Spot center, double radius);
   /// Adds the outline of the globe to the path.
   void globe();
@@ -47,19 +48,19 @@ class Canvas final : public Pen {
   void text(const std::string& utf8, double x, double base, double letter_size, TextAlign align,
             const Color& color);
 
-  /// Each paints the path and ends it.
+  /// These two paint the path and end it.
   void stroke(const Color& color, double width);
   void fill(const Color& color);
-  /// Lays pixels over the whole picture, as many as it has: `argb` are their rows, as Cairo's ARGB32.
+  /// Paints pixels over the whole picture; `argb` has its rows in Cairo's format ARGB32.
   void paint(std::span<const std::uint32_t> argb);
-  /// Fills from `inner` around the place where the light falls to `outer` at the limb.
+  /// Fills the globe with colors from `inner`, where the light falls, to `outer` at the limb.
   void shade(const Color& inner, const Color& outer);
-  /// Fills and covers the seam to equal neighbors by a line of the same color.
+  /// Fills the path, and covers the seam to neighbors of the same color by a line of that color.
   static constexpr double seam_width = 0.6;
   void fill_to_seam(const Color& color);
 
-  /// The bytes of the file, without dates: the same picture gives the same bytes.
-  /// \throws std::runtime_error, std::bad_alloc
+  /// Returns the bytes of the file, without dates: equal pictures give equal bytes. \throws
+  /// std::runtime_error, std::bad_alloc
   std::string finish();
 
  private:

@@ -8,8 +8,9 @@
 namespace rondel::cli {
 namespace {
 
-// 0 for a point of the sphere and inside. Halves, so that a difference of huge coordinates is
-// finite; the tangent is accurate for small circles too.
+// Returns the radius in degrees, which is 0 for a point on the sphere or inside. Coordinates are
+// halved, so that a difference of huge ones is finite; the tangent is accurate for small circles
+// too.
 double radius_of(const Point& site, const Sphere& sphere) {
   const Point& c = sphere.center;
   const double distance =

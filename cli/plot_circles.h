@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The circles that weighted sites stand for.
+/// The circles that weighted sites represent.
 #pragma once
 
 #include <span>
@@ -20,9 +20,10 @@ struct Circle {
   bool is_hidden = false;  ///< it has no cell
 };
 
-/// The circles of all sites but duplicates, points and imaginary ones. `directions` are the sites'
-/// unit vectors, zero for a site at the center. The radii are those of the table if it has
-/// some; otherwise cos r = R / |p|, for the distance |p| of the site from the center.
+/// Returns the circles of all sites except duplicates, sites with radius 0 and sites with an
+/// imaginary radius. `directions` are the sites' unit vectors, zero for a site at the center. The
+/// radii are those of the table if it has some; otherwise cos r = R / |p|, where |p| is the
+/// distance of the site from the center.
 std::vector<Circle> real_circles(const SiteTable& table, const Triangulation& triangulation,
                                  std::span<const Point> directions);
 

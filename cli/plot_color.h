@@ -15,17 +15,17 @@ struct Color {
   double alpha = 1;
 };
 
-/// From a (t = 0) to b (t = 1) in even steps for the eye, in Oklab coordinates (Björn
-/// Ottosson, "A perceptual color space for image processing", 2020).
+/// Returns a color between a (t = 0) and b (t = 1), in perceptually even steps, by Oklab
+/// coordinates (Björn Ottosson, "A perceptual color space for image processing", 2020).
 Color blend(const Color& a, const Color& b, double t);
 
-/// The color map of cell areas: navy for the smallest (t = 0), over teal, to cream (t = 1). Its
-/// lightness grows with t, so it also reads in grey.
+/// Returns the color of a cell area: from navy for the smallest (t = 0) over teal to cream (t = 1).
+/// Its lightness grows with t, so that it can be read in grey.
 Color area_color(double t);
 
-/// The color map of values: viridis (Nathaniel Smith, Stéfan van der Walt, Eric Firing, 2015; CC0), purple for
-/// the least (t = 0) to yellow, in even steps for the eye, for color-blind people too. Within 0.02 of
-/// its table: a polynomial by Matt Zucker (CC0).
+/// Returns the color of a value in the map viridis (Nathaniel Smith, Stéfan van der Walt, Eric
+/// Firing, 2015; CC0): from purple for the least (t = 0) to yellow, in perceptually even steps,
+/// also for color-blind people. A polynomial by Matt Zucker (CC0) is within 0.02 of its table.
 Color value_color(double t);
 
 }  // namespace rondel::cli

@@ -36,7 +36,7 @@ const Color& front_diagram_color(const Figure& figure) {
   return figure.filled ? diagram_on_fill_color : diagram_color;
 }
 
-// One stroke of very many arcs is slow, and so is a stroke for each.
+// One stroke of very many arcs is slow, and so is a stroke for each arc.
 constexpr std::size_t arcs_in_a_stroke = 200;
 constexpr std::size_t least_strokes = 64;
 
@@ -45,7 +45,7 @@ struct Widths {
   double line, dot_radius;
 };
 
-// Lines and dots get smaller where sites get close, so that dense figures do not turn into ink.
+// Makes lines and dots smaller where sites are close, so that dense figures stay readable.
 Widths widths(const Figure& figure, double radius) {
   const double unit = figure.style.size / 1000.0;
   const double spacing = figure.spacing * radius;
@@ -70,7 +70,8 @@ void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& co
   }
 }
 
-// In strokes of every k-th circle, as draw_arcs does. Those without a cell come first, paler.
+// Draws circles in strokes of every k-th circle, like draw_arcs(). Circles without a cell come
+// first, paler.
 void draw_circles(Canvas& canvas, std::span<const Circle> circles, Side side, double paleness,
                   double width) {
   const std::size_t num_strokes = std::max(least_strokes, circles.size() / arcs_in_a_stroke);
@@ -109,8 +110,8 @@ class AreaScale {
   double low_ = 0, high_ = 0;
 };
 
-// Calls paint(corners, color) for the cells; the cell of a single site, which is the whole sphere, has
-// no corners.
+// Calls paint(corners, color) for the cells; the cell of a single site, which is the whole sphere,
+// has no corners.
 template <class Paint>
 void for_each_cell(const Figure& figure, const Paint& paint) {
   const FilledCells& filled = *figure.filled;
@@ -120,7 +121,7 @@ void for_each_cell(const Figure& figure, const Paint& paint) {
   std::vector<Point> corners;
   for (std::size_t cell = 0; cell < filled.areas.size(); ++cell) {
     const double area = filled.areas[cell];
-    if (!(area > 0)) continue;  // a duplicate or hidden site
+    if (!(area > 0)) continue;  // duplicates and hidden sites have no cell
     corners.clear();
     for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
       corners.push_back(cells.points[cells.rings[i]]);
@@ -168,7 +169,7 @@ void draw_front(Canvas& canvas, const Figure& figure, const Widths& width) {
   if (figure.style.show_sites) draw_sites(canvas, figure.sites, width.dot_radius);
 }
 
-// The same as pixels, some rows of them.
+// The same layers painted as pixels, in some rows of the picture.
 class PixelLayer {
  public:
   PixelLayer(int size, double radius, int first_row, int past_row)
@@ -226,8 +227,8 @@ class PixelLayer {
   double tolerance_;
 };
 
-// Lays over the canvas what add(layer) paints on each of the bands that the picture is divided into,
-// at once by several threads.
+// Paints on the canvas what add(layer) paints on each of the bands into which the picture is
+// divided; several threads paint bands at once.
 template <class Add>
 void paint(Canvas& canvas, const Figure& figure, unsigned threads, const Add& add) {
   const int size = figure.style.size;
@@ -246,7 +247,7 @@ void paint(Canvas& canvas, const Figure& figure, unsigned threads, const Add& ad
   canvas.paint(argb);
 }
 
-// Always as pixels, whatever the format: paths would be of one color each.
+// Fields are painted as pixels in every format, since paths have one color each.
 void draw_field(Canvas& canvas, const Figure& figure, unsigned threads) {
   const int size = figure.style.size;
   const auto side = static_cast<std::size_t>(size);
@@ -305,7 +306,7 @@ std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsi
     } else {
       draw_filled_cells(canvas, figure);
     }
-    // Light would change what colors of values mean.
+    // A light would change the meaning of the colors.
     if (!figure.scale) {
       canvas.globe();
       canvas.shade(clear_light, clear_dark);

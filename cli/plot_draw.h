@@ -20,11 +20,11 @@ namespace rondel::cli {
 
 /// How a figure looks.
 struct FigureStyle {
-  int size = 1000;         ///< of the square picture, in pixels
-  double line_width = 0;   ///< in pixels; 0: follows the density of the arcs
-  int graticule_deg = 30;  ///< distance of its circles; 0: none
+  int size = 1000;         ///< width and height of the picture in pixels
+  double line_width = 0;   ///< in pixels; 0: chosen by the density of the arcs
+  int graticule_deg = 30;  ///< distance between its circles in degrees; 0: none
   bool show_sites = true;
-  bool show_back = false;  ///< the arcs and circles behind the globe, faintly
+  bool show_back = false;  ///< draw the arcs and circles behind the globe, faintly
 };
 
 /// Points of the sphere in the view frame, and arcs between them.
@@ -33,11 +33,12 @@ struct ArcLayer {
   std::vector<ArcEnds> arcs;
 };
 
-/// The cells to fill, corners in the view frame.
+/// The cells to fill; their corners are in the view frame.
 struct FilledCells {
   Cells cells;
+  // by site
   std::vector<double> areas;
-  std::vector<double> values{};  ///< that give the colors, of the sites; empty: areas do
+  std::vector<double> values{};  ///< by site: the values that determine the colors; empty: areas do
 };
 
 /// What a figure shows. Layers that are not wanted stay empty.
@@ -46,23 +47,23 @@ struct Figure {
   View view{LonLat{}};
   LineLayer coast;
   std::vector<Point> sites;  ///< the vertices, in the view frame
-  double spacing = 0;        ///< of the sites, see median_spacing()
+  double spacing = 0;        ///< median distance of neighboring sites, see median_spacing()
   ArcLayer triangulation;
   ArcLayer diagram;
   std::vector<Circle> circles;  ///< axes in the view frame
   std::optional<FilledCells> filled;
   std::optional<ValueField> field;
-  std::optional<ValueScale> scale;  ///< of values, if there are any: they have a bar below
+  std::optional<ValueScale> scale;  ///< scale of the values, which have a bar below the globe
   ArcLayer isolines;
 };
 
-/// Whether a figure has very many arcs with lines thinner than a pixel, and, for a format that can
-/// be magnified, closer together than pixels.
+/// True if a figure has very many arcs with lines thinner than a pixel and, in a format that can be
+/// magnified, closer together than pixels.
 bool is_dense(const Figure& figure, FigureFormat format);
 
-/// The bytes of the figure. `as_pixels`: its arcs, circles, cells and sites are painted as pixels
-/// instead of paths, by so many threads, which looks the same where is_dense() is true, and is much
-/// faster. The bytes do not depend on the threads.
+/// Returns the bytes of the figure. With `as_pixels`, arcs, circles, cells and sites are painted as
+/// pixels instead of paths, by `threads` threads, which looks the same if is_dense() is true, and
+/// is much faster. The bytes do not depend on the threads.
 std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsigned threads = 1);
 inline std::string draw(const Figure& figure, FigureFormat format) {
   return draw(figure, format, is_dense(figure, format));

@@ -27,7 +27,7 @@ double squared_chord(const Point& a, const Point& b) {
   return dot_product(d, d);
 }
 
-// As Cairo's ARGB32.
+// Returns the color in Cairo's format ARGB32.
 std::uint32_t opaque(const Color& color) {
   const auto byte = [](double c) {
     return static_cast<std::uint32_t>(std::lround(255 * std::clamp(c, 0.0, 1.0)));
@@ -35,7 +35,7 @@ std::uint32_t opaque(const Color& color) {
   return 0xff00'0000U | byte(color.red) << 16U | byte(color.green) << 8U | byte(color.blue);
 }
 
-// The colors of a scale, so fine that the eye sees no steps.
+// The colors of a scale in steps that are too small to be seen.
 class ColorTable {
  public:
   explicit ColorTable(const ValueScale& scale) : scale_(scale) {
@@ -56,7 +56,7 @@ class ColorTable {
   std::array<std::uint32_t, last + 1> colors_;
 };
 
-// A face in the picture: a unit vector u has the weights dot(u, normal i) of its corners.
+// A face in the view frame: a unit vector u has the weights dot(u, normals[i]) at its corners.
 struct FaceInView {
   std::array<Point, 3> normals;
   std::array<double, 3> values;
@@ -78,7 +78,7 @@ class FieldPainter {
     for (std::size_t i = 0; i < 3; ++i) corners[i] = field.sites[face[i]];
     const auto& [a, b, c] = corners;
     if (a.z < 0 && b.z < 0 && c.z < 0) return;
-    // The face bulges out from its chords: no farther than that.
+    // The face bulges out from its chords, by no more than this.
     const double reach =
         std::max({squared_chord(a, b), squared_chord(b, c), squared_chord(c, a)}) / 2;
     const double middle = size_ / 2.0;
@@ -179,7 +179,7 @@ std::vector<double> round_values(double least, double most) {
 
 int bar_height(int size) { return static_cast<int>(std::lround(0.13 * size)); }
 
-// The bar takes the middle three fifths; the ends of the range stand beside it.
+// The bar takes the middle three fifths of the width; the ends of the range are written beside it.
 void draw_bar(Canvas& canvas, const ValueScale& scale, int size) {
   const double left = 0.2 * size;
   const double width = 0.6 * size;
@@ -189,7 +189,7 @@ void draw_bar(Canvas& canvas, const ValueScale& scale, int size) {
   const int steps = 256;
   for (int i = 0; i < steps; ++i) {
     const double x = left + width * i / steps;
-    canvas.box(x, top, left + width - x, height);  // to the end, so that no seam shows
+    canvas.box(x, top, left + width - x, height);  // up to the end, so that no seam shows
     canvas.fill(value_color((i + 0.5) / steps));
   }
   canvas.box(left, top, width, height);

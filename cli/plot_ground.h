@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What lies on the globe before a triangulation does: coasts, meridians and parallels.
+/// Draws what lies on the globe below a triangulation: coasts, meridians and parallels.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@ struct LineLayer {
   std::vector<std::uint64_t> offsets = {0};
 };
 
-/// Lines of longitude and latitude, such as rondel::coast_lines(), as they are seen.
+/// Returns lines of positions in degrees, such as rondel::coast_lines(), in the view frame.
 LineLayer seen(std::span<const LonLat> positions, std::span<const std::uint64_t> offsets,
                const View& view);
 
 /// The parts of the coasts that are in front, as thin lines.
 void draw_coast(Canvas& canvas, const LineLayer& coast, int size);
 
-/// Meridians and parallels, `step` degrees apart; 0: none.
+/// Draws meridians and parallels, `step` degrees apart; 0: none.
 void draw_graticule(Canvas& canvas, const View& view, int step, int size);
 
 }  // namespace rondel::cli

@@ -12,7 +12,7 @@ namespace {
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-// An option whose values are words.
+// Adds an option whose values are words.
 template <class Value, class Target>
 void add_choice(CLI::App& parser, const std::string& name, Target& target,
                 const Choices<Value>& choices, const std::string& help) {

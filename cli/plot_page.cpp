@@ -13,7 +13,7 @@
 namespace rondel::cli {
 namespace {
 
-// "stations" of "data/stations.csv"; "Sites" of standard input.
+// Returns "stations" for "data/stations.csv" and "Sites" for standard input.
 std::string title_of(const std::string& input) {
   return input == "-" ? "Sites" : std::filesystem::path(input).stem().string();
 }

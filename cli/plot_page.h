@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Pages of `rondel plot`.
+/// Writes pages of `rondel plot` (.html).
 #pragma once
 
 #include "plot_options.h"
 
 namespace rondel::cli {
 
-/// Makes the page. \pre values and contours have their columns.
+/// Makes the page. \pre the columns of values and contours were kept
 ExitStatus run_page(const PlotOptions& options);
 
 }  // namespace rondel::cli

@@ -11,14 +11,14 @@
 namespace rondel::cli {
 namespace {
 
-// Precondition: not negative.
+// Returns the largest integer that is not greater. Precondition: the value is not negative.
 int floor_of(double value) { return static_cast<int>(value); }
 
 std::uint32_t byte(float value) {
   return static_cast<std::uint32_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
 }
 
-// From p to q, turned to the right and as long as `length`; zero if p is q.
+// Returns the vector from p to q turned to the right and scaled to `length`; zero if p is q.
 Spot side_of(const Spot& p, const Spot& q, double length) {
   const double dx = q.x - p.x, dy = q.y - p.y;
   const double norm = std::sqrt(dx * dx + dy * dy);
@@ -121,7 +121,8 @@ void PixelPen::move_to(Spot to) {
 
 void PixelPen::line_to(Spot to) { path_.push_back(place(to)); }
 
-// In lines that are shorter than two pixels or 64: the pieces of an ellipse turn by 30 degrees at most.
+// Draws lines shorter than two pixels, at most 64 of them: pieces of an ellipse turn by at most 30
+// degrees.
 void PixelPen::curve_to(Spot control1, Spot control2, Spot to) {
   const Spot a = path_.back(), b = place(control1), c = place(control2), d = place(to);
   const double length = std::hypot(b.x - a.x, b.y - a.y) + std::hypot(c.x - b.x, c.y - b.y) +
@@ -135,7 +136,8 @@ void PixelPen::curve_to(Spot control1, Spot control2, Spot to) {
   }
 }
 
-// An arc of a chord c leaves the chord by 1 - cos of half of its angle, which is less than c^2 / 4.
+// An arc with a chord c deviates from the chord by 1 - cos of half of its angle, which is less than
+// c^2 / 4.
 bool PixelPen::is_elsewhere(const Point& a, const Point& b, double width) const {
   const double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
   const double reach = (dx * dx + dy * dy + dz * dz) / 4 * radius_ + width + 1;
@@ -168,7 +170,7 @@ void PixelPen::stroke(const Color& color, double width) {
 }
 
 void PixelPen::fill(const Color& color, double rim) {
-  // The side of the outside, for either orientation.
+  // The side of the polygon that is outside, for either orientation.
   const double out = signed_area(std::span<const Spot>(path_)) > 0 ? rim / 2 : -rim / 2;
   outline_.clear();
   for (std::size_t i = 0; i < path_.size(); ++i) {
@@ -184,7 +186,8 @@ void PixelPen::fill(const Color& color, double rim) {
   starts_.clear();
 }
 
-// A polygon of the disc's area, with 16 corners, or 8 where the disc is not much larger than a pixel.
+// Paints a polygon with the area of the disc: with 16 corners, or 8 if the disc is not much larger
+// than a pixel.
 void PixelPen::dot(Spot center, double radius, const Color& color) {
   constexpr std::size_t most = 16;
   static const std::array<Spot, most> unit = [] {

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Very many small shapes as pixels. A drawing library takes each for a shape that may be large.
+/// Paints very many small shapes as pixels, since a drawing library treats each as if it might be
+/// large.
 ///
-/// A shape covers a share of each pixel, and what was painted before shines through the rest:
+/// A shape covers a share of each pixel, and the earlier color shows through the rest:
 ///
 ///     pixel <- pixel (1 - share * alpha) + color (share * alpha)
 ///
-/// The share is the area itself. With F(x, y) the area of the shape in row y to the left of x, that is by
-/// Green's formula a sum over its edges: an edge that rises by dy within a pixel, at the distance m from
-/// the pixel's left side in the mean, adds dy (1 - m) to this pixel and dy to all pixels on its right.
+/// The share is the exact covered area. Let F(x, y) be the area of the shape in row y to the left
+/// of x. By Green's formula it is a sum over the edges: an edge that rises by dy within a pixel, at
+/// the mean distance m from the pixel's left side, adds dy (1 - m) to this pixel and dy to all
+/// pixels on its right.
 #pragma once
 
 #include <array>
@@ -24,25 +26,27 @@
 
 namespace rondel::cli {
 
-/// Some rows of a square layer, transparent at first. Places are in pixels, from the corner at the top
-/// left of the whole layer on.
+/// Some rows of a square layer, transparent at first. Positions are in pixels from the top left
+/// corner of the whole layer.
 class Pixels {
  public:
-  /// The rows from `first_row` to before `past_row`.
+  /// Makes the rows first_row ... past_row - 1.
   Pixels(int size, int first_row, int past_row);
 
   [[nodiscard]] int first_row() const noexcept { return first_row_; }
   [[nodiscard]] int past_row() const noexcept { return past_row_; }
 
-  /// Paints a polygon without holes. What lies outside the whole layer is moved to its border. Which
-  /// rows these are changes nothing in a row. A polygon with a corner that is not finite is none.
+  /// Paints a polygon without holes. The part outside of the whole layer is moved to its border.
+  /// The content of a row does not depend on which rows this object has. A polygon with a corner
+  /// that is not finite is ignored.
   void fill(std::span<const Spot> polygon, const Color& color);
 
-  /// A row as Cairo's ARGB32: alpha in the highest byte, the other components multiplied by it.
+  /// Copies a row in Cairo's format ARGB32: alpha in the highest byte, the other components
+  /// multiplied by it.
   void copy_row(int row, std::span<std::uint32_t> argb) const;
 
  private:
-  /// The pixels that a shape touches.
+  /// The rectangle of pixels that a shape touches.
   struct Window {
     int left, top, columns, rows;
   };
@@ -52,14 +56,14 @@ class Pixels {
 
   int size_, first_row_, past_row_;
   std::vector<std::array<float, 4>> colors_;  // red, green, blue times alpha, and alpha
-  std::vector<Spot> corners_;                 // of the shape at hand
-  std::vector<double> sums_;                  // of its window, with a column more
+  std::vector<Spot> corners_;                 // of the current shape
+  std::vector<double> sums_;                  // of its window, with one more column
 };
 
-/// Paints curves on a layer: the lines of a path, or its area.
+/// Paints curves on a layer, as lines of a path or as its area.
 class PixelPen final : public Pen {
  public:
-  /// The unit disc has this center and radius on the layer.
+  /// The unit disc has this center (x and y) and radius on the layer, in pixels.
   PixelPen(Pixels& pixels, double center, double radius)
       : pixels_(pixels), center_(center), radius_(radius) {}
 
@@ -67,16 +71,16 @@ class PixelPen final : public Pen {
   void line_to(Spot to) override;
   void curve_to(Spot control1, Spot control2, Spot to) override;
 
-  /// Whether nothing of the arc, with a line of this width, is in the rows of the pixels.
+  /// True if no part of the arc, drawn with this width, is in the rows of the pixels.
   [[nodiscard]] bool is_elsewhere(const Point& a, const Point& b, double width) const;
-  /// The same for a disc around a place.
+  /// True if no part of a disc is in the rows of the pixels.
   [[nodiscard]] bool is_elsewhere(Spot center, double radius) const;
 
-  /// Each paints the path and ends it. Lines end where their middle does.
+  /// These paint the path and end it. Lines end without caps.
   void stroke(const Color& color, double width);
-  /// One path, and half of `rim` around it.
+  /// Fills one path, and half of `rim` around it.
   void fill(const Color& color, double rim);
-  /// A disc of this radius, in pixels.
+  /// Paints a disc whose radius is in pixels.
   void dot(Spot center, double radius, const Color& color);
 
  private:
@@ -87,7 +91,7 @@ class PixelPen final : public Pen {
   Pixels& pixels_;
   double center_, radius_;
   std::vector<Spot> path_;           // in pixels
-  std::vector<std::size_t> starts_;  // of its parts
+  std::vector<std::size_t> starts_;  // starts of its parts
   std::vector<Spot> outline_;
 };
 

@@ -19,7 +19,8 @@ using inputs::Input;
 using inputs::Kind;
 using inputs::Recipe;
 
-// The size whose set has as many sites as are wanted; if there is none, a usage error that names the nearest.
+// Returns the size whose set has n sites; if there is none, throws UsageError with the nearest
+// possible numbers.
 template <class CountOf>
 std::size_t size_of_count(std::size_t n, std::size_t least, const CountOf& count_of) {
   std::size_t size = least;

@@ -13,7 +13,7 @@
 namespace rondel::cli {
 
 std::span<const inputs::Kind> point_set_kinds();
-/// One of these or of rondel/inputs; null if there is none of this name.
+/// Returns the kind of this name, among these and those of rondel/inputs; null if there is none.
 const inputs::Kind* find_kind(std::string_view name);
 
 }  // namespace rondel::cli

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the tool asks of the system that runs it: process_posix.cpp, process_windows.cpp.
+/// What the tool needs from the operating system: process_posix.cpp, process_windows.cpp.
 #pragma once
 
 #include <atomic>
@@ -11,26 +11,28 @@
 
 namespace rondel::cli {
 
-/// To be called first. From then on standard streams are files that cannot be mistaken for others,
-/// which carry the same bytes on every system, and what ends the process leaves no temporary file.
+/// Call this first. Afterwards the standard streams are files that cannot be confused with others,
+/// carry the same bytes on every system, and temporary files are removed whatever ends the process.
 void prepare_process();
 
-/// From the first call on: a flag that Ctrl-C sets, instead of ending the process. The second Ctrl-C does that.
+/// Returns a flag that Ctrl-C sets from the first call on, instead of ending the process. A second
+/// Ctrl-C ends it.
 const std::atomic<bool>& interrupted_by_user();
 
-/// The arguments of main(); in UTF-8 on Windows.
+/// Returns the arguments of main(), in UTF-8 on Windows.
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv);
 
-/// Whether standard error is a terminal that obeys the sequence that clears a line.
+/// True if standard error is a terminal that obeys the sequence that clears a line.
 bool has_terminal();
 
-/// The largest resident size of this process so far.
+/// Returns the largest resident size of this process so far.
 std::uint64_t peak_memory_bytes();
 
-/// A library that the system finds by its name or path; nullptr if there is none. It stays loaded.
+/// Loads a library that the system finds by its name or path; returns nullptr if there is none. It
+/// stays loaded.
 void* open_library(const char* name);
 
-/// What a library calls so; nullptr if it has no such name.
+/// Returns the address of a symbol of a library; nullptr if it has none of this name.
 void* symbol_of(void* library, const char* name);
 
 }  // namespace rondel::cli

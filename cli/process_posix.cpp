@@ -17,8 +17,8 @@
 namespace rondel::cli {
 namespace {
 
-// Where a standard stream is closed, a file that is opened later would take its number and
-// receive its text. So it is opened the wrong way round: its use fails, as it should.
+// If a standard stream is closed, a file that is opened later would take its number and receive its
+// text. So it is opened in the wrong direction: using it fails, as it should.
 void guard_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) != -1) continue;
@@ -29,7 +29,7 @@ void guard_standard_streams() {
 
 extern "C" void rondel_remove_temporaries_and_end(int signal) {
   remove_temporaries();
-  std::signal(signal, SIG_DFL);  // which rondel_interrupt() has not
+  std::signal(signal, SIG_DFL);  // rondel_interrupt() does not reset it
   std::raise(signal);
 }
 
@@ -41,8 +41,9 @@ extern "C" void rondel_interrupt(int /*signal*/) {
   std::signal(SIGINT, &rondel_remove_temporaries_and_end);
 }
 
-// What ends the process leaves no temporary file; a reader that goes away (SIGPIPE) ends it
-// silently, as it does other tools. A limit on the size of files is an error, no signal.
+// Makes signals that end the process remove temporary files. SIGPIPE, when a reader goes away, ends
+// it silently, as with other tools. Exceeding a limit of file sizes becomes an error instead of a
+// signal.
 void handle_signals() {
   struct sigaction action {};
   action.sa_handler = &rondel_remove_temporaries_and_end;

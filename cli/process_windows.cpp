@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// After windows.h.
+// This header must come after windows.h.
 #include <psapi.h>
 #include <shellapi.h>
 
@@ -22,14 +22,13 @@ std::string utf8(const wchar_t* text) {
   };
   std::string result(static_cast<std::size_t>(convert(nullptr, 0)), '\0');
   convert(result.data(), static_cast<int>(result.size()));
-  return result;  // with the zero that ends it
+  return result;  // includes the zero that ends it
 }
 
 std::atomic<bool> is_interrupted = false;
 
 extern "C" void rondel_interrupt(int /*signal*/) {
-  is_interrupted =
-      true;  // the second time ends the process: the system has forgotten this function
+  is_interrupted = true;  // the second Ctrl-C ends the process, as the system has reset the handler
 }
 
 }  // namespace
@@ -39,13 +38,13 @@ const std::atomic<bool>& interrupted_by_user() {
   return is_interrupted;
 }
 
-// The system deletes temporary files itself.
+// Temporary files need no handler, since the system deletes them.
 void prepare_process() {
   for (const int stream : {0, 1, 2}) ::_setmode(stream, _O_BINARY);
   ::SetConsoleOutputCP(CP_UTF8);
 }
 
-// Those of main() are in an encoding that cannot name every file.
+// The arguments of main() are in an encoding that cannot name every file.
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv) {
   static std::vector<std::string> texts;
   wchar_t** const wide = ::CommandLineToArgvW(::GetCommandLineW(), &argc);

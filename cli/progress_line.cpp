@@ -13,7 +13,7 @@
 
 namespace rondel::cli {
 
-// Shared by the copies of the callback; the library may call it from several threads.
+// The copies of the callback share this; the library may call them from several threads.
 struct ProgressLine::Screen {
   using Clock = std::chrono::steady_clock;
 

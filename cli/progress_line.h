@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// One line on a terminal that says how far the work is; nothing anywhere else.
+/// A line on a terminal that shows the progress; nothing if there is no terminal.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,10 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Empty where nothing is shown, so that the library does not even call it.
+  /// Returns the callback, which is empty if nothing is shown, so that the library does not call
+  /// it.
   [[nodiscard]] const Progress& callback() const noexcept { return callback_; }
-  /// Leaves the terminal's line blank.
+  /// Clears the terminal's line.
   void clear() noexcept;
 
  private:

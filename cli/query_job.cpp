@@ -14,8 +14,8 @@
 namespace rondel::cli {
 namespace {
 
-// Standard output is CSV where no format is named, and a format of standard input is that of the
-// file which is read from it.
+// Fills in the formats: standard output is CSV if no format is named, and the format of standard
+// input is that of the file which is read from it.
 QueryOptions completed(QueryOptions options) {
   CommonOptions& common = options.common;
   if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
@@ -24,7 +24,7 @@ QueryOptions completed(QueryOptions options) {
   return options;
 }
 
-// The queries are points, whatever the sites are.
+// The queries are points, even if the sites are circles.
 ReadOptions query_options(const QueryOptions& options) {
   ReadOptions read = options.common.read;
   read.radius.clear();

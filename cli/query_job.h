@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What locate and nearest share: two files in, a table of answers out.
+/// What locate and nearest share: they read two files and write a table of answers.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@
 
 namespace rondel::cli {
 
-/// One run: reads both files, triangulates and makes the locator.
+/// One run: reads both files, triangulates the sites and makes the locator.
 class QueryJob {
  public:
-  /// Checks the options before any work. \throws UsageError
+  /// Checks the options before any work. \throws UsageError if they do not fit together
   explicit QueryJob(const QueryOptions& options);
 
   void prepare();
@@ -33,12 +33,13 @@ class QueryJob {
   [[nodiscard]] const Locator& locator() const { return *locator_; }
   [[nodiscard]] Execution execution() const { return job_.execution(); }
 
-  /// Whether the answers go to a .npy file.
+  /// True if the answers go to a .npy file.
   [[nodiscard]] bool is_npy() const;
-  /// Between the fields of a row.
+  /// Returns the separator between the fields of a row.
   [[nodiscard]] char separator() const;
 
-  /// Asks the locator on the clock; names the place of a query that it does not accept.
+  /// Returns question(), timed as a query; the error for an invalid query names its place in the
+  /// file.
   template <class Ask>
   auto ask(const Ask& question) {
     decltype(question()) answers;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// GDAL writes into its memory, so that the file appears whole or not at all.
+// Writes regions by GDAL, first into its memory, so that the file appears whole or not at all.
 #include "region_files.h"
 
 #include <array>
@@ -31,7 +31,7 @@ struct GdalFormat {
 constexpr std::array<GdalFormat, 3> gdal_formats = {
     {{"gpkg", "GPKG"}, {"fgb", "FlatGeobuf"}, {"parquet", "Parquet"}}};
 
-// Of GDAL's enumerations.
+// Values of GDAL's enumerations.
 constexpr int type_multi_polygon = 6, type_polygon = 3;
 constexpr int field_real = 2, field_text = 4, field_integer = 12;
 constexpr int traditional_axes = 0;  // longitude first
@@ -43,7 +43,7 @@ const GdalFormat* format_of(const std::string& format) {
   return nullptr;
 }
 
-// Well-known binary, in this machine's order of bytes.
+// Writes well-known binary (WKB), in the byte order of this machine.
 class WkbWriter {
  public:
   void begin(int type) {
@@ -67,7 +67,7 @@ class WkbWriter {
   std::vector<unsigned char> bytes_;
 };
 
-// The polygons [first, past) as one MultiPolygon.
+// Returns the polygons [first, past) as one MultiPolygon.
 std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t first,
                                   std::size_t past) {
   WkbWriter wkb;
@@ -134,7 +134,8 @@ class GdalFile {
  public:
   GdalFile(const std::string& path, const GdalFormat& format)
       : gdal_(load_gdal(path)), path_(path), name_(std::string("/vsimem/rondel.") + format.ending) {
-    gdal_.set_config_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");  // the same bytes
+    // equal bytes in every run
+    gdal_.set_config_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
     dataset_ = gdal_.create(driver(path, format), name_.c_str(), 0, 0, 0, 0, nullptr);
     require(dataset_ != nullptr);
   }
@@ -167,7 +168,7 @@ class GdalFile {
       types_.push_back(field_type(columns[k]));
       add_field(names[k].c_str(), types_.back());
     }
-    gdal_.start_transaction(dataset_, 0);  // faster, where there are any
+    gdal_.start_transaction(dataset_, 0);  // faster, in formats that have transactions
   }
 
   void add(std::size_t row, double area, std::span<const Column> columns,

@@ -13,15 +13,16 @@
 
 namespace rondel::cli {
 
-/// Whether GDAL is needed for a format, "gpkg".
+/// True if files of this format, such as "gpkg", are written by GDAL.
 bool is_format_of_gdal(const std::string& format);
 
-/// \throws FileError, before any work, if GDAL is not there, or cannot write the format.
+/// \throws FileError, before any work, if GDAL is not installed or cannot write the format
 void require_gdal(const std::string& path, const std::string& format);
 
-/// What write_regions() writes as GeoJSON: a feature for each cell that has rings, with `area` and the columns. All or
-/// nothing; "-" is standard output. Columns of numbers are integers where all of them are.
-/// \throws FileError
+/// Writes what write_regions() writes as GeoJSON: a feature for each cell that has rings, with
+/// `area` and the columns. The file appears whole or not at all; "-" is standard output. A column
+/// of numbers has integers if all of them are integers. \throws FileError if the file cannot be
+/// written
 void write_regions_by_gdal(const std::string& path, const std::string& format,
                            const CellRings& cells, std::span<const Column> columns,
                            double tolerance_deg, const Execution& execution);

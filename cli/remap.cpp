@@ -15,7 +15,7 @@
 namespace rondel::cli {
 namespace {
 
-// One side: its cells, and what the file of weights says of it.
+// The cells of one side, and what the file of weights contains of them.
 struct CellSide {
   Partition partition;
   WeightSide side;
@@ -42,7 +42,7 @@ CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, 
 
 CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& options,
                           const Job& job) {
-  // Features are told by their names, cells by their numbers.
+  // Errors name features by their names, and cells by their numbers.
   const bool is_refused = options.remap.overlap == CellOverlap::error;
   PolygonTable table =
       read_polygons(file,

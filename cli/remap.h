@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the commands for values between sites share, and their options.
+/// The options of the commands that move values between sites or cells, and what these commands
+/// share.
 #pragma once
 
 #include <cstdint>
@@ -42,21 +43,22 @@ struct InterpolateOptions {
   NetcdfOptions netcdf;  ///< --kind --deflate
 };
 
-/// The targets that --to names: a file of points, a netCDF file with cells, a grid or values at places, or "grid:DEG" or "grid:NLONxNLAT", the centers of the
-/// cells of a grid, from -180 eastward and from the south pole northward, longitudes fastest.
+/// The targets that --to names: a file of points; a netCDF file with cells, a grid or values at
+/// places; or "grid:DEG" or "grid:NLONxNLAT", which are the centers of the cells of a grid, from
+/// -180 eastward and from the south pole northward, longitudes varying fastest.
 struct Targets {
-  SiteTable table;  ///< the points, and where they are from
+  SiteTable table;  ///< the points, and where they come from
   WeightSide side;
 };
-/// \throws UsageError for a grid that there cannot be, FileError
+/// \throws UsageError for an impossible grid, FileError for a file that cannot be read
 Targets read_targets(const std::string& name, const ReadOptions& read);
-// The centers of a grid's cells.
+// Returns the centers of a grid's cells, and the shape of the grid.
 WeightSide grid_side(const std::string& name);
-/// Corners and areas of the cells, if the targets are a grid.
+/// Adds the corners and areas of the cells, if the targets are a grid.
 void add_grid_cells(WeightSide& side);
-/// The lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError
+/// Returns the lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError for an impossible grid
 LonLatGrid lonlat_grid(const std::string& name);
-/// Four of each cell, counterclockwise.
+/// Returns the four corners of each cell, counterclockwise.
 std::vector<LonLat> corners_of(const LonLatGrid& grid);
 
 struct RemapCommandOptions {

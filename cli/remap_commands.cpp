@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The arguments and the help of the commands for values between sites.
+// The arguments and the help of the commands that move values between sites or cells.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -36,7 +36,7 @@ void add_weights_input(CLI::App& parser, CommonOptions& options) {
       ->type_name("FORMAT");
 }
 
-// The values of an enumeration by the names that the library gives them.
+// Returns the values of an enumeration by the names that the library gives them.
 template <class Value>
 std::unordered_map<std::string, Value> named_values() {
   std::unordered_map<std::string, Value> values;

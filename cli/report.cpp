@@ -28,7 +28,7 @@ std::string text_of(double seconds) {
   return text;
 }
 
-// What all reports of triangulations tell.
+// The counts that all reports of triangulations contain.
 struct Counts {
   std::uint64_t sites;
   std::uint64_t vertices;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What a finished job tells: a summary for people or one JSON object for programs.
+/// The report of a finished job: a summary for people or one JSON object for programs.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,30 @@
 
 namespace rondel::cli {
 
-/// "projected" or "weighted".
+/// Returns "projected" or "weighted".
 const char* name_of(Model model);
 
-/// "1 site", "2 sites".
+/// Returns "1 site" or "2 sites".
 std::string count(std::size_t number, const std::string& one, const std::string& many);
 
-/// Writes what a reader says of a file to standard error, a line each: "rondel: mesh.nc: 3 of 162 cells are ...".
+/// Writes a reader's remarks on a file to standard error, one a line: "rondel: mesh.nc: 3 of 162
+/// cells are ...".
 void tell(const std::string& file, const std::vector<std::string>& remarks);
 
-/// The JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated` counts
-/// the features of the input that have no geometry.
+/// Returns the JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated`
+/// is the number of features of the input that have no geometry.
 std::string json_report(const Triangulation& triangulation, const Seconds& seconds,
                         std::uint64_t unlocated);
 
-/// The same with what only a hull has: flat, volume, area.
+/// Returns the same, and what only a hull has: flat, volume, area.
 std::string hull_json_report(const Triangulation& hull, const HullSize& size,
                              const Seconds& seconds);
 
-/// A few lines: what was read, what came out, what was written and how long it took.
+/// Returns a few lines: what was read, what resulted, what was written and how long it took.
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output);
 
-/// The same of a run out of core.
+/// Return the same for a run out of core.
 std::string out_of_core_json_report(const OutOfCoreReport& report, Model model,
                                     const Seconds& seconds);
 std::string out_of_core_summary(const OutOfCoreReport& report, Model model, const Seconds& seconds,

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the commands do once their arguments are parsed (plot apart: plot.cpp).
+/// The options of the commands, and the functions that run them after parsing (plot apart:
+/// plot.cpp).
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct DelaunayOptions {
   std::string areas;          ///< --areas; empty: not written
   std::string circumcenters;  ///< --circumcenters; empty: not written
   std::string duplicates;     ///< --duplicates; empty: not written
-  std::string scratch;        ///< --scratch; empty: all in memory
+  std::string scratch;        ///< --scratch; empty: everything in memory
   std::uint64_t memory = 0;   ///< --memory, in bytes; 0: not given
   bool resume = false;        ///< --resume
 };
@@ -30,12 +31,13 @@ struct VoronoiOptions {
   CommonOptions common;
   double tolerance_deg = 0.01;
   std::string clip;        ///< --clip; empty: whole cells
-  std::string clip_value;  ///< --clip-value; empty: what lies in any of the polygons
+  std::string clip_value;  ///< --clip-value; empty: the union of the polygons
   PolygonEdges edges = PolygonEdges::lonlat;
   PolygonOverlap overlap = PolygonOverlap::error;
-  std::string group;           ///< --group; empty: a cell a site
+  std::string group;           ///< --group; empty: one cell a site
   double densify_km = 0;       ///< --densify; 0: the input has sites, otherwise lines and polygons
-  double earth_radius_km = 0;  ///< --earth-radius; 0: not given, and no areas in square kilometres
+  double earth_radius_km = 0;  ///< --earth-radius; 0: not given, and areas are not in square
+                               ///< kilometers
 };
 
 struct HullCommandOptions {
@@ -55,7 +57,7 @@ struct GenerateOptions {
   double angle = 0;  ///< in the unit of the command line; 0: the kind's own
 };
 
-/// What locate and nearest share, and what only nearest has.
+/// The options of locate and nearest; k and within_deg belong to nearest only.
 struct QueryOptions {
   CommonOptions common;
   std::string queries;               ///< QUERIES; "-": standard input
@@ -66,7 +68,7 @@ struct QueryOptions {
 };
 
 ExitStatus run_delaunay(const DelaunayOptions& options);
-/// run_delaunay() with --scratch (out_of_core.cpp).
+/// Runs run_delaunay() with --scratch (out_of_core.cpp).
 ExitStatus run_out_of_core(const DelaunayOptions& options);
 ExitStatus run_voronoi(const VoronoiOptions& options);
 ExitStatus run_hull(const HullCommandOptions& options);

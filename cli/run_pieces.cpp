@@ -34,7 +34,7 @@ void run_pieces(unsigned threads, int count, const std::function<void(int)>& wor
       helpers.emplace_back(run);
     }
   } catch (const std::exception&) {
-    // No memory for one more: those that are there suffice.
+    // There is no memory for another thread; the existing ones suffice.
   }
   run();
   for (std::thread& helper : helpers) helper.join();

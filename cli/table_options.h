@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// How a table of sites is read.
+/// The options that say how to read a table of sites.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,8 @@
 
 namespace rondel::cli {
 
-/// --delimiter, --radius, --lon, --lat, --x, --y, --z and --radians, as add_input_options() has them: for a table that is not INPUT.
+/// Adds --delimiter, --radius, --lon, --lat, --x, --y, --z and --radians like add_input_options(),
+/// for a table that is not INPUT.
 void add_table_options(CLI::App& command, CommonOptions& options);
 
 }  // namespace rondel::cli

@@ -44,7 +44,8 @@ GridSize grid_size(const std::string& text) {
   if (!positive_error(numbers).empty()) refuse(text);
   const double count = 180 / std::stod(numbers);
   const double whole = std::round(count);
-  // One ulp of the step, as of 0.1, and the division's.
+  // The quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the
+  // division.
   if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
       whole > static_cast<double>(most_parallels)) {
     refuse(text);
@@ -53,8 +54,8 @@ GridSize grid_size(const std::string& text) {
   return {2 * num_lat, num_lat};
 }
 
-// The place after `halves` of the 2 n halves of the cells that divide [-half, half]: numerator and
-// denominator are integers, and one division rounds.
+// Returns the position after `halves` of the 2 n half cells that divide [-half, half]. Numerator
+// and denominator are integers, so that only one division rounds.
 double place(std::uint64_t halves, std::uint64_t n, std::int64_t half) {
   const auto count = static_cast<std::int64_t>(n);
   const std::int64_t numerator = (static_cast<std::int64_t>(halves) - count) * half;
@@ -83,8 +84,8 @@ LonLatGrid lines_of(const GridSize& size) {
   return grid;
 }
 
-// Between the parallels at b - h and b + h: the difference of their sines is 2 cos b sin h, twice the y
-// of the place at longitude h and latitude b.
+// Returns the areas of cells between the parallels at b - h and b + h: the difference of their
+// sines is 2 cos b sin h, which is twice the y of the place at longitude h and latitude b.
 std::vector<double> grid_areas(const GridSize& size) {
   std::vector<LonLat> places;
   for (std::uint64_t j = 0; j < size.num_lat; ++j) {

@@ -57,7 +57,8 @@ std::string digits_of_whole(std::string text) {
 
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max) {
   std::uint64_t value = 0;
-  const bool is_octal = text.size() > 1 && text.front() == '0';  // to the parser that follows
+  const bool is_octal = text.size() > 1 && text.front() == '0';  // the parser that follows would
+                                                                 // take it for octal
   if (!is_octal && parse(text, value) && min <= value && value <= max) return {};
   return "'" + text + "' is not a whole number from " + std::to_string(min) + " to " +
          std::to_string(max);
@@ -65,7 +66,8 @@ std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_
 
 namespace {
 
-// 0 where the text is none. Parts are those of a unit: 1.5 bytes are a unit that is forgotten.
+// Returns the number of bytes, or 0 if the text is not valid. A fraction needs a unit: 1.5 bytes
+// are a forgotten unit.
 std::uint64_t parsed_bytes(const std::string& text) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
   const std::string number = text.substr(0, end);

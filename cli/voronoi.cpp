@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel voronoi: whole cells.
+// rondel voronoi with whole cells.
 #include "region_files.h"
 #include "rondel/diagram.h"
 #include "run.h"

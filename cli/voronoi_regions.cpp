@@ -28,7 +28,7 @@
 namespace rondel::cli {
 namespace {
 
-constexpr double mean_earth_radius = 6371.0088;  // kilometres; of WGS 84, (2 a + b) / 3
+constexpr double mean_earth_radius = 6371.0088;  // kilometers; WGS 84, (2 a + b) / 3
 
 std::string_view text_in_row(const Column& column, std::size_t row) {
   const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
@@ -44,7 +44,7 @@ const Column& column_of(const std::vector<Column>& columns, const std::string& f
   return *column;
 }
 
-// Numbers from 0 on, as a column.
+// Returns the numbers 0 ... size - 1 as a column.
 Column index_column(const char* name, std::size_t size) {
   Column column{name, true, {}, {}};
   for (std::size_t i = 0; i < size; ++i) {
@@ -54,7 +54,8 @@ Column index_column(const char* name, std::size_t size) {
   return column;
 }
 
-// Which of a table's rows have the same text, groups in the order in which they come. Rows without a text have none.
+// The rows of a table grouped by their text, groups in the order in which they occur. Rows without
+// a text belong to no group.
 struct Groups {
   std::vector<Index> of_rows;
   Column names;
@@ -79,7 +80,7 @@ Groups groups_of(const Column& column) {
   return groups;
 }
 
-// Areas in square kilometres, in the fewest digits that tell them.
+// Returns areas in square kilometers, in the shortest digits that identify them.
 Column area_column(const CellRings& cells, double radius_km) {
   Column column{"area_km2", true, {}, {}};
   for (const double area : areas(cells)) {
@@ -92,7 +93,7 @@ Column area_column(const CellRings& cells, double radius_km) {
   return column;
 }
 
-// These rows of a column.
+// Returns these rows of a column.
 Column rows_of(const Column& column, std::span<const Index> rows) {
   Column made{column.name, column.is_numeric, {}, {}};
   for (const Index row : rows) {
@@ -104,20 +105,22 @@ Column rows_of(const Column& column, std::span<const Index> rows) {
   return made;
 }
 
-// What is written: cells, or their pieces by what --clip-value says of polygons.
+// What is written: cells, or the pieces into which the values of --clip-value divide them.
 struct Features {
   CellRings rings;
   std::vector<Column> columns;
 };
 
-// Cells of a table, whole or clipped, and what they have in common with the polygons of --clip: one of both.
+// Cells of a table, whole or clipped; or, with --clip-value, their pieces in the polygons. One of
+// both is empty.
 struct Cut {
   CellRings cells;
   RegionPieces pieces;
-  Groups values;  ///< of the polygons
+  Groups values;  ///< values of the polygons
 };
 
-// The columns of the cells are those of the table, after its number, or the name of the group.
+// Makes the features. The columns of the cells are the number in the table and the table's columns,
+// or the name of the group.
 Features features_of(const VoronoiOptions& options, Cut cut, const Groups& groups,
                      std::vector<Column> columns, const Execution& execution) {
   Features made;
@@ -149,7 +152,7 @@ struct Regions {
   Groups values;  ///< by --clip-value
 };
 Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
-  // clip() unites them.
+  // Without --clip-value, clip() unites the polygons.
   PolygonOptions rules{.edges = options.edges};
   if (!options.clip_value.empty()) {
     rules.overlap = options.overlap;
@@ -180,7 +183,7 @@ void write(Job& job, const VoronoiOptions& options, const Features& made) {
   });
 }
 
-// The table's columns after the number of a row.
+// Returns the number of the row and the table's columns.
 std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns) {
   columns.insert(columns.begin(), index_column(name, size));
   return columns;
@@ -262,7 +265,7 @@ std::size_t count_unplaced(const FeatureTable& table) {
   return unplaced;
 }
 
-// Features that have a place and no cell are told.
+// Returns remarks on features that have a place but no cell.
 std::vector<std::string> remarks_on(const FeatureTable& table, const CellRings& cells) {
   std::size_t without = 0;
   std::size_t first = 0;

@@ -11,7 +11,7 @@
 
 namespace rondel::cli {
 
-/// A word for each of the values of an option.
+/// Adds an option that takes one of the words in `choices`.
 template <typename Value>
 void add_word(CLI::App& parser, const std::string& name, Value& target,
               const std::unordered_map<std::string, Value>& choices, const std::string& what) {

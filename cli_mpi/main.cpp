@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel-mpi: triangulations by the processes that mpirun starts. Rank 0 speaks for all.
+// rondel-mpi triangulates by the processes that mpirun starts. Only rank 0 prints.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Arguments {
   bool is_quiet = false;
 };
 
-// The cores of a machine are shared by the ranks that run there.
+// Returns this rank's share of the cores of its machine, which its ranks share.
 unsigned share_of_cores() {
   MPI_Comm neighbors = MPI_COMM_NULL;
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &neighbors);
@@ -89,7 +89,7 @@ int fail(bool is_speaker, ExitStatus status, std::string message) {
   return status;
 }
 
-// What must be the same on all ranks.
+// Returns the arguments that must be the same on all ranks.
 std::string common_part(const Arguments& arguments) {
   const DistributedFiles& files = arguments.files;
   std::string text;
@@ -101,7 +101,7 @@ std::string common_part(const Arguments& arguments) {
   return text;
 }
 
-// Returns whether this rank can begin; where one cannot none does, and one says why.
+// Returns true if all ranks can begin; otherwise one of them reports why.
 bool agree(MpiCommunicator& ranks, const std::string& mine, const std::string& problem) {
   const std::string text = (problem.empty() ? '+' : '-') + mine;
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
@@ -132,7 +132,7 @@ int run(int argc, char** argv) {
   add_delaunay(tool, arguments);
   std::string problem;
   std::string mine;
-  int asked = failed;  // for a text
+  int asked = failed;  // keeps the exit status when a text was asked for
   try {
     tool.parse(argc, argv);
     mine = common_part(arguments);
@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
   int status = rondel::cli::failed;
   try {
     status = rondel::cli::run(argc, argv);
-  } catch (const std::exception& error) {  // of this rank alone: the others cannot go on
+  } catch (const std::exception& error) {  // only this rank failed: the others cannot go on
     std::fprintf(stderr, "rondel-mpi: %s\n", error.what());
     MPI_Abort(MPI_COMM_WORLD, status);
   }
