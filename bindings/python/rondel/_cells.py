@@ -19,20 +19,33 @@ from ._types import FloatArray
 def lonlat_grid(
     nlon: int, nlat: int, *, sides: Sides = "parallels", threads: int | None = None
 ) -> Partition:
-    """The cells of a grid of the whole sphere, equal in degrees.
+    """Makes the cells of a regular longitude-latitude grid of the whole sphere.
 
     Parameters
     ----------
     nlon, nlat : int
-        The number of cells around, from longitude -180 eastward, and from the south pole
-        northward.
-    sides, threads
-        As in `Partition.lonlat_grid`, which takes any lines.
+        The number of cells in a row, from longitude -180 eastward, and of rows, from the south pole
+        northward. Cells are 360 / nlon by 180 / nlat degrees large.
+    sides : {'parallels', 'great_circles'}, optional
+        What the northern and southern sides of cells are: parallels (default), or arcs of great
+        circles between the corners, as in ESMF.
+    threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
 
     Returns
     -------
     Partition
-        Of shape (nlat, nlon). Lines have the digits of an exact division, rounded once.
+        Cells of the shape (nlat, nlon), in C order. Each line is the exact quotient, rounded once.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive.
+
+    See Also
+    --------
+    Partition.lonlat_grid : the same with any lines.
 
     Examples
     --------
@@ -59,16 +72,37 @@ def polygons(
     overlap: PolygonOverlap = "keep",
     threads: int | None = None,
 ) -> Partition:
-    """Polygons as cells, with holes and in several parts, from a file or from another library.
+    """Makes cells of polygons in a file or of another library.
 
     Parameters
     ----------
     areas : path-like, GeoDataFrame, GeoSeries, sequence or mapping
-        The name of a file, as `Partition.read` takes it, or what `Partition.from_geometries`
-        takes.
-    edges, overlap
-        As in `Partition.read`.
+        The polygons, one a cell, which may have holes and several parts: the name of a GeoJSON
+        file; or a GeoDataFrame, a GeoSeries, geometries of shapely, mappings of GeoJSON, or a box
+        of west, south, east and north in degrees, as `Partition.from_geometries` takes them.
+    edges : {'lonlat', 'geodesic'}, optional
+        What joins positions: straight lines in longitude and latitude as in RFC 7946 (default), or
+        great circles.
+    overlap : {'keep', 'error', 'first'}, optional
+        What to do with a place that several polygons contain: 'keep' (default) makes cells that
+        overlap there, 'error' raises an error that names two of them, 'first' gives the place to
+        the first one.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
+
+    Returns
+    -------
+    Partition
+        A cell for each polygon, for `remap` or `SphericalVoronoi.clip`.
+
+    Raises
+    ------
+    ValueError
+        If a geometry is not a polygon, is not valid, or has positions that are no longitudes and
+        latitudes; the message has its number.
+    OSError
+        If the file cannot be read, or one of its polygons is not valid.
 
     Examples
     --------

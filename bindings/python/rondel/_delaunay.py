@@ -30,7 +30,18 @@ from ._winds import VectorInterpolation
 
 
 class Location(NamedTuple):
-    """Where query points are: kinds of place (`Where`), faces and the sites there."""
+    """The answer of `SphericalDelaunay.locate` for query points.
+
+    Attributes
+    ----------
+    where : ndarray of int32, shape (...)
+        What each point lies on, as a value of `Where`: a vertex, an edge, a face or nothing.
+    face : ndarray of int32, shape (...)
+        A face that contains the point; of several the first; -1 outside.
+    sites : ndarray of int32, shape (..., 3)
+        The one, two or three sites of that vertex, edge or face, filled up with -1.
+
+    """
 
     where: IntArray
     face: IntArray
@@ -38,7 +49,18 @@ class Location(NamedTuple):
 
 
 class CheckReport(NamedTuple):
-    """The verdict of an independent check; as a truth value, whether it is valid."""
+    """The verdict of an independent check. Its truth value is `is_valid`.
+
+    Attributes
+    ----------
+    is_valid : bool
+        Whether the faces are the triangulation of the points.
+    reason : str
+        What is wrong, in one line; empty if nothing is.
+    num_vertices, num_edges, num_duplicates, num_hidden : int
+        The numbers of vertices, edges, duplicates and hidden sites that the check has found.
+
+    """
 
     is_valid: bool
     reason: str
@@ -54,43 +76,47 @@ class CheckReport(NamedTuple):
 class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
     """The Delaunay or regular triangulation of points on or close to a sphere.
 
-    Exact for every finite input, and unique: it depends on the set of points alone, not on their
-    order, the number of threads or the machine. Duplicates, points on one circle, in one
-    hemisphere, or a millimetre apart have an answer like all others.
+    It is exact for every finite input and unique: it depends only on the set of points, not on
+    their order, the number of threads or the machine. Degenerate input (duplicates, points on one
+    circle, in one hemisphere, or a millimeter apart) is handled like any other.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        They need not lie on the sphere exactly.
+        Coordinates x, y, z of the sites, in any unit. They need not lie on the sphere exactly.
     model : {'projected', 'weighted'}, optional
-        What a point stands for: its exact projection on the sphere, so that every distinct
-        direction is a vertex; or the circle whose pole it is, so that the result is the convex
-        hull, and points inside are `hidden`.
+        What a point represents. 'projected' (default): its exact projection on the sphere, so that
+        every distinct direction is a vertex. 'weighted': the circle whose pole it is, so that the
+        result is the convex hull, and points inside it are `hidden`.
     radius : float, optional
-        Of the sphere. It matters for weighted sites only.
+        The radius of the sphere, in the unit of the points; by default 1. It changes the results
+        of weighted sites only.
     center : array_like, shape (3,), optional
-        Of the sphere; by default the origin.
+        The center of the sphere; by default the origin.
     threads : int, optional
-        At most so many threads; by default one for each core. The result is the same.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. What it raises ends the work.
+        Called as ``progress(stage, fraction)`` some times a second, with the name of the stage and
+        the fraction of it that is done. An exception that it raises ends the work.
     copy : bool, optional
-        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
-        one that is mapped from a file, is used where it lies. It must not be changed as long as
-        the object lives: results would be wrong, and calls might not end.
+        Whether to copy the points; by default True. With False a C-contiguous array of float64,
+        which may be mapped from a file, is used in place. It must not be changed as long as the
+        object lives: results would be wrong, and calls might not end.
 
     Raises
     ------
     InvalidInput
-        A `ValueError` with the first bad `index`: if a coordinate is not finite, a projected
-        point is the center, or there are more than 715,827,882 points.
+        If a coordinate is not finite, a projected point is the center, or there are more than
+        715,827,882 points. It is a `ValueError` whose `index` is the first bad point.
     KeyboardInterrupt
-        Ctrl-C ends the work within a short time.
+        If the user presses Ctrl-C, within a short time.
 
     Notes
     -----
-    Incremental insertion and exact predicates after Caroli et al. [1]_, section 4; large inputs in
-    certified blocks. Ties (cocircular points) are broken by a symbolic perturbation.
+    The algorithm is incremental insertion with exact predicates, after Caroli et al. [1]_, section
+    4; large inputs are divided into certified blocks. Ties (cocircular points) are broken by a
+    symbolic perturbation.
 
     References
     ----------
@@ -218,25 +244,34 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
         return self._lazy_interpolator
 
     def locate(self, xi: ArrayLike, *, threads: int | None = None) -> Location:
-        """What each query point meets: a vertex, an edge, a face or nothing.
+        """Finds what each query point lies on: a vertex, an edge, a face or nothing.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
-            Only directions from the center of the sphere count.
+            Query points; only their directions from the center of the sphere are used.
         threads : int, optional
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
         Location
             `where` (a `Where`), `face` (of several the first; -1 outside) and `sites`, one for a
-            vertex, two for an edge, three for a face, filled up with -1. Shapes (...), (...) and
-            (..., 3).
+            vertex, two for an edge, three for a face, filled up with -1. Their shapes are (...),
+            (...) and (..., 3).
 
         Raises
         ------
         InvalidInput
             If a query is not finite or is the center.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+        >>> found = tri.locate([[0, 2, 0], [1, 1, 0]])
+        >>> found.sites.tolist()
+        [[1, -1, -1], [0, 1, -1]]
 
         """
         queries, shape = as_queries(xi)
@@ -244,43 +279,59 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
         return Location(where.reshape(shape)[()], face.reshape(shape)[()], sites.reshape(*shape, 3))
 
     def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
-        """The face that each query point lies in, as `scipy.spatial.Delaunay.find_simplex`.
+        """Finds the face that contains each point, like `scipy.spatial.Delaunay.find_simplex`.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
         threads : int, optional
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
         ndarray of int32, shape (...)
-            -1 where there is no face: outside of sites that do not surround the center, and below
-            dimension 2. On edges and vertices the first of the faces there.
+            Rows of `simplices`. For points on edges and vertices, the first of the faces there; -1
+            where there is no face: outside of sites that do not surround the center, and below
+            dimension 2.
+
+        Raises
+        ------
+        InvalidInput
+            If a query is not finite or is the center.
 
         """
         return self.locate(xi, threads=threads).face
 
     def conflict_region(self, point: ArrayLike) -> IntArray:
-        """The faces that would go if a point were inserted, in increasing order.
+        """Finds the faces that inserting a point would remove.
 
         Parameters
         ----------
         point : array_like, shape (3,)
+            The point; for model 'projected' only its direction is used.
 
         Returns
         -------
-        ndarray of int32
+        ndarray of int32, shape (k,)
+            Rows of `simplices` whose circles contain the point, in increasing order.
+
+        Raises
+        ------
+        InvalidInput
+            If the point is not finite or is the center.
 
         """
         return self._locator().conflict_region(tuple(as_floats(point, "point").tolist()))
 
     def voronoi(self) -> Diagram[SphericalDelaunay]:
-        """The dual of this triangulation.
+        """Returns the Voronoi or power diagram, which is the dual of this triangulation.
 
         Returns
         -------
         SphericalVoronoi or PowerDiagram
-            Nothing is triangulated again. Duplicates are merged.
+            A diagram that shares this triangulation. The first of duplicates has the cell; the
+            cells of the others are empty.
 
         """
         return Diagram._of(self)
@@ -288,10 +339,16 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
     def validate(self, *, threads: int | None = None) -> CheckReport:
         """Proves or refutes, by another algorithm, that this is the triangulation of the points.
 
+        Parameters
+        ----------
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
         Returns
         -------
         CheckReport
-            True or False; `reason` says in one line what is wrong.
+            It is true if the triangulation is right; otherwise `reason` says in one line what is
+            wrong.
 
         """
         t = self._triangulation
@@ -332,21 +389,63 @@ def delaunay(
     progress: Progress = None,
     copy: bool = True,
 ) -> SphericalDelaunay:
-    """The Delaunay triangulation of points on or close to a sphere: see `SphericalDelaunay`.
+    """Computes the Delaunay or regular triangulation of points on or close to a sphere.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
+        Coordinates x, y, z of the sites, in any unit. They need not lie on the sphere exactly.
     model : {'projected', 'weighted'}, optional
+        What a point represents. 'projected' (default): its exact projection on the sphere, which
+        gives the Delaunay triangulation. 'weighted': the circle whose pole it is, which gives the
+        regular triangulation; points without a cell are `hidden`.
     radius : float, optional
+        The radius of the sphere, in the unit of the points; by default 1. It changes the results
+        of weighted sites only.
     center : array_like, shape (3,), optional
+        The center of the sphere; by default the origin.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second, with the name of the stage and
+        the fraction of it that is done. An exception that it raises ends the work.
     copy : bool, optional
+        Whether to copy the points; by default True. With False a C-contiguous array of float64 is
+        used in place, and must not be changed as long as the result lives.
 
     Returns
     -------
     SphericalDelaunay
+        The triangulation; `simplices` are its faces.
+
+    Raises
+    ------
+    InvalidInput
+        If a coordinate is not finite, a projected point is the center, or there are more than
+        715,827,882 points. It is a `ValueError` whose `index` is the first bad point.
+    KeyboardInterrupt
+        If the user presses Ctrl-C, within a short time.
+
+    See Also
+    --------
+    delaunay_lonlat : the same for longitudes and latitudes in degrees.
+    power_diagram : the same for circles.
+
+    Notes
+    -----
+    The algorithm is that of Caroli et al., "Robust and Efficient Delaunay Triangulations of Points
+    on Or Close to a Sphere", SEA 2010, section 4; see `SphericalDelaunay`.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> octahedron = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]]
+    >>> tri = rondel.delaunay(octahedron)
+    >>> tri
+    <rondel.SphericalDelaunay: 6 points, 8 faces, projected>
+    >>> tri.simplices.shape, tri.edges.shape
+    ((8, 3), (12, 2))
 
     """
     return SphericalDelaunay(
@@ -363,24 +462,36 @@ def delaunay(
 def delaunay_lonlat(
     lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None, progress: Progress = None
 ) -> SphericalDelaunay:
-    """The Delaunay triangulation of longitudes and latitudes in degrees.
+    """Computes the Delaunay triangulation of longitudes and latitudes in degrees.
 
     Parameters
     ----------
     lon, lat : array_like, shape (n,)
-        Degrees; latitudes from -90 to 90. Arrays of more dimensions are flattened.
+        Longitudes and latitudes of the sites in degrees. Longitudes may be any finite numbers,
+        latitudes are from -90 to 90. Arrays of more dimensions are flattened.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     SphericalDelaunay
-        Its `points` are the unit vectors, its `lonlat` the degrees as given.
+        The triangulation on the unit sphere. Its `points` are unit vectors, its `lonlat` the
+        degrees as given.
 
     Raises
     ------
     InvalidInput
-        If an angle is not finite or a latitude is outside [-90, 90].
+        If an angle is not finite or a latitude is outside [-90, 90]; its `index` is the first bad
+        site.
+
+    Notes
+    -----
+    Unit vectors have the same bits on every machine, and multiples of 90 degrees are exact. All
+    sites at a pole are in one place, whatever their longitudes.
 
     Examples
     --------

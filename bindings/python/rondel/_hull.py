@@ -13,30 +13,38 @@ from ._types import ArrayLike, Progress
 
 
 class ConvexHull(Mesh):
-    """The convex hull of points in space: exact and unique, also if it is flat.
+    """The convex hull of points in space, exact and unique even if it is flat.
 
-    The vertices are exactly the extreme points: no point of a facet or an edge that is not a
-    corner. All other points are `hidden`. Points in one plane have a `ring`, the corners of their
-    polygon, and no faces.
+    The vertices are exactly the extreme points; a point inside a facet or an edge is no vertex. All
+    points that are no vertices are `hidden`. If the points lie in one plane, the hull has a `ring`,
+    the corners of its polygon, and no faces.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
+        Coordinates x, y, z of the points, in any unit.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
     copy : bool, optional
-        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
-        one that is mapped from a file, is used where it lies. It must not be changed as long as
-        the object lives: results would be wrong, and calls might not end.
+        Whether to copy the points; by default True. With False a C-contiguous array of float64,
+        which may be mapped from a file, is used in place. It must not be changed as long as the
+        object lives: results would be wrong, and calls might not end.
 
     Raises
     ------
     InvalidInput
-        If a coordinate is not finite.
+        If a coordinate is not finite, or there are more than 715,827,882 points. It is a
+        `ValueError` whose `index` is the first bad point.
 
     Notes
     -----
-    The second approach of Caroli et al., SEA 2010, section 4.2.
+    The algorithm is the second approach of Caroli et al., "Robust and Efficient Delaunay
+    Triangulations of Points on Or Close to a Sphere", SEA 2010, section 4.2: the hull is the
+    regular triangulation of weighted sites.
 
     Examples
     --------
@@ -68,12 +76,14 @@ class ConvexHull(Mesh):
 
     @property
     def volume(self) -> float:
-        """float: the volume; 0 of a flat hull."""
+        """float: the volume in the cubed unit of the points; 0 for a flat hull."""
         return self._size[0]
 
     @property
     def area(self) -> float:
-        """float: the surface area; of a flat hull both sides of the polygon together."""
+        """float: the surface area in the squared unit of the points; for a flat hull that of both
+        sides of the polygon.
+        """
         return self._size[1]
 
 
@@ -84,18 +94,45 @@ def convex_hull(
     progress: Progress = None,
     copy: bool = True,
 ) -> ConvexHull:
-    """The convex hull of points in space: see `ConvexHull`.
+    """Computes the convex hull of points in space.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
+        Coordinates x, y, z of the points, in any unit.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
     copy : bool, optional
+        Whether to copy the points; by default True. With False a C-contiguous array of float64 is
+        used in place, and must not be changed as long as the result lives.
 
     Returns
     -------
     ConvexHull
+        The hull; `simplices` are its triangles, `facets` its polygons, `vertices` its corners.
+
+    Raises
+    ------
+    InvalidInput
+        If a coordinate is not finite, or there are more than 715,827,882 points. It is a
+        `ValueError` whose `index` is the first bad point.
+
+    Notes
+    -----
+    See `ConvexHull` for the algorithm.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> hull = rondel.convex_hull([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.1, 0.1, 0.1]])
+    >>> hull
+    <rondel.ConvexHull: 5 points, 1 hidden, 4 faces>
+    >>> hull.vertices.tolist()
+    [0, 1, 2, 3]
 
     """
     return ConvexHull(points, threads=threads, progress=progress, copy=copy)

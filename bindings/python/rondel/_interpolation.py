@@ -70,7 +70,10 @@ def as_vectors(values: ArrayLike, num_sites: int, name: str) -> FloatArray:
 
 
 class Interpolation:
-    """Values between the sites of a triangulation. Targets stand for rays from the center."""
+    """Interpolation of values at the sites of a triangulation.
+
+    Targets are points in space; only their directions from the center of the sphere are used.
+    """
 
     @property
     def npoints(self) -> int:
@@ -95,42 +98,62 @@ class Interpolation:
         threads: int | None = None,
         progress: Progress = None,
     ) -> Weights:
-        """What makes values at targets of values at the sites, for any number of fields.
+        """Computes the weights that interpolate any number of fields at targets.
 
         Parameters
         ----------
         targets : array_like, shape (..., 3)
-            Only directions from the center of the sphere count. Of degrees:
-            ``rondel.unit_vectors(lon, lat)``.
-        method : str, optional
-            'nearest'; 'linear' in the triangles; 'laplace' and 'sibson' of all natural neighbors;
-            'hermite' (these, with gradients) and 'cubic' (smooth), which estimate gradients.
+            Where values are wanted; only directions from the center of the sphere are used. For
+            degrees use ``rondel.unit_vectors(lon, lat)``.
+        method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
+            'nearest': the nearest site. 'linear': linear in each triangle. 'laplace' and 'sibson'
+            (default): natural neighbors. 'hermite': natural neighbors with estimated gradients.
+            'cubic': smooth cubic polynomials with estimated gradients.
         outside : {'nan', 'nearest', 'error'}, optional
-            What a target gets that no face of the sites has: nothing, what the nearest site has,
-            or an `InvalidInput`.
+            What to do with a target that lies in no face: 'nan' (default) leaves its row empty,
+            'nearest' takes the nearest site, 'error' raises `InvalidInput`.
         duplicates : {'first', 'mean', 'error'}, optional
-            Which value counts where several sites are in one place.
+            Which value counts if several sites share a place: that of the first site (default),
+            the mean of all, or none, which is an error.
         normalization : {'unity', 'homogeneous'}, optional
-            Whether the weights of a target have the sum 1, so that constants come back, or give
-            its unit vector if they are applied to those of the sites, so that x, y, z come back:
-            'linear', 'laplace' and 'sibson' alone.
+            'unity' (default): the weights of a target have the sum 1, so that constants are
+            reproduced. 'homogeneous': the weights times the sites' unit vectors have the target's
+            unit vector as their sum, so that x, y and z are reproduced; for 'linear', 'laplace'
+            and 'sibson' only.
         rings : int, optional
-            Gradients are estimated from sites up to so many edges away.
+            Gradients are estimated from the sites up to this many edges away; by default 2, at
+            most 100.
         threads : int, optional
-            At most so many; by default one for each core. The result is the same.
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
         progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second.
+            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+            ends the work.
 
         Returns
         -------
         Weights
-            A row for each target, in C order.
+            A sparse matrix with a row for each target, in C order, and a column for each site.
 
         Raises
         ------
         InvalidInput
-            If a target is not finite or is the center, with `index`, or because of 'error'; or if
-            the model is 'weighted' and the method not 'nearest'.
+            If a target is not finite or is the center, or because of 'error', with its `index`; or
+            if the model is 'weighted' and the method is not 'nearest'.
+
+        Notes
+        -----
+        'linear' is Renka, ACM TOMS 23, 1997; 'laplace' is Christ, Friedberg and Lee 1982; 'sibson'
+        is Sibson 1981, on the sphere; 'cubic' is the Clough-Tocher element of Alfeld, Neamtu and
+        Schumaker, J. Comput. Appl. Math. 73, 1996. See docs/theory/interpolation.md.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+        >>> weights = tri.weights([[1, 1, 0], [1, 1, 1]], "linear")
+        >>> weights.apply([10, 20, 30, 40]).round(9).tolist()
+        [15.0, 20.0]
 
         """
         rays, _ = as_targets(targets)
@@ -153,30 +176,44 @@ class Interpolation:
         threads: int | None = None,
         progress: Progress = None,
     ) -> FloatArray:
-        """Values at targets. For many calls with the same targets `weights` is faster.
+        """Interpolates values at targets.
+
+        If the same targets are used for many calls, `weights` is faster.
 
         Parameters
         ----------
         values : array_like, shape (..., n)
-            A value for each site; more axes are more fields, such as time steps.
+            A value for each site; further axes, such as time, come first.
         targets : array_like, shape (..., 3)
-        method : str, optional
+            Where values are wanted; only directions from the center of the sphere are used.
+        method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
+            As in `weights`; by default 'sibson'.
         gradients : array_like, shape (..., n, 3), optional
-            For 'hermite' and 'cubic' the tangent gradient of each value, in its unit a radian,
-            instead of an estimate.
+            The tangent gradient of each value, in the unit of the values per radian, which
+            'hermite' and 'cubic' use instead of an estimate.
         outside, duplicates, normalization, rings, threads, progress
             As in `weights`.
 
         Returns
         -------
         ndarray of float64
-            The shape of the values without the last axis, then that of the targets without
-            theirs. NaN where there is no value, and where it needs one that is NaN.
+            An array whose shape is that of the values without the last axis, then that of the
+            targets without theirs. It is NaN where there is no value, and where a value that is
+            needed is NaN.
 
         Raises
         ------
         InvalidInput
-            As `weights`.
+            As in `weights`.
+        ValueError
+            If the last axis of the values is not n.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+        >>> tri.interpolate([10, 20, 30, 40], [[1, 1, 0], [0, 0, 5]], "linear").round(9).tolist()
+        [15.0, 30.0]
 
         """
         fields = as_fields(values, self.npoints)
@@ -205,25 +242,44 @@ class Interpolation:
         threads: int | None = None,
         progress: Progress = None,
     ) -> FloatArray:
-        """The gradients at the sites, estimated from the values around them.
+        """Estimates the gradients at the sites from the values around them.
 
         Parameters
         ----------
         values : array_like, shape (..., n)
+            A value for each site; further axes, such as time, come first.
         rings : int, optional
-            The sites up to so many edges away count.
+            The sites up to this many edges away are used; by default 2, at most 100.
         undetermined : {'zero', 'missing'}, optional
-            Where the sites around one do not determine the slope across a line, as on a track, it
-            is 0 across and estimated along the line, or the gradient is NaN.
+            What to do where the neighbors of a site do not determine the slope across a line, as
+            on a track. 'zero' (default): the slope across the line is 0, that along it is
+            estimated. 'missing': the gradient is NaN.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
         progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+            ends the work.
 
         Returns
         -------
         ndarray of float64, shape (..., n, 3)
-            Tangent vectors, in units of the values a radian; divide by the radius for units a
-            length. NaN where there is none: below dimension 2, around missing values, and as
+            Tangent vectors in the unit of the values per radian; divide by the radius for a unit
+            per length. They are NaN below dimension 2, around missing values, and as
             `undetermined` says.
+
+        Notes
+        -----
+        The gradient is that of a polynomial of degree up to 3 that is fitted to the neighbors by
+        weighted least squares; see docs/theory/cubic.md.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> x = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]]
+        >>> tri = rondel.delaunay(x)
+        >>> tri.gradient([0, 0, 1, 0, 0, -1]).shape
+        (6, 3)
 
         """
         fields = as_fields(values, self.npoints)

@@ -46,20 +46,34 @@ def _as_rays(xi: tuple[Any, ...]) -> FloatArray:
 
 
 class SphericalInterpolator(Described):
-    """Values between points on the sphere, as `scipy.interpolate.LinearNDInterpolator`.
+    """An interpolator on the sphere, called like `scipy.interpolate.LinearNDInterpolator`.
 
     Parameters
     ----------
     points : tuple of array_like, array_like or SphericalDelaunay
-        A tuple (lon, lat) or rows of two numbers are degrees; rows of three are points in space.
+        The n sites: a tuple (lon, lat) or an array of shape (n, 2) in degrees; an array of shape
+        (n, 3) of points in space; or a triangulation.
     values : array_like, shape (..., n)
-        A value for each point; more axes, such as time, come first.
-    method : str, optional
-        'nearest', 'linear', 'laplace', 'sibson', 'hermite' or 'cubic'.
+        A value for each site; further axes, such as time, come first.
+    method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
+        As in `SphericalDelaunay.weights`; by default 'sibson'.
     fill_value : float, optional
-        The value outside of points that do not surround the center of the sphere.
+        The value at targets that lie in no face, which exist only if the sites do not surround the
+        center of the sphere; by default NaN.
     **options
-        As in `SphericalDelaunay.interpolate`.
+        The options `gradients`, `outside`, `duplicates`, `normalization`, `rings`, `threads` and
+        `progress` of `SphericalDelaunay.interpolate`.
+
+    Raises
+    ------
+    InvalidInput
+        If a coordinate of a site is not finite, or a latitude is outside [-90, 90].
+    ValueError
+        If shapes do not match, or there is no such method.
+
+    Notes
+    -----
+    Methods and their sources are those of `SphericalDelaunay.weights`.
 
     Examples
     --------
@@ -92,22 +106,28 @@ class SphericalInterpolator(Described):
 
     @property
     def triangulation(self) -> SphericalDelaunay:
-        """SphericalDelaunay: that of the points."""
+        """SphericalDelaunay: the triangulation of the sites."""
         return self._triangulation
 
     def __call__(self, *xi: Any) -> FloatArray:
-        """The values at places.
+        """Interpolates the values at targets.
 
         Parameters
         ----------
         *xi : array_like
-            ``f(lon, lat)`` in degrees, broadcast against each other; or one array of shape (..., 2)
-            in degrees, or (..., 3) in space.
+            The targets: ``f(lon, lat)`` in degrees, broadcast against each other; or one array of
+            shape (..., 2) in degrees, or (..., 3) in space.
 
         Returns
         -------
         ndarray of float64
-            The shape of the values without the last axis, then that of the places.
+            An array whose shape is that of the values without the last axis, then that of the
+            targets.
+
+        Raises
+        ------
+        InvalidInput
+            If a target is not finite, is the center, or has a latitude outside [-90, 90].
 
         """
         rays = _as_rays(xi)
@@ -138,30 +158,42 @@ def interpolate(
     method: Method = "sibson",
     **options: Any,
 ) -> FloatArray:
-    """Values at longitudes and latitudes, from values at others, in one call.
+    """Interpolates values from longitudes and latitudes to others in one call.
 
     Parameters
     ----------
     lon, lat : array_like, shape (n,)
-        Where the values are, in degrees. Arrays of more dimensions are flattened.
+        The sites of the values in degrees. Arrays of more dimensions are flattened.
     values : array_like, shape (..., n)
-        More axes, such as time, come first. Values of the shape of `lon` are flattened, too.
+        A value for each site; further axes, such as time, come first. If `lon` has more
+        dimensions, the last axes of the values have its shape and are flattened too.
     to_lon, to_lat : array_like
-        Where they are wanted; broadcast against each other: ``lon[None, :]``, ``lat[:, None]`` for
-        a grid.
-    method : str, optional
+        The targets in degrees, broadcast against each other: for a grid pass ``lon[None, :]`` and
+        ``lat[:, None]``.
+    method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
+        As in `SphericalDelaunay.weights`; by default 'sibson'.
     **options
-        As in `SphericalDelaunay.interpolate`.
+        The options `gradients`, `outside`, `duplicates`, `normalization`, `rings`, `threads` and
+        `progress` of `SphericalDelaunay.interpolate`.
 
     Returns
     -------
     ndarray of float64
-        The other axes of the values, then those of the targets.
+        An array whose shape is that of the other axes of the values, then that of the targets. It
+        is NaN at targets that lie in no face, which exist only if the sites do not surround the
+        sphere.
 
     Raises
     ------
     InvalidInput
         If an angle is not finite or a latitude is outside [-90, 90].
+    ValueError
+        If shapes do not match, or there is no such method.
+
+    See Also
+    --------
+    SphericalInterpolator : for several calls with the same sites.
+    Regridder : from grid to grid, with cells and masks.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Points that are moved to make a mesh, and weights that give cells their areas."""
+"""Centroidal tessellations, and power cells with prescribed areas."""
 
 from __future__ import annotations
 
@@ -21,10 +21,19 @@ Density: TypeAlias = Callable[[FloatArray], ArrayLike]
 
 
 class Defects(NamedTuple):
-    """What a model does not run on, or badly.
+    """The defects of a mesh, on which models fail or run badly.
 
-    ``odd_cells`` have other than 5, 6 or 7 sides; ``short_edges`` are shorter than 0.0505 of the
-    distance of their cells, ``least_edge_ratio`` is the least of these ratios.
+    Attributes
+    ----------
+    odd_cells : int
+        The number of cells with other than 5, 6 or 7 sides.
+    short_edges : int
+        The number of edges that are shorter than 0.0505 times the distance of their cells.
+    obtuse_triangles : int
+        The number of obtuse triangles.
+    least_edge_ratio : float
+        The least ratio of the length of an edge to the distance of its cells.
+
     """
 
     odd_cells: int
@@ -36,9 +45,23 @@ class Defects(NamedTuple):
 class ScvtReport(NamedTuple):
     """How the work on a centroidal tessellation ended: `Mesh.report`.
 
-    ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
-    Offsets are those before the repair, which found ``defects_before``, left ``defects_after``,
-    and moved so many sites. On lines and beside them so many places were ``left_out``.
+    Attributes
+    ----------
+    end : str
+        "converged", "iterations" (`max_steps` was reached), or "stuck" (rounding allows no further
+        progress).
+    steps : int
+        The number of steps of the last level.
+    mean_offset, largest_offset : float
+        The mean and largest distance of sites from the centroids of their cells before the repair,
+        in units of the spacing.
+    defects_before, defects_after : Defects
+        The defects before and after the repair.
+    moved : int
+        The number of sites that the repair moved.
+    left_out : int
+        The number of places on lines and beside them that were too close to others.
+
     """
 
     end: str
@@ -52,11 +75,26 @@ class ScvtReport(NamedTuple):
 
 
 class Partition(NamedTuple):
-    """What `partition` finds.
+    """The result of `partition`.
 
-    ``points`` are weighted sites, ``rondel.delaunay(points, model="weighted")``, whose power cells
-    have the ``areas``; ``weights`` are their lengths. ``end`` is ``"converged"``, ``"rounded"``
-    where doubles bring them no nearer, ``"iterations"`` or ``"infeasible"``; ``reason`` says why.
+    Attributes
+    ----------
+    points : ndarray of float64, shape (n, 3)
+        Weighted sites for ``rondel.delaunay(points, model="weighted")``, whose power cells have the
+        areas.
+    weights : ndarray of float64, shape (n,)
+        The lengths of the points.
+    areas : ndarray of float64, shape (n,)
+        The areas of the power cells in steradians.
+    end : str
+        "converged", "rounded" (doubles allow no smaller error), "iterations" or "infeasible".
+    steps : int
+        The number of steps.
+    largest_error : float
+        The largest relative error of an area.
+    reason : str
+        Why the areas are not those that were prescribed; empty if they are.
+
     """
 
     points: FloatArray
@@ -163,27 +201,30 @@ def partition(
     tolerance: float = 1e-12,
     threads: int | None = None,
 ) -> Partition:
-    """Weights of points whose power cells have prescribed areas.
+    """Computes weights of points whose power cells have prescribed areas.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        The sites; only their directions count.
+        The sites; only their directions from the origin are used.
     areas : array_like, shape (n,), optional
-        In any unit: they are scaled to the sphere. By default all are equal.
+        The wanted areas in any unit; they are scaled such that their sum is the area of the sphere.
+        By default all are equal.
     tolerance : float, optional
-        The largest relative error of an area.
+        The largest relative error of an area; by default 1e-12.
     threads : int, optional
-        At most so many threads; by default one for each core.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
 
     Returns
     -------
     Partition
+        Weighted sites, the areas of their cells, and how the work ended.
 
     Raises
     ------
     InvalidInput
-        For points in one place and areas that are not positive.
+        If two points are in one place, or an area is not positive. Its `index` is the site.
     ValueError
         If the tolerance is not positive and finite.
 

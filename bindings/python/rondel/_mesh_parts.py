@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Parts of meshes: which cells are removed, places that sites keep, and pictures."""
+"""Removed cells, fixed sites and pictures of meshes."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Lines: TypeAlias = Path | Sequence[ArrayLike] | Any
 
 
 class Drawn(Protocol):
-    """What a picture is drawn of: a `rondel.mesh.Mesh`."""
+    """The parts of a `rondel.mesh.Mesh` from which a picture is drawn."""
 
     _arrays: _core.MeshArrays
 
@@ -47,7 +47,7 @@ def removed_cells(
     edges: Edges,
     threads: int | None,
 ) -> np.ndarray[Any, np.dtype[np.uint8]]:
-    """1 for each cell that goes."""
+    """Returns 1 for each cell that is removed, else 0."""
     if mask is None and inside is None and outside is None:
         raise TypeError("cull() needs mask, inside or outside")
     removed = np.zeros(len(points), bool)
@@ -78,7 +78,7 @@ def fixed_points(
     gradient: float,
     threads: int | None,
 ) -> tuple[FloatArray, int]:
-    """Places that are sites, and how many on lines and beside them are left out."""
+    """Returns the fixed places, and the number of those on and beside lines that are left out."""
     rules = count, spacings, steps, gradient, as_threads(threads)
 
     def read(features: Any, places: Callable[[str, bool, int], list[FloatArray]]) -> Any:
@@ -133,24 +133,27 @@ def plot_mesh(
     Parameters
     ----------
     values : array_like, shape (n,), optional
-        A number for each cell, shown as its color.
+        A number for each cell, shown as its color; by default cells are not filled.
     ax : matplotlib.axes.Axes, optional
-        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+        The axes to draw on; by default new ones of Cartopy if it is installed, and otherwise with
+        longitude and latitude as coordinates.
     projection : cartopy.crs.CRS, optional
-        Of new axes; by default Robinson.
+        The projection of new axes; by default Robinson.
     sites : bool, optional
-        Whether to draw the sites.
+        Whether to draw the sites; by default False.
     coast : bool, optional
-        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the edges.
+        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the edges; by
+        default False.
     cmap, vmin, vmax
-        Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
-        ``colorbar`` takes.
+        Color map and range of the values, as in Matplotlib. Pass ``ax.collections[0]`` to
+        ``colorbar``.
     **options
-        For the `matplotlib.collections.LineCollection` of the edges.
+        Options of the `matplotlib.collections.LineCollection` of the edges.
 
     Returns
     -------
     matplotlib.axes.Axes
+        The axes.
 
     Raises
     ------

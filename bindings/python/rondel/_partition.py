@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Partitions of the sphere into cells, prepared to be laid over each other."""
+"""Sets of cells on the sphere, prepared for remapping."""
 
 from __future__ import annotations
 
@@ -20,7 +20,21 @@ from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 class Partition(FileCells, Described):
     """Cells on the sphere: of a diagram, a triangulation, a grid, a model's mesh, or polygons.
 
-    Made once by one of the class methods, and laid over others by `remap`.
+    The class methods make it; `remap` and `SphericalVoronoi.clip` use it. Cells may cover the whole
+    sphere or parts of it, and may overlap.
+
+    Attributes
+    ----------
+    num_cells : int
+        The number of cells, n.
+    areas : ndarray of float64, shape (n,)
+        The areas of the cells in steradians.
+    centers : ndarray of float64, shape (n, 3)
+        Unit vectors to the centers of mass.
+    shape : tuple of int
+        The shape of a grid, (nlat, nlon); otherwise (n,).
+    mask : ndarray of bool, shape (n,)
+        Which cells take part in remapping.
 
     Examples
     --------
@@ -36,18 +50,26 @@ class Partition(FileCells, Described):
 
     @classmethod
     def voronoi(cls, sites: Any, *, threads: int | None = None) -> Partition:
-        """The Voronoi cells of sites, or power cells.
+        """Makes the Voronoi cells, or power cells, of sites.
 
         Parameters
         ----------
         sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
+            The sites: a triangulation or a diagram.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         Partition
-            Cell i is that of site i; duplicates and hidden sites have empty ones. Corners are
+            Cell i belongs to site i; duplicates and hidden sites have empty cells. Corners are
             circumcenters rounded to doubles.
+
+        Raises
+        ------
+        TypeError
+            If `sites` is neither a triangulation nor a diagram.
 
         """
         made = _core.Partition.voronoi(_triangulation_of(sites), as_threads(threads))
@@ -55,12 +77,25 @@ class Partition(FileCells, Described):
 
     @classmethod
     def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
-        """The faces that are no ghosts, in their order.
+        """Makes the triangles of a triangulation: its faces without ghosts, in their order.
 
         Parameters
         ----------
         sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
+            The triangulation, or a diagram that has it.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        Partition
+            A cell for each face that is no ghost.
+
+        Raises
+        ------
+        TypeError
+            If `sites` is neither a triangulation nor a diagram.
 
         """
         made = _core.Partition.triangles(_triangulation_of(sites), as_threads(threads))
@@ -75,28 +110,37 @@ class Partition(FileCells, Described):
         sides: Sides = "parallels",
         threads: int | None = None,
     ) -> Partition:
-        """The cells of a grid, by its lines.
+        """Makes the cells of a grid from its lines.
 
         Parameters
         ----------
         lon : array_like, shape (nlon + 1,)
-            The meridians in degrees, increasing or decreasing by 360 at most.
+            The meridians between cells in degrees, increasing or decreasing by at most 360 in all.
         lat : array_like, shape (nlat + 1,)
-            The parallels in degrees, increasing or decreasing.
+            The parallels between cells in degrees, increasing or decreasing.
         sides : {'parallels', 'great_circles'}, optional
-            The northern and southern sides of cells: parallels, or the shortest ways between the
-            corners, as ESMF has them.
+            What the northern and southern sides of cells are: parallels (default), or arcs of great
+            circles between the corners, as in ESMF.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         Partition
-            Of shape (nlat, nlon); the cells of a row follow each other.
+            Cells of the shape (nlat, nlon), in C order.
 
         Raises
         ------
         InvalidInput
-            If a line is out of order, or no longitude or latitude.
+            If a line is out of order, is not finite, or is a latitude outside [-90, 90].
+
+        Examples
+        --------
+        >>> import rondel
+        >>> cells = rondel.Partition.lonlat_grid([0, 90, 180], [-90, 0, 90])
+        >>> cells.shape, (cells.areas / 3.141592653589793).round(9).tolist()
+        ((2, 2), [0.5, 0.5, 0.5, 0.5])
 
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
@@ -115,13 +159,15 @@ class Partition(FileCells, Described):
         sides: Sides = "parallels",
         threads: int | None = None,
     ) -> Partition:
-        """The cells of a grid, by its axes: they end half way between these.
+        """Makes the cells of a grid from the coordinates of their centers.
+
+        Cells end half way between neighboring centers.
 
         Parameters
         ----------
         lon : array_like, shape (nlon,)
-            Degrees, increasing or decreasing but for whole turns; two or more. Where the last is
-            the first one again, each of both has half of the cell.
+            Two or more longitudes in degrees, increasing or decreasing up to whole turns. If the
+            last one is the first one again, each of them gets half of the cell.
         lat : array_like, shape (nlat,)
             Degrees, increasing or decreasing. The first and the last cell end at a pole that is
             less than a cell away.
@@ -151,28 +197,37 @@ class Partition(FileCells, Described):
         whole: ArrayLike = (),
         threads: int | None = None,
     ) -> Partition:
-        """Any cells, with holes and in several parts.
+        """Makes cells from flat arrays of rings; they may have holes and several parts.
 
         Parameters
         ----------
         cells : array_like of int, shape (n + 1,)
             Cell i has the rings ``cells[i]`` to ``cells[i + 1] - 1``.
         rings : array_like of int, shape (r + 1,)
-            Ring j has the corners ``corners[rings[j]:rings[j + 1]]``, the first not repeated.
+            Ring j has the corners ``corners[rings[j]:rings[j + 1]]``; the first is not repeated.
         corners : array_like of int, shape (k,)
-            Rows of `points`. The inside is to the left: outer rings are counterclockwise, seen
-            from outside, holes clockwise. Sides are shorter arcs of great circles.
+            Rows of `points`. The inside is to the left: seen from outside of the sphere, outer
+            rings are counterclockwise and holes clockwise. Sides are the shorter arcs of great
+            circles.
         points : array_like, shape (p, 3)
-            Unit vectors. Cells that share a side name the same two.
+            Unit vectors. Cells that share a side use the same two rows.
         whole : array_like of int, optional
-            The cells that are the whole sphere, increasing. They have no rings, as empty cells.
+            The cells that are the whole sphere, in increasing order; by default none. Like empty
+            cells they have no rings.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        Partition
+            The n cells.
 
         Raises
         ------
         InvalidInput
-            With the cell that has an index out of range, a ring of less than three corners, a
-            corner that is no unit vector, or rings although it is the whole sphere.
+            If an index is out of range, a ring has fewer than three corners, a corner is no unit
+            vector, or a cell that is the whole sphere has rings. Its `index` is the cell.
 
         """
         return cls._of(
@@ -188,24 +243,26 @@ class Partition(FileCells, Described):
 
     @classmethod
     def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:
-        """Cells by the positions of their corners, as CF's bounds have them.
+        """Makes cells from the coordinates of their corners, like bounds of the CF conventions.
 
         Parameters
         ----------
         lon, lat : array_like, shape (n, k) or (..., n, m, k)
-            The corners of each cell in degrees, in either direction around it. Those within 1e-10
-            radians are one; cells with fewer corners repeat some.
+            The corners of each cell in degrees, in either direction around it. Corners within 1e-10
+            radians count as one; cells with fewer than k corners repeat some.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         Partition
-            Of the shape of `lon` without its last axis. Sides are great circles.
+            Cells of the shape of `lon` without its last axis. Their sides are great circles.
 
         Raises
         ------
         InvalidInput
-            With the cell whose corner is no place.
+            If a corner is not finite, or has a latitude outside [-90, 90]. Its `index` is the cell.
 
         """
         degrees = as_lonlat(lon, lat)
@@ -222,41 +279,43 @@ class Partition(FileCells, Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): steradians, read-only."""
+        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only."""
         return self._partition.areas
 
     @property
     def centers(self) -> FloatArray:
-        """Ndarray of float64, shape (n, 3): the directions of the centers of mass; of empty cells
-        (0, 0, 0).
+        """Ndarray of float64, shape (n, 3): unit vectors to the centers of mass; (0, 0, 0) for
+        empty cells.
         """
         return self._partition.centers()
 
     @property
     def is_cover(self) -> bool:
-        """bool: whether the cells cover the sphere and share their sides. An overlay
-        takes less time if one of the two does.
+        """bool: whether the cells cover the sphere and share their sides. Remapping is faster if
+        this is true for one of the two sides.
         """
         return self._partition.is_cover
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Tuple of int: of a grid, (nlat, nlon); else (n,)."""
+        """Tuple of int: the shape of a grid, (nlat, nlon); otherwise (n,)."""
         return tuple(self._shape) or (self.num_cells,)
 
     @property
     def mask(self) -> BoolArray:
-        """Ndarray of bool, shape (n,): which cells take part, as their file says."""
+        """Ndarray of bool, shape (n,): which cells take part in remapping, as their file says; all
+        True if it says nothing.
+        """
         return self._mask != 0 if len(self._mask) else np.ones(self.num_cells, bool)
 
     @property
     def rings(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], IntArray, FloatArray]:
-        """Tuple: `cells`, `rings`, `corners` and `points` as `polygons` takes them, beside `whole`.
+        """Tuple of ndarray: `cells`, `rings`, `corners` and `points` as `polygons` takes them.
 
         Raises
         ------
         InvalidInput
-            If the cells are those of a grid of parallels, which are no polygons.
+            If the cells have parallels as sides, so that they are no polygons.
 
         """
         return self._partition.rings()[:4]
@@ -268,7 +327,7 @@ class Partition(FileCells, Described):
         Raises
         ------
         InvalidInput
-            If the cells are those of a grid of parallels.
+            If the cells have parallels as sides.
 
         """
         return self._partition.rings()[4]

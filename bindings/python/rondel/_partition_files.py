@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells of files and of other libraries: the part of `Partition` that reads them."""
+"""The part of `Partition` that reads cells from files and from other libraries."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def are_arcs(sides: str) -> bool:
 
 
 class FileCells:
-    """What a `Partition` has, and how it is read."""
+    """The data of a `Partition`, and the functions that read it."""
 
     _partition: _core.Partition
     _mask: IntArray
@@ -72,35 +72,44 @@ class FileCells:
         overlap: PolygonOverlap = "keep",
         threads: int | None = None,
     ) -> Made:
-        """The cells of a file.
+        """Reads the cells of a file.
 
         Parameters
         ----------
         path : path-like
-            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the library
-            that netCDF4 brings. Of several grids in a file ``FILE.nc:NAME`` names a variable of
-            the grid, or on it. ``.geojson``: polygons, a feature a cell.
+            A netCDF file with the conventions of UGRID, SCRIP, ESMF, MPAS, ICON or CF, or a
+            ``.geojson`` file whose features are the cells. netCDF-4 is read by the library that
+            the package netCDF4 brings. If the file has several grids, ``FILE.nc:NAME`` names a
+            variable of a grid, or one with values on it.
         sides : {'parallels', 'great_circles'}, optional
-            As in `lonlat_grid`, for coordinates along lines.
+            As in `lonlat_grid`, for grids whose coordinates are axes; by default 'parallels'.
         edges : {'lonlat', 'geodesic'}, optional
-            What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
-            or great circles.
+            What joins positions of polygons: straight lines in longitude and latitude as in RFC
+            7946 (default), or great circles.
         overlap : {'keep', 'error', 'first'}, optional
-            What becomes of a place that several features of polygons have: cells overlap there, it
-            is refused with two of them, or it belongs to the first one.
+            What to do with a place that several features contain: 'keep' (default) makes cells that
+            overlap there, 'error' raises an error that names two of them, 'first' gives the place
+            to the first one.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        Partition
+            The cells, in the order of the file.
 
         Raises
         ------
         OSError
-            If the file cannot be read, with what is wrong in it: rings that cross, holes outside of
-            their polygon, parts that overlap.
+            If the file cannot be read. The message says what is wrong in it: rings that cross,
+            holes outside of their polygon, parts that overlap.
 
         Warns
         -----
         UserWarning
-            For what the file has and the cells have not: how many are masked, or have corners that
-            are missing and are left out; which of several grids was read.
+            If cells are masked, or are left out because of missing corners (with their number), or
+            if one of several grids was read.
 
         """
         name = os.fspath(path)
@@ -128,7 +137,7 @@ class FileCells:
         overlap: PolygonOverlap = "keep",
         threads: int | None = None,
     ) -> Made:
-        """Polygons of other libraries, with holes and in several parts; each is a cell.
+        """Makes cells of polygons of other libraries, which may have holes and several parts.
 
         Parameters
         ----------
@@ -140,11 +149,19 @@ class FileCells:
         edges, overlap
             As in `read`.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        Partition
+            A cell for each geometry.
 
         Raises
         ------
         ValueError
-            If a geometry is no polygon, not valid, or no place on the sphere, with its number.
+            If a geometry is not a polygon, is not valid, or has positions that are no longitudes
+            and latitudes. The message has its number.
 
         """
         return cls._of_polygons(polygons_of(geometries, edges, overlap, as_threads(threads)))

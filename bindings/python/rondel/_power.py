@@ -14,16 +14,17 @@ from ._types import ArrayLike, IntArray, Progress
 
 
 class PowerDiagram(Diagram[SphericalDelaunay], model="weighted"):
-    """The power (Laguerre) diagram of circles on a sphere; made by `power_diagram`.
+    """The power (Laguerre) diagram of circles on a sphere, which `power_diagram` makes.
 
-    A point of the sphere belongs to the circle of the smallest Laguerre distance
-    arccos(cos(angle) / cos(radius)). Circles without a cell are `hidden`.
+    A point of the sphere belongs to the circle with the smallest Laguerre distance
+    arccos(cos(angle) / cos(radius)), where `angle` is the distance from the circle's center.
+    Circles without a cell are `hidden`.
     """
 
     @property
     def hidden(self) -> IntArray:
-        """Ndarray of int32, shape (h, 2): rows of a circle without a cell and a face of `delaunay`
-        below which it lies.
+        """Ndarray of int32, shape (h, 2): each row has a circle without a cell and a face of
+        `delaunay` below which it lies.
         """
         return self._delaunay.hidden
 
@@ -35,30 +36,37 @@ def power_diagram(
     threads: int | None = None,
     progress: Progress = None,
 ) -> PowerDiagram:
-    """The power (Laguerre) diagram of circles on the unit sphere.
+    """Computes the power (Laguerre) diagram of circles on the unit sphere.
 
     Parameters
     ----------
     centers : array_like, shape (n, 3) or (n, 2)
-        Unit vectors, or longitudes and latitudes in degrees.
+        The centers of the circles: unit vectors, or longitudes and latitudes in degrees.
     radii_deg : array_like, shape (n,) or float
-        Angular radii in degrees, from 0 to less than 90.
+        Angular radii in degrees, from 0 to less than 90; one number holds for all circles.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     PowerDiagram
+        The diagram: cell i belongs to circle i. With equal radii it is the Voronoi diagram.
 
     Raises
     ------
     InvalidInput
         If a radius is not in [0, 90), a center is not finite, or a latitude is outside [-90, 90].
+        It is a `ValueError` whose `index` is the first bad circle.
 
     Notes
     -----
-    A circle is the weighted site q / cos r, the pole of its plane (Sugihara, "Laguerre Voronoi
-    diagram on the sphere", Journal for Geometry and Graphics 6, 2002).
+    A circle with the center q and the radius r is represented by the weighted site q / cos r, the
+    pole of its plane (Sugihara, "Laguerre Voronoi diagram on the sphere", Journal for Geometry and
+    Graphics 6, 2002).
 
     Examples
     --------

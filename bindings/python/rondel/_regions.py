@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells of regions: clipped by polygons, and joined by group."""
+"""Regions: cells that are clipped by polygons or joined by group."""
 
 from __future__ import annotations
 
@@ -38,17 +38,20 @@ AREA_NAMES = ("area", "area_km2")
 
 
 class Regions(Described):
-    """Polygons with holes on the sphere: cells that were clipped, or joined.
+    """Regions of the sphere as polygons with holes: clipped cells or joined cells.
 
-    `SphericalVoronoi.clip`, `dissolve` and those of `PowerDiagram` make them, and `feature_cells`.
+    `SphericalVoronoi.clip`, `SphericalVoronoi.dissolve`, the same methods of `PowerDiagram`, and
+    `feature_cells` make them.
 
     Attributes
     ----------
-    labels : ndarray
-        What each region is: of clipped cells the site, of joined ones the group, of those of lines
-        and polygons the feature.
-    values : ndarray or None
-        Of cells that were cut by the value of polygons, that value.
+    labels : ndarray, shape (n,)
+        What each region belongs to: the site of a clipped cell, the group of joined cells, or the
+        feature.
+    values : ndarray, shape (n,), or None
+        The value of each region, if cells were divided by the values of polygons.
+    areas : ndarray of float64, shape (n,)
+        The areas of the regions in steradians.
 
     Examples
     --------
@@ -83,16 +86,27 @@ class Regions(Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): steradians; 0 where nothing is left."""
+        """Ndarray of float64, shape (n,): the areas in steradians; 0 for empty regions."""
         return self._rings.areas()
 
     def areas_km2(self, radius_km: float = EARTH_RADIUS_KM) -> FloatArray:
-        """The areas on a sphere of this radius, by default the Earth's mean one (WGS 84).
+        """Returns the areas in square kilometers.
+
+        Parameters
+        ----------
+        radius_km : float, optional
+            The radius of the sphere in kilometers; by default 6371.0088, the mean radius of the
+            Earth (WGS 84).
+
+        Returns
+        -------
+        ndarray of float64, shape (n,)
+            The areas in square kilometers; 0 for empty regions.
 
         Raises
         ------
         ValueError
-            If the radius is not positive, or the sphere's area is no finite number.
+            If the radius is not positive, or the area of the sphere is not finite.
 
         """
         radius_km = float(radius_km)
@@ -102,20 +116,46 @@ class Regions(Described):
         return self.areas * squared
 
     def partition(self, *, threads: int | None = None) -> Partition:
-        """The regions as cells, to be laid over others by `remap`."""
+        """Returns the regions as cells for `remap`.
+
+        Parameters
+        ----------
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
+        Returns
+        -------
+        Partition
+            A cell for each region; empty regions have empty cells.
+
+        """
         return Partition._of(self._rings.partition(as_threads(threads)))
 
     def dissolve(
         self, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
     ) -> Regions:
-        """Regions joined by group.
+        """Joins regions by group.
 
         Parameters
         ----------
         groups : sequence, shape (n,)
-            As in `SphericalVoronoi.dissolve`.
+            The group of each region, as in `SphericalVoronoi.dissolve`.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
         progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+            ends the work.
+
+        Returns
+        -------
+        Regions
+            One region for each group, in the order of first occurrence; `labels` are the groups.
+
+        Raises
+        ------
+        ValueError
+            If the number of groups is not n.
 
         """
         return _dissolved(self._rings, groups, threads, progress)
@@ -146,25 +186,29 @@ class Regions(Described):
         tolerance_deg: float = 0.01,
         radius_km: float | None = None,
     ) -> Any:
-        """The regions as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, with holes.
+        """Converts the regions to GeoJSON (RFC 7946).
 
-        A feature for each region that has an area, with the properties `area` (steradians) and
-        `site`, `group` or `feature`, and `value` if there are any.
+        There is a feature for each region that has an area, with the properties `area`
+        (steradians), `site`, `group` or `feature`, and `value` if the regions have values. Polygons
+        are counterclockwise, have holes, and are cut at the antimeridian.
 
         Parameters
         ----------
         path : path-like or file object, optional
-            Where to write the text; otherwise it is returned, parsed.
+            Where to write the text; by default it is parsed and returned.
         properties : mapping of str to sequence, optional
-            More properties: for each a value for every region.
+            Further properties: for each name a value for every region.
         tolerance_deg : float, optional
-            How far the straight lines of a polygon may be from its arcs, in degrees.
+            The largest distance of a polygon's straight lines from its arcs, in degrees; by default
+            0.01.
         radius_km : float, optional
-            Adds areas on a sphere of this radius, `area_km2`; the Earth's mean radius is 6371.0088.
+            The radius of a sphere in kilometers, which adds the property `area_km2`; the mean
+            radius of the Earth is 6371.0088.
 
         Returns
         -------
         dict or None
+            The FeatureCollection, or None if `path` is given.
 
         Raises
         ------
@@ -187,25 +231,28 @@ class Regions(Described):
         tolerance_deg: float = 0.01,
         radius_km: float | None = None,
     ) -> geopandas.GeoDataFrame:
-        """The regions as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+        """Converts the regions to a GeoDataFrame in longitudes and latitudes (EPSG:4326).
 
-        Its `to_file` and `to_parquet` write GeoPackage, FlatGeobuf, shapefiles and GeoParquet.
+        The methods `to_file` and `to_parquet` of the result write GeoPackage, FlatGeobuf,
+        shapefiles and GeoParquet.
 
         Parameters
         ----------
         properties : mapping of str to sequence, optional
-            More columns: for each a value for every region.
+            Further columns: for each name a value for every region.
         tolerance_deg : float, optional
-            How far the straight lines of a polygon may be from its arcs, in degrees.
+            The largest distance of a polygon's straight lines from its arcs, in degrees; by default
+            0.01.
         radius_km : float, optional
-            Adds areas on a sphere of this radius, `area_km2`; the Earth's mean radius is 6371.0088.
+            The radius of a sphere in kilometers, which adds the column `area_km2`; the mean radius
+            of the Earth is 6371.0088.
 
         Returns
         -------
         geopandas.GeoDataFrame
             A row for each region that has an area, with the columns `site`, `group` or `feature`,
-            `value` if there are any, and `area` (steradians). The index is the number of the
-            region.
+            `value` if the regions have values, and `area` (steradians). The index is the number of
+            the region.
 
         Raises
         ------
@@ -256,41 +303,58 @@ def clip_cells(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Regions:
-    """The parts of the cells that lie in regions: on land, in a country, within a border.
+    """Clips the cells to regions such as land, a country or a border.
 
     Parameters
     ----------
     regions : path-like, geometries or Partition
-        A file of GeoJSON; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping of
-        GeoJSON, whatever has `__geo_interface__`, or a sequence of these; a box of west, south,
-        east and north in degrees; or a partition.
-    values : sequence, one for each of `regions`, optional
-        Names of countries, kinds of soil: cells are cut where these change. None, NaN and NA: what
-        is there is left out.
+        The regions: a GeoJSON file; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping
+        of GeoJSON, any object with `__geo_interface__`, or a sequence of these; a box of west,
+        south, east and north in degrees; or a partition.
+    values : sequence, shape (m,), optional
+        A value for each of the m regions, such as a country or a kind of soil, by which cells are
+        divided. Regions whose value is None, NaN or NA are left out. By default cells are clipped
+        to the union of the regions.
     edges : {'lonlat', 'geodesic'}, optional
-        What joins positions of polygons: straight lines in longitude and latitude (RFC 7946), or
-        great circles.
+        What joins positions of polygons: straight lines in longitude and latitude as in RFC 7946
+        (default), or great circles.
     overlap : {'error', 'first'}, optional
-        What becomes of a place that several of the regions have, if there are `values`: it is
-        refused with two of them, or it belongs to the first one. Without values that makes no
-        difference.
+        What to do, if there are `values`, with a place that several regions contain: 'error'
+        (default) raises an error that names two of them, 'first' gives it to the first one. It has
+        no effect without values.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     Regions
-        One for each site, empty where nothing is left; with `values` one for each site and value
-        that have something in common, sorted by site. Which lines cross is decided exactly;
-        where two parts meet they have the same corners, bit by bit.
+        A region for each site, empty if nothing of its cell is left. With `values`: a region for
+        each site and value whose intersection is not empty, sorted by site.
 
     Raises
     ------
     ValueError
-        If a geometry is no polygon, not valid, or no place on the sphere, or geometries with values
-        overlap.
+        If a geometry is not a polygon, is not valid, or has positions that are no longitudes and
+        latitudes; or if regions with values overlap.
     OSError
         If the file cannot be read.
+
+    Notes
+    -----
+    Which sides cross is decided exactly, and two regions that meet have the same corners there, bit
+    by bit (docs/theory/overlay.md).
+
+    Examples
+    --------
+    >>> import rondel
+    >>> cells = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+    >>> north = cells.clip([-180, 0, 180, 90])
+    >>> (12 * north.areas / 3.141592653589793).round(6).tolist()
+    [4.0, 4.0, 4.0, 4.0, 8.0, 0.0]
 
     """
     cells = Partition.voronoi(self, threads=threads)._partition
@@ -309,20 +373,37 @@ def clip_cells(
 def dissolve_cells(
     self: Divided, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
 ) -> Regions:
-    """The cells joined by group: by country, office, nearest airport.
+    """Joins the cells by group, such as a country, an office or the nearest airport.
 
     Parameters
     ----------
     groups : sequence, shape (n,)
-        The group of each site: numbers, texts, or what else has a hash. None, NaN and NA: none.
+        The group of each site: a number, a text, or any hashable object. A site whose group is
+        None, NaN or NA belongs to no group.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     Regions
-        One for each group, in the order in which they come; `labels` are the groups. Two that
-        meet have the same corners there, bit by bit.
+        A region for each group, in the order of first occurrence; `labels` are the groups. Two
+        regions that meet have the same corners there, bit by bit.
+
+    Raises
+    ------
+    ValueError
+        If the number of groups is not n.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> cells = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+    >>> cells.dissolve(["side", "side", "side", "side", "cap", "cap"]).labels.tolist()
+    ['side', 'cap']
 
     """
     rings = _core.cell_rings(Partition.voronoi(self, threads=threads)._partition)
@@ -340,42 +421,56 @@ def feature_cells(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Regions:
-    """The Voronoi cells of lines, polygons and points: to which of them places are nearest.
+    """Computes the Voronoi cells of lines, polygons and points.
+
+    The cell of a feature contains the places that are nearer to it than to any other feature.
 
     Parameters
     ----------
     features : path-like or geometries
-        A file of GeoJSON; a GeoDataFrame or GeoSeries; geometries of shapely, mappings of GeoJSON,
-        or whatever has `__geo_interface__`.
+        The n features: a GeoJSON file; a GeoDataFrame or GeoSeries; geometries of shapely, mappings
+        of GeoJSON, or any object with `__geo_interface__`.
     tolerance_km : float
-        A place belongs to a feature that is at most so much farther than the nearest one. What is
-        in a polygon belongs to it, exactly.
+        The accuracy in kilometers: a place may belong to a feature that is at most this much
+        farther away than the nearest one. The inside of a polygon belongs to it exactly.
     radius_km : float, optional
-        Of the sphere on which that is measured.
+        The radius of the sphere on which kilometers are measured; by default 6371.0088, the mean
+        radius of the Earth.
     edges : {'lonlat', 'geodesic'}, optional
-        What joins positions: straight lines in longitude and latitude (RFC 7946), or great circles.
+        What joins positions: straight lines in longitude and latitude as in RFC 7946 (default), or
+        great circles.
     overlap : {'error', 'first'}, optional
-        What becomes of a place that several polygons have: it is refused with two of them, or it
-        belongs to the first one.
+        What to do with a place that several polygons contain: 'error' (default) raises an error
+        that names two of them, 'first' gives it to the first one.
     within : path-like, geometries or Partition, optional
-        Regions to which the cells are cut, as `SphericalVoronoi.clip` takes them.
+        Regions to which the cells are clipped, as `SphericalVoronoi.clip` takes them; by default
+        cells are not clipped.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     Regions
-        One for each feature; `labels` are their numbers. A feature has an area of 0 if it has no
-        place, or if features before it have all of its places. A single one that is not cut has
-        no border.
+        A region for each feature; `labels` are the numbers of the features. A region has the area 0
+        if its feature has no coordinates, or if all its places belong to features before it. A
+        single feature that is not clipped has the whole sphere, without a border.
 
     Raises
     ------
     ValueError
-        If something is no geometry, polygons are not valid or overlap, or the tolerance is not
+        If an object is not a geometry, polygons are not valid or overlap, or the tolerance is not
         positive.
     OSError
         If the file cannot be read.
+
+    Notes
+    -----
+    Lines and outlines are replaced by points so dense that the cells have the accuracy
+    `tolerance_km`; the cells of the points of a feature are joined.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fields of models from one grid to another, in the manner of xESMF."""
+"""Regridding of model fields with the interface of xESMF."""
 
 from __future__ import annotations
 
@@ -46,61 +46,80 @@ _NEEDLESS = ("periodic", "ignore_degenerate", "parallel")
 
 
 class Regridder(Described):
-    """Carries fields from one grid to another; in place of `xesmf.Regridder`.
+    """Regrids fields from one grid to another; it replaces `xesmf.Regridder`.
 
-    Needs xarray. Grids are Datasets as those of xESMF or of the CF conventions, dictionaries of
-    arrays, tuples (lon, lat) of axes, or partitions, which any mesh can be.
+    It needs xarray. A grid is a Dataset as xESMF or the CF conventions have it, a dictionary of
+    arrays, a tuple (lon, lat) of axes, or a `Partition`, which any mesh can be converted to.
 
     Parameters
     ----------
     ds_in, ds_out : Dataset, DataArray, dict, tuple or Partition
-        With longitudes and latitudes, found by their attributes or names as the tool finds them in
-        files (formats): axes of a grid, curvilinear, or of points; degrees, or radians where the
-        attribute `units` says so. Conservative methods take the cells: by the coordinates'
-        attribute `bounds`, or `lon_b` and `lat_b`; of axes without these, half way between. A
-        variable `mask` is 0 or missing where places take no part. What is masked in arrays of NumPy
-        counts as NaN. Places without longitude or latitude, and
-        cells with a corner that is missing, are left out with a warning that counts them.
+        The source and the target grid. Longitudes and latitudes are found by their attributes or
+        names (docs/guide/formats.md); they are axes of a grid, curvilinear coordinates, or those of
+        points, in degrees, or in radians if the attribute `units` says so. Conservative methods
+        take the cells from the coordinates' attribute `bounds`, or from `lon_b` and `lat_b`; cells
+        of axes without these end half way between their centers. A variable `mask` is 0 or missing
+        where places take no part. Masked elements of NumPy arrays count as NaN. Places without
+        longitude or latitude, and cells with a missing corner, are left out with a warning that
+        counts them.
     method : str
-        'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' and
-        'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' and 'cubic' as in
-        `SphericalDelaunay.weights`. 'bilinear' is, but for axes of a grid, 'linear'.
+        'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
+        'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in
+        `SphericalDelaunay.weights`. Unless the source has axes, 'bilinear' means 'linear'.
     locstream_in, locstream_out : bool, optional
-        Whether a dictionary or tuple has places of points and not axes.
+        Whether a dictionary or tuple has the coordinates of points instead of axes; by default
+        False.
     lon, lat, lon_out, lat_out : str, optional
-        The names of the longitudes and latitudes of `ds_in` and of `ds_out`, where they are not
-        found or there are several.
+        The names of the longitudes and latitudes of `ds_in` and of `ds_out`, if they are not found
+        or there are several.
     extrap_method : {None, 'nearest_s2d'}, optional
-        What targets get that no source covers.
+        The value of targets that no source covers: none (default), or that of the nearest source.
     unmapped_to_nan : bool, optional
-        Whether targets without a value are NaN, or else 0.
+        Whether targets without a value are NaN (default True) or 0.
     weights : path-like or Weights, optional
         Those of `to_netcdf` of a former one, with the same grids, masks and method; others are
         refused where the file or the entries say so: the places of both sides, and with
         conservative methods the corners of the cells, may be 1e-4 degrees off.
     overlap : {'error', 'first', 'share'}, optional
-        What conservative methods do where cells of one grid overlap; as in `remap`.
+        What conservative methods do if cells of one grid overlap; as in `remap`, by default
+        'error'.
     filename : path-like, optional
         The file that `to_netcdf` writes and `reuse_weights` reads, as in xESMF.
     reuse_weights : bool, optional
-        Whether the weights are those of `filename` (or `weights`), as in xESMF.
+        Whether to read the weights from `filename` (or `weights`), as in xESMF; by default False.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
     **needless
-        `periodic`, `ignore_degenerate` and `parallel` change nothing here.
+        `periodic`, `ignore_degenerate` and `parallel` are accepted and have no effect.
 
     Attributes
     ----------
     weights : Weights
+        The sparse matrix that is applied.
     method : str
+        The method.
     filename : path-like or None
+        The argument `filename`.
     shape_in, shape_out : tuple of int
+        The shapes of the source and the target grid.
+
+    Raises
+    ------
+    ValueError
+        If there is no such method, coordinates are not found, or weights do not belong to the
+        grids; `InvalidInput` if cells are invalid or overlap.
+    OSError
+        If a file of weights cannot be read.
 
     Notes
     -----
-    Different from xESMF, on purpose: the sphere is periodic and has its poles, whatever is said;
-    cells of axes end at meridians and parallels (ESMF's at great circles); missing values are never
-    zeros, and unmapped targets are NaN.
+    These differences from xESMF are deliberate: the sphere is always periodic and always has its
+    poles; cells of axes end at meridians and parallels, where those of ESMF end at great circles;
+    missing values never count as zeros, and unmapped targets are NaN.
 
     Examples
     --------
@@ -173,42 +192,45 @@ class Regridder(Described):
 
     @property
     def shape_in(self) -> tuple[int, ...]:
-        """Tuple of int: of the source; the last axes of fields."""
+        """Tuple of int: the shape of the source grid, which fields have as their last axes."""
         return self._source.shape
 
     @property
     def shape_out(self) -> tuple[int, ...]:
-        """Tuple of int: of the target."""
+        """Tuple of int: the shape of the target grid."""
         return self._target.shape
 
     def __call__(
         self, data: Any, *, keep_attrs: bool = False, skipna: bool = False, na_thres: float = 1.0
     ) -> Any:
-        """Fields on the other grid.
+        """Regrids fields to the target grid.
 
         Parameters
         ----------
         data : array_like, DataArray or Dataset
-            Arrays have the source's shape as their last axes; others its dimensions, or as many
-            of that shape as their last.
+            Fields on the source grid. The last axes of an array have the shape `shape_in`; a
+            DataArray has the dimensions of the source, or last dimensions of that shape.
         keep_attrs : bool, optional
+            Whether to keep attributes; by default False.
         skipna : bool, optional
-            Whether missing values are left out, or else make a target missing.
+            Whether to leave out missing values; by default False, with which a target that needs a
+            missing value is missing.
         na_thres : float, optional
-            With `skipna`: the share of missing values from which on a target is missing.
+            With `skipna`, the share of missing values above which a target is missing, from 0 to 1;
+            by default 1.
 
         Returns
         -------
         ndarray, DataArray or Dataset
-            As the source; booleans are 0 and 1. Variables of a Dataset that depend on place and are
-            no numbers, or have only some of the source's dimensions, are left out with a warning
-            that names them. Arrays of Dask stay lazy.
+            The fields on the target grid, in the type of `data`; booleans become 0 and 1. Variables
+            of a Dataset that depend on place and are no numbers, or have only some of the source's
+            dimensions, are left out with a warning that names them. Arrays of Dask stay lazy.
 
         Raises
         ------
         ValueError
             If the data have another shape, or share a dimension with the target, such as the time
-            of a track: rename the target's.
+            of a track; then rename the target's dimension.
 
         """
         import xarray
@@ -246,7 +268,7 @@ class Regridder(Described):
             raise ValueError(f"data must have shape (..., {str(wanted)[1:]}, not {data.shape}")
 
     def to_netcdf(self, path: Path | None = None) -> None:
-        """Writes the weights as a file that ESMF, CDO and `weights` know.
+        """Writes the weights in the format of ESMF, which `weights` and other programs read.
 
         Parameters
         ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Conservative remapping: means over the cells of one partition from those over another's."""
+"""Conservative remapping: means over target cells from means over source cells."""
 
 from __future__ import annotations
 
@@ -25,17 +25,19 @@ from ._weights import Weights
 
 
 class Remap(Described):
-    """What `remap` gives: weights that carry means over cells, and what they are of.
+    """The result of `remap`: weights between two sets of cells, and a description of both sets.
 
     Attributes
     ----------
     weights : Weights
-        A row for each target, a column for each source.
+        A sparse matrix with a row for each target cell and a column for each source cell;
+        ``weights.apply(means)`` computes the means over target cells.
     source, target : Partition
+        The cells of both sides.
     source_areas, target_areas : ndarray of float64, shape (n,) and (m,)
-        Steradians.
+        The areas of the cells in steradians.
     source_fractions, target_fractions : ndarray of float64, shape (n,) and (m,)
-        Which share of each cell the other partition covers.
+        The share of each cell that the other side covers, from 0 to 1.
 
     """
 
@@ -59,9 +61,10 @@ class Remap(Described):
         self._order = order
 
     def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
-        """Writes a file that other programs apply, with centers, areas, masks and corners.
+        """Writes a file of weights that other programs can apply.
 
-        Also with the properties of polygons, so that ``rondel apply`` gives values their names.
+        It contains centers, areas, masks and corners of the cells of both sides, and the properties
+        of polygons, so that ``rondel apply`` gives values their names.
 
         Parameters
         ----------
@@ -69,7 +72,7 @@ class Remap(Described):
             Ends in .nc or .nc4 (netCDF-4), .cdf or .ncf. The file appears when it is complete,
             and replaces the one that is there.
         format : {'esmf', 'scrip'}, optional
-            netCDF with the names of ESMF, or with those of SCRIP, which CDO reads.
+            The names of variables: those of ESMF (default), or those of SCRIP, which CDO reads.
 
         Raises
         ------
@@ -78,7 +81,7 @@ class Remap(Described):
 
         See Also
         --------
-        Weights.to_netcdf : with places that are not the cells' centers of mass.
+        Weights.to_netcdf : the same with centers that the caller gives.
 
         """
         sides = [
@@ -126,42 +129,58 @@ def remap(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Remap:
-    """Weights that carry means over cells to means over other cells, and keep the integral.
+    """Computes conservative weights from the cells of one side to those of another.
 
-    Jones, Mon. Weather Rev. 127, 1999, section 2.
+    The weights turn means over source cells into means over target cells, such that the integral
+    is kept.
 
     Parameters
     ----------
     source, target : Partition, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
-        The cells of parts of the sphere, or of all of it; of a triangulation the triangles.
+        The n source cells and the m target cells, which cover the sphere or parts of it. The cells
+        of a triangulation are its triangles.
     order : {1, 2}, optional
-        1: the field is constant in each source cell. 2: it has a gradient there, by least squares
-        over the neighbors; across neighbors that are nearly on a line it is 0.
+        The order of the reconstruction. 1 (default): the field is constant in each source cell.
+        2: it has a gradient, which is estimated by least squares over the neighbors; across
+        neighbors that are nearly on a line it is 0.
     norm : {'destarea', 'fracarea'}, optional
-        What the sum over a target is divided by: its area, so that the integral is kept, or the
-        part that sources cover, so that constants are.
-    source_mask, target_mask : array_like of bool, optional
-        Which cells take part; by default what the partition's file says. Numbers are true unless
-        they are 0; what is missing (NaN, NA, None, or masked) takes no part.
+        What the sum over a target is divided by. 'destarea' (default): its area, so that the
+        integral is kept. 'fracarea': the area that sources cover, so that constants are
+        reproduced.
+    source_mask, target_mask : array_like of bool, shape (n,) and (m,), optional
+        Which cells take part; by default the mask of the partition. Numbers other than 0 are true;
+        a missing value (NaN, NA, None, or masked) is false.
     overlap : {'error', 'first', 'share'}, optional
-        What becomes of a place that several cells of one side have. By default two of the cells
-        and the place are named in an error. 'first' gives the place to the cell with the lowest
-        index, 'share' to each of them its part. Cells that take no part do not count.
+        What to do with a place that several cells of one side contain. 'error' (default): raise an
+        error that names two of the cells and the place. 'first': the place belongs to the cell with
+        the lowest index. 'share': each cell gets an equal part. Cells that take no part do not
+        count.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     Remap
-        Targets that no source covers have empty rows, so NaN.
+        The weights, with areas and covered fractions of the cells. A target that no source covers
+        has an empty row, and so the value NaN.
 
     Raises
     ------
     InvalidInput
         If a mask has another length, cells of one side overlap and `overlap` is 'error', or a cell
-        crosses or overlaps itself.
+        crosses or overlaps itself. It is a `ValueError` whose `index` is the cell.
     TypeError
-        If a mask has texts, or others that are neither numbers nor booleans.
+        If a mask has elements that are neither numbers nor booleans, or an argument has no cells.
+
+    Notes
+    -----
+    The weights are those of Jones, "First- and Second-Order Conservative Remapping Schemes for
+    Grids in Spherical Coordinates", Mon. Weather Rev. 127, 1999, section 2, with exact decisions
+    about which sides cross (docs/theory/overlay.md).
 
     Examples
     --------

@@ -20,50 +20,56 @@ WhatIfDuplicates = Literal["raise", "merge"]
 
 
 class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
-    """The Voronoi diagram of points on a sphere; in place of `scipy.spatial.SphericalVoronoi`.
+    """The Voronoi diagram of points on a sphere; it replaces `scipy.spatial.SphericalVoronoi`.
 
-    Attributes, methods and errors are SciPy's; what is different is listed in the notes.
+    Attributes, methods and errors are those of SciPy; the notes list the differences.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Shape (n, 2): points on a circle. More columns are handed to SciPy.
+        The sites, on the sphere up to `threshold`. With shape (n, 2) they are points on a circle;
+        arrays with more columns are passed to SciPy.
     radius : float, optional
-        Of the sphere.
+        The radius of the sphere, in the unit of the points; by default 1.
     center : array_like, shape (3,), optional
-        Of the sphere; by default the origin.
+        The center of the sphere; by default the origin.
     threshold : float, optional
-        The largest distance of a point from the sphere, in radii; ``numpy.inf`` for any.
+        The largest distance of a point from the sphere, in radii; by default 1e-6. ``numpy.inf``
+        accepts any distance.
     duplicates : {'raise', 'merge'}, optional
-        What to do with points in the same place (exactly: on the same ray). 'merge' gives the cell
-        to the first of them, and the others empty ones.
+        What to do with points in the same place, which means exactly on the same ray. 'raise'
+        (default) raises an error. 'merge' gives the cell to the first of them and empty cells to
+        the others.
     threads : int, optional
-        At most so many threads; by default one for each core. The result is the same.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. What it raises ends the work.
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
     copy : bool, optional
-        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
-        one that is mapped from a file, is used where it lies. It must not be changed as long as
-        the object lives: results would be wrong, and calls might not end.
+        Whether to copy the points; by default True. With False a C-contiguous array of float64,
+        which may be mapped from a file, is used in place. It must not be changed as long as the
+        object lives: results would be wrong, and calls might not end.
 
     Attributes
     ----------
     points, radius, center, vertices, regions
         As in SciPy. All arrays but `vertices` are read-only.
     cells, areas, centroids, ridge_points, ridge_vertices, duplicates, delaunay
-        Not in SciPy: cells in compressed rows, their areas, centers and borders, and the
-        triangulation.
+        Attributes that SciPy lacks: cells in compressed rows, their areas, centroids and borders,
+        and the triangulation.
 
     Raises
     ------
     InvalidInput
-        A `ValueError` with the `index` of a bad point: not finite, a duplicate, or at the center.
+        If a point is not finite, is at the center, or is a duplicate that is not merged. It is a
+        `ValueError` whose `index` is the bad point.
     ValueError
         If points are farther than `threshold` from the sphere.
 
     Notes
     -----
-    Different from SciPy, on purpose:
+    These differences from SciPy are deliberate:
 
     1. `vertices` are numbered by the canonical order of the faces, not by Qhull's.
     2. Every set of sites has a diagram: one, two, all on a great circle. SciPy demands rank 3.
@@ -156,18 +162,37 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         threads: int | None = None,
         progress: Progress = None,
     ) -> SphericalVoronoi:
-        """The diagram of longitudes and latitudes in degrees, on the unit sphere.
+        """Computes the diagram of longitudes and latitudes, on the unit sphere.
 
         Parameters
         ----------
         lon, lat : array_like, shape (n,)
+            Longitudes and latitudes of the sites in degrees; latitudes are from -90 to 90.
         duplicates : {'merge', 'raise'}, optional
+            What to do with sites in the same place. 'merge' (default) gives the cell to the first
+            of them and empty cells to the others. 'raise' raises an error.
         threads : int, optional
+            The largest number of threads; by default one for each core.
         progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second.
 
         Returns
         -------
         SphericalVoronoi
+            The diagram; its `delaunay` is the triangulation, whose `lonlat` has the degrees.
+
+        Raises
+        ------
+        InvalidInput
+            If an angle is not finite, a latitude is outside [-90, 90], or a site is a duplicate
+            that is not merged.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> sv = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> (6 * sv.areas / 3.141592653589793).round(9).tolist()
+        [4.0, 4.0, 4.0, 4.0, 4.0, 4.0]
 
         """
         built = delaunay_lonlat(lon, lat, threads=threads, progress=progress)
@@ -175,7 +200,7 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         return cls._from_delaunay(built)
 
     def sort_vertices_of_regions(self) -> None:
-        """Sorts the vertices of each region around its site. They are sorted from the start.
+        """Does nothing: the vertices of each region are always sorted around its site.
 
         Raises
         ------
@@ -187,12 +212,12 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
             raise TypeError("Only supported for three-dimensional point sets")
 
     def calculate_areas(self) -> FloatArray:
-        """The areas of the cells.
+        """Returns the areas of the cells.
 
         Returns
         -------
         ndarray of float64, shape (n,)
-            In units of the radius squared; see `areas`. A new array.
+            A new array with the areas in the squared unit of the radius; see `areas`.
 
         """
         return self.areas.copy()

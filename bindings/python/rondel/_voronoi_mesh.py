@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The mesh that `rondel.mesh` makes and reads: its arrays, its quality, its files."""
+"""The class of meshes: their arrays, quality and files."""
 
 from __future__ import annotations
 
@@ -29,7 +29,11 @@ _FORMATS = ("mpas", "ugrid", "scrip", "esmf", "exodus")
 
 
 class EdgeWeights(NamedTuple):
-    """Weights of edges in compressed rows (CSR), as `Mesh.tangential_weights` gives them."""
+    """Weights of edges in compressed rows (CSR), which `Mesh.tangential_weights` returns.
+
+    The row of edge e has the edges ``indices[indptr[e]:indptr[e + 1]]`` and their weights in
+    `data`.
+    """
 
     indptr: npt.NDArray[np.int64]
     indices: IntArray
@@ -37,10 +41,15 @@ class EdgeWeights(NamedTuple):
 
 
 class Culled(NamedTuple):
-    """What `Mesh.cull` leaves.
+    """The result of `Mesh.cull`.
 
-    ``cells``, ``edges`` and ``vertices`` have the new number of each one of the mesh before, -1
-    where it is gone.
+    Attributes
+    ----------
+    mesh : Mesh
+        The mesh that is left.
+    cells, edges, vertices : ndarray of int32
+        The new number of each cell, edge and vertex of the original mesh; -1 if it was removed.
+
     """
 
     mesh: Mesh
@@ -52,8 +61,8 @@ class Culled(NamedTuple):
 class Mesh:
     """A Voronoi mesh of the sphere: cells, edges between them, and vertices, all immutable.
 
-    It is made by `scvt`, `from_points` and `read`. Lengths and areas are those of a sphere of
-    `radius`; angles are radians; numbers of cells, edges and vertices start at 0.
+    `scvt`, `from_points` and `read` make it. Lengths and areas are those on a sphere of `radius`;
+    angles are in radians; numbers of cells, edges and vertices start at 0.
 
     Examples
     --------
@@ -71,10 +80,10 @@ class Mesh:
     """
 
     report: ScvtReport | None = None
-    """Of a mesh that `scvt` made, how that ended."""
+    """How the work ended, if `scvt` made the mesh; otherwise None."""
 
     fixed: IntArray = frozen(np.empty(0, np.int32))
-    """Of a mesh that `scvt` made, the cells of the fixed places, then of those along lines."""
+    """If `scvt` made the mesh: the cells of the fixed places, then of those along lines."""
 
     def __init__(self, arrays: _core.MeshArrays) -> None:
         self._arrays = arrays
@@ -118,22 +127,22 @@ class Mesh:
 
     @property
     def cells_on_cell(self) -> IntArray:
-        """Ndarray of int32: the cells across these edges."""
+        """Ndarray of int32: the cells across `edges_on_cell`; -1 at the border."""
         return self._arrays.cells_on_cell
 
     @property
     def vertices_on_cell(self) -> IntArray:
-        """Ndarray of int32: the vertices at which these edges end."""
+        """Ndarray of int32: the vertices at which `edges_on_cell` end, counterclockwise."""
         return self._arrays.vertices_on_cell
 
     @property
     def edge_points(self) -> FloatArray:
-        """Ndarray of float64, shape (e, 3): the middles between the sites of the edges' cells."""
+        """Ndarray of float64, shape (e, 3): the midpoints between the sites of the two cells."""
         return self._arrays.edge_points
 
     @property
     def cells_on_edge(self) -> IntArray:
-        """Ndarray of int32, shape (e, 2): the normal points from the first to the second."""
+        """Ndarray of int32, shape (e, 2): the cells; the normal points from first to second."""
         return self._arrays.cells_on_edge
 
     @property
@@ -143,7 +152,7 @@ class Mesh:
 
     @property
     def cell_distances(self) -> FloatArray:
-        """Ndarray of float64, shape (e,): between the two sites, MPAS's dcEdge."""
+        """Ndarray of float64, shape (e,): the distances of the two sites, MPAS's dcEdge."""
         return self._arrays.cell_distances
 
     @property
@@ -183,16 +192,18 @@ class Mesh:
 
     @cached_property
     def tangential_weights(self) -> EdgeWeights:
-        """EdgeWeights: TRiSK's, which make the velocity along edges of that across others."""
+        """EdgeWeights: the weights of TRiSK (Thuburn et al., J. Comput. Phys. 228, 2009), which
+        reconstruct the velocity along an edge from the velocities across other edges.
+        """
         indptr, indices, data = self._arrays.tangential_weights(0)
         return EdgeWeights(frozen(indptr), frozen(indices), frozen(data))
 
     @cached_property
     def quality(self) -> dict[str, Any]:
-        """dict: how good the mesh is.
+        """dict: the quality of the mesh.
 
-        The keys are those of the report of ``rondel mesh quality --json``; extremes are ``{"value",
-        "where"}``.
+        The keys are those of ``rondel mesh quality --json``. An extremum is a dict with its "value"
+        and "where" it is, the number of a cell, edge or vertex.
         """
         report: dict[str, Any] = json.loads(self._arrays.quality_json(0))
         return report
@@ -203,9 +214,9 @@ class Mesh:
         Parameters
         ----------
         path : path_like
-            Where to write it.
+            The file to write.
         num_worst : int, optional
-            How many cells of each kind.
+            The number of worst cells of each kind; by default 100.
 
         """
         text = self._arrays.quality_picture(num_worst)
@@ -222,27 +233,37 @@ class Mesh:
         edges: Edges = "lonlat",
         threads: int | None = None,
     ) -> Culled:
-        """The mesh without some of its cells, and where all of them are now.
+        """Removes cells from the mesh.
 
-        Edges and vertices stay where one of their cells does; what stays keeps its order, and its
-        numbers bit by bit. At the border -1 stands for what is not there: the second cell of an
-        edge, cells across edges, cells and edges around vertices.
+        Edges and vertices stay if one of their cells does. They keep their order and their values
+        bit by bit. At the border -1 stands for missing elements: the second cell of an edge, cells
+        across edges, cells and edges around vertices.
 
         Parameters
         ----------
         mask : array_like, shape (n,), optional
-            1 or True for cells that are removed.
+            1 or True for cells that are removed, 0 or False for others.
         inside, outside : path_like, geometries or Partition, optional
-            Polygons as in `SphericalVoronoi.clip`: cells are removed whose sites lie in them, or
-            on their borders; or those whose sites do not.
+            Polygons as in `SphericalVoronoi.clip`. Cells are removed if their sites lie inside or
+            on the border of `inside`, or if they do not lie in `outside`.
         edges : {'lonlat', 'geodesic'}, optional
-            What joins positions of polygons.
+            What joins positions of polygons: straight lines in longitude and latitude as in RFC
+            7946 (default), or great circles.
         threads : int, optional
-            At most so many threads; by default one for each core.
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         Culled
+            The mesh that is left, and the new numbers of all cells, edges and vertices.
+
+        Raises
+        ------
+        TypeError
+            If neither a mask nor polygons are given.
+        ValueError
+            If the mask has another shape or other values.
 
         Examples
         --------
@@ -272,18 +293,24 @@ class Mesh:
         kind: Kind = "cdf5",
         threads: int | None = None,
     ) -> None:
-        """Writes a mesh file of MPAS.
+        """Writes a mesh file of MPAS (MPAS Mesh Specification 1.0, 2015).
 
         Parameters
         ----------
         path : path_like
-            The file; netCDF-4, compressed, where it ends in ``.nc4``.
+            The file to write. A name that ends in ``.nc4`` means compressed netCDF-4.
         graph : path_like, optional
-            Where to write ``graph.info`` for METIS.
+            Where to write ``graph.info`` for METIS; by default it is not written.
         kind : {'cdf5', 'cdf2'}, optional
-            Which of netCDF's classic formats; CDF-2 has less than 4 GiB a variable.
+            The classic format of netCDF; by default 'cdf5'. CDF-2 is limited to 4 GiB a variable.
         threads : int, optional
-            At most so many threads; by default one for each core.
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
 
         """
         self._write(path, "mpas", kind, threads)
@@ -307,13 +334,13 @@ class Mesh:
         self._write(path, "exodus", kind, threads)
 
     def to_xarray(self) -> xarray.Dataset:
-        """The mesh as an xarray Dataset with the names, dimensions and numbers of MPAS.
+        """Converts the mesh to an xarray Dataset with the names, dimensions and numbers of MPAS.
 
         Returns
         -------
         xarray.Dataset
-            Without the lists that follow from others and the weights; numbers start at 1, as in
-            MPAS's files, and rows end with 0.
+            The variables of an MPAS file, except for the weights and lists that follow from others.
+            As in the file, numbers start at 1 and rows are filled with 0.
 
         """
         return dataset_of(self._arrays, self.density)

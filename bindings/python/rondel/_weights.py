@@ -25,20 +25,24 @@ class Weights(Described):
     """A sparse matrix with a row for each target and a column for each site.
 
     The value of target r is the sum of ``data[k] * values[indices[k]]`` over
-    ``indptr[r] <= k < indptr[r + 1]``; a row without entries is a target without a value.
-    `SphericalDelaunay.weights` makes them. They depend on places alone, so that they serve for
-    every field and every time step.
+    ``indptr[r] <= k < indptr[r + 1]``; a target whose row is empty has no value.
+    `SphericalDelaunay.weights` and `remap` make weights. They depend only on the places of sites
+    and targets, so that they serve for every field and every time step.
 
     Parameters
     ----------
     indptr : array_like of int, shape (m + 1,)
+        Where the rows of a matrix in compressed rows begin, and the end, as in
+        `scipy.sparse.csr_matrix`.
     indices : array_like of int, shape (k,)
+        The column (site or source cell) of each entry.
     data : array_like, shape (k,)
-        The three arrays of a matrix in compressed rows, as in `scipy.sparse.csr_matrix`.
+        The weight of each entry.
     shape : tuple of int
         The number of targets m and of sites n.
     sites_hash, targets_hash : int, optional
-        What `is_of` compares; 0 where it is not known.
+        The `point_set_hash` of sites and targets, which `is_of` compares; 0 (default) if it is not
+        known.
 
     Raises
     ------
@@ -127,18 +131,20 @@ class Weights(Described):
         return self._weights.targets_hash
 
     def is_of(self, sites: ArrayLike | None = None, targets: ArrayLike | None = None) -> bool:
-        """Whether these are weights of such points, in such an order.
+        """Tells whether these weights belong to given points in the same order.
 
         Parameters
         ----------
         sites : array_like, shape (n, 3), optional
+            Sites to compare; by default they are not compared.
         targets : array_like, shape (..., 3), optional
+            Targets to compare; by default they are not compared.
 
         Returns
         -------
         bool
-            False also if the hash that it takes is not known. A set that is not given is not
-            compared.
+            True if the hashes of the given points are those of the weights; False also if the
+            weights have no hash.
 
         """
         given = ((sites, self.sites_hash), (targets, self.targets_hash))
@@ -153,25 +159,34 @@ class Weights(Described):
         fill: float = np.nan,
         threads: int | None = None,
     ) -> FloatArray:
-        """The values of targets.
+        """Computes the values at the targets.
 
         Parameters
         ----------
         values : array_like, shape (..., n)
-            A value for each site, of one field or of many: the sites are the last axis.
+            A value for each site; further axes, such as time, come first.
         skipna : bool, optional
-            What a missing value (NaN, or masked) does. By default a target that needs one has no
-            value. With True it is left out, and the weights that are left count for its share.
+            What to do with missing values (NaN, or masked). False (default): a target that needs a
+            missing value has none. True: missing values are left out, and the remaining weights
+            are scaled up to the same sum.
         most_missing : float, optional
-            With `skipna`: up to which share of its absolute weights a target may miss values. 1:
-            one value is enough.
+            With `skipna`, the largest share of its absolute weights for which a target may lack
+            values, from 0 to 1; by default 1, with which one present value suffices.
         fill : float, optional
-            The value of targets that have none.
+            The value of targets that have none; by default NaN.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         ndarray of float64, shape (..., m)
+            A value for each target.
+
+        Raises
+        ------
+        ValueError
+            If the last axis of the values is not n, or `most_missing` is out of range.
 
         Raises
         ------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes that models of atmosphere and ocean run on."""
+"""Meshes for models of the atmosphere and the ocean."""
 
 from __future__ import annotations
 
@@ -52,33 +52,45 @@ def from_points(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Mesh:
-    """The mesh of the Voronoi cells of points.
+    """Makes the mesh of the Voronoi cells of points.
 
     Parameters
     ----------
     points : array_like, shape (n, 3), or SphericalDelaunay
         The sites of the cells, or their triangulation.
     radius : float, optional
-        Of the sphere, in metres for most models.
+        The radius of the sphere, in meters for most models; by default 1.
     density : array_like, shape (n,), optional
-        What the mesh was made for, as MPAS has it: (least spacing / spacing)^4.
+        The density for which the mesh was made, as MPAS defines it: (least spacing / spacing)^4; by
+        default 1 everywhere.
     allow_zero_edges : bool, optional
-        Whether four sites on one circle, whose cells meet in one point, are accepted: models
-        divide by the length of the edge there, which is 0.
+        Whether to accept four sites on one circle, whose cells meet in one point; by default False,
+        since models divide by the length of the edge there, which is 0.
     threads : int, optional
-        At most so many threads; by default one for each core.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
-        Called with the name of the stage and the fraction done.
+        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+        ends the work.
 
     Returns
     -------
     Mesh
+        The mesh; cell i belongs to point i.
 
     Raises
     ------
     InvalidInput
-        For weighted sites, two in one place, four on one circle, or sites whose hull does not
-        surround the center of the sphere.
+        If sites are weighted, two are in one place, four are on one circle, or the hull of the
+        sites does not surround the center of the sphere. Its `index` is the site.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel.mesh
+    >>> points = np.random.default_rng(1).normal(size=(100, 3))
+    >>> rondel.mesh.from_points(points, radius=6371229.0)
+    <Mesh: 100 cells, 294 edges, 196 vertices>
 
     """
     if not isinstance(points, SphericalDelaunay):
@@ -105,35 +117,52 @@ def read(
     allow_zero_edges: bool = False,
     threads: int | None = None,
 ) -> Mesh:
-    """A mesh of a netCDF file of any format; netCDF-4 by the library that netCDF4 brings.
+    """Reads the mesh of a netCDF file.
 
     Parameters
     ----------
     path : path_like
-        A file of MPAS, whose arrays are taken as they are; or of UGRID, SCRIP or ESMF, whose mesh
-        is made again of the centers of its cells, which must be their Voronoi cells, and at a
-        border of their corners.
+        A file of MPAS, whose arrays are used as they are; or of UGRID, SCRIP or ESMF, whose mesh is
+        computed from the centers of its cells, which must be Voronoi cells, and at a border from
+        their corners. netCDF-4 is read by the library that the package netCDF4 brings.
     radius : float, optional
-        Of the sphere; that of MPAS's files is in them.
+        The radius of the sphere; by default 1. MPAS files contain the radius, which is used
+        instead.
     allow_zero_edges : bool, optional
-        As in `from_points`.
+        Whether to accept edges of length 0, as in `from_points`; by default False.
     threads : int, optional
-        At most so many threads; by default one for each core.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
 
     Returns
     -------
     Mesh
+        The mesh, with the cells in the order of the file.
 
     Raises
     ------
     OSError
-        If the file cannot be read, or its cells are not those of its centers.
+        If the file cannot be read, or its cells are not the Voronoi cells of its centers.
 
     Warns
     -----
     UserWarning
-        For what the file has and the mesh has not: how many cells are masked, which of several
-        meshes was read.
+        If cells are masked (with their number), or one of several meshes was read.
+
+    See Also
+    --------
+    Mesh.to_mpas, Mesh.to_ugrid, Mesh.to_scrip, Mesh.to_esmf, Mesh.to_exodus : write files.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import rondel.mesh
+    >>> mesh = rondel.mesh.scvt(42)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     name = os.path.join(folder, "mesh.nc")
+    ...     mesh.to_mpas(name)
+    ...     rondel.mesh.read(name)
+    <Mesh: 42 cells, 120 edges, 80 vertices>
 
     """
     name = as_name(path)
@@ -163,54 +192,75 @@ def scvt(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Mesh:
-    """A centroidal Voronoi mesh: sites are moved until each is the centroid of its cell.
+    """Makes a spherical centroidal Voronoi tessellation (SCVT).
+
+    Sites are moved until each is the centroid of its cell.
 
     Parameters
     ----------
     n : int, optional
-        The number of cells; by default what the spacing asks for.
+        The number of cells; by default it follows from the spacing.
     spacing : float or callable, optional
-        The distance of neighbors in radians: a number, or a function of unit vectors, shape
-        (m, 3), that returns m numbers, which is called once. With `n` only proportions count.
+        The distance of neighboring sites in radians: a number, or a function that maps unit
+        vectors, shape (m, 3), to m numbers and is called once. If `n` is given, only its ratios
+        matter. By default it is the same everywhere.
     density : callable, optional
-        Instead of the spacing, which is its power -1/4: a function as that of the spacing, of which
-        only proportions count.
+        The density, which may be given with `n` instead of the spacing: a function like that of the
+        spacing, which is proportional to the density to the power -1/4. Only its ratios matter.
     gradient : float, optional
-        How much the spacing grows over its own distance, at most.
+        The largest growth of the spacing per distance; by default it is not limited.
     fixed : array_like, shape (k, 3), path_like, or geometries, optional
-        Places that are sites, and never move; they count among the `n`. Of a file of GeoJSON or of
-        geometries the points, and on lines and outlines of polygons places the spacing apart; of a
-        table the points.
+        Places that become sites and never move; they count among the `n`. Points of an array, of a
+        table or of features are taken as they are; on lines and outlines of polygons, of a GeoJSON
+        file or of geometries, places are taken at the distance of the spacing.
     along : path_like, geometries, or sequence of array_like, shape (m, 3), optional
         Lines that edges of cells follow: a GeoJSON file; geometries as `rondel.feature_cells` takes
-        them; or the points of each line, joined by great circles, of which the last is the first if
-        it is closed. Two rows of sites beside each never move. The sides along which a file has cut
-        polygons at the antimeridian are no lines.
+        them; or the points of each line, joined by great circles, the last of which is the first if
+        the line is closed. Two rows of sites beside each line never move. Sides along which a file
+        cuts polygons at the antimeridian are ignored.
     edges : {'lonlat', 'geodesic'}, optional
-        What joins positions of a file or of geometries: straight lines in longitude and latitude
-        (RFC 7946), or great circles.
+        What joins positions of a file or of geometries: straight lines in longitude and latitude as
+        in RFC 7946 (default), or great circles.
     radius : float, optional
-        Of the sphere, in metres for most models.
+        The radius of the sphere, in meters for most models; by default 1.
     tolerance, largest_tolerance : float, optional
-        The mean and the largest distance of sites from the centroids of their cells, over the
-        spacing, at which the work ends.
+        The mean and the largest distance of sites from the centroids of their cells, in units of
+        the spacing, at which the work ends; by default 1e-4 and 1e-2.
     max_steps : int, optional
-        In each level.
+        The largest number of steps in each level; by default 1000.
     raster_steps : int, optional
-        The function is asked for at so many places along a quarter of a great circle, a power of
-        two up to 4096.
+        The function of the spacing is sampled at this many places along a quarter of a great
+        circle, a power of two up to 4096; by default 512.
     repair : bool, optional
-        Move sites by some hundredths of the spacing where edges are short, triangles obtuse, or
-        cells have other than 5, 6 or 7 sides.
+        Whether to move sites by some hundredths of the spacing where edges are short, triangles are
+        obtuse, or cells have other than 5, 6 or 7 sides; by default True.
     threads : int, optional
-        At most so many threads; by default one for each core. The result does not depend on it.
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
     progress : callable, optional
-        Called with the name of the stage and an estimate of the part of the work that is done, in
-        the end 1.
+        Called as ``progress(stage, fraction)`` with the name of the stage and an estimate of the
+        fraction of all work that is done. An exception that it raises ends the work.
 
     Returns
     -------
     Mesh
+        The mesh. Its `report` says how the work ended, its `fixed` which cells are fixed.
+
+    Raises
+    ------
+    InvalidInput
+        If a fixed place is not finite or two are the same, or spacings are not positive or put all
+        sites into a part of the sphere.
+    TypeError
+        If neither `n` nor `spacing` is given, or `density` without `n`.
+    OSError
+        If a file cannot be read.
+
+    Notes
+    -----
+    The energy of Du, Gunzburger and Ju, "Constrained centroidal Voronoi tessellations for
+    surfaces", SIAM J. Sci. Comput. 24, 2003, is minimized by L-BFGS, from few sites to many. See
+    docs/guide/mesh-making.md.
 
     Examples
     --------
