@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""What users pass, as the arrays that the C++ library takes.
-
-What is used during a call alone is not copied if it is such an array. What an object keeps is.
-"""
+"""Conversion of arguments to the arrays that the C++ library takes."""
 
 from __future__ import annotations
 
@@ -57,7 +54,7 @@ def require_unmasked(values: Any, name: str) -> None:
 
 
 def as_mask(values: Any, name: str) -> BoolArray:
-    """Which take part: those whose number is neither 0 nor missing (NaN, NA, None, or masked)."""
+    """Returns which elements are true: numbers but 0 that are not missing (NaN, NA, None)."""
     missing = np.ma.getmaskarray(values) if np.ma.isMaskedArray(values) else np.False_
     array = np.asarray(values)
     if array.dtype.kind == "O":
@@ -119,7 +116,7 @@ def as_result_name(path: Path | None, argument: str) -> str:
 
 
 def frozen(array: npt.NDArray[Number]) -> npt.NDArray[Number]:
-    """The same memory, through which nobody can write."""
+    """Returns a read-only view of the array."""
     array = array.view()
     array.flags.writeable = False
     return array
@@ -186,31 +183,40 @@ def as_center(center: ArrayLike | None) -> tuple[float, float, float]:
 
 
 def is_weighted(model: Model) -> bool:
-    """Whether the model is that of circles."""
+    """Tells whether the model is "weighted"; raises ValueError for an unknown model."""
     if model not in MODELS:
         raise ValueError(f"model must be 'projected' or 'weighted', not {model!r}")
     return model == "weighted"
 
 
 def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
-    """Unit vectors of longitudes and latitudes in degrees.
+    """Converts longitudes and latitudes to unit vectors.
 
-    The same bits on every platform, and quadrants are exact: every longitude at latitude 90 gives
-    (0, 0, 1), and the longitudes -180, 180 and 540 the same vector.
+    The result has the same bits on every platform, and multiples of 90 degrees are exact: every
+    longitude at latitude 90 gives (0, 0, 1), and the longitudes -180, 180 and 540 give the same
+    vector.
 
     Parameters
     ----------
     lon, lat : array_like, shape (...)
-        Degrees; latitudes from -90 to 90. Broadcast against each other.
+        Longitudes and latitudes in degrees, broadcast against each other. Longitudes may be any
+        finite numbers, latitudes are from -90 to 90.
 
     Returns
     -------
     ndarray of float64, shape (..., 3)
+        Unit vectors: x points to longitude 0 on the equator, z to the north pole.
 
     Raises
     ------
     InvalidInput
         If an angle is not finite or a latitude is outside [-90, 90].
+
+    Examples
+    --------
+    >>> import rondel
+    >>> rondel.unit_vectors([0, 90], [0, 90]).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
 
     """
     lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
@@ -229,17 +235,25 @@ def target_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
 
 
 def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
-    """Longitudes and latitudes, in degrees, of the rays from `center` through points.
+    """Converts points to longitudes and latitudes, those of the rays from `center` through them.
 
     Parameters
     ----------
     points : array_like, shape (..., 3)
+        Points in space, at any distance from the center.
     center : array_like, shape (3,), optional
+        The center of the sphere; by default the origin.
 
     Returns
     -------
     ndarray of float64, shape (..., 2)
-        Longitudes from -180 to 180, latitudes from -90 to 90.
+        Longitudes from -180 to 180 and latitudes from -90 to 90, in degrees.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> rondel.lonlat([0, 2, 0]).tolist()
+    [90.0, 0.0]
 
     """
     xyz = as_floats(points, "points")
@@ -280,16 +294,17 @@ def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatA
 
 
 def point_set_hash(points: ArrayLike) -> int:
-    """A number that depends on points and their order, to tell whether weights are theirs.
+    """Computes a hash of points in their order, which tells whether weights belong to them.
 
     Parameters
     ----------
     points : array_like, shape (..., 3)
+        The points.
 
     Returns
     -------
     int
-        Of 64 bits, never 0; the same on every machine.
+        A number of 64 bits, never 0; it is the same on every machine.
 
     """
     array = as_floats(points, "points")

@@ -27,24 +27,32 @@ OffsetArray = npt.NDArray[np.int64]
 def isolines(
     self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
 ) -> Isolines:
-    """Lines of equal value, of the field that is linear in each triangle.
+    """Computes lines of equal value of the field that is linear in each triangle.
 
     Parameters
     ----------
     values : array_like, shape (n,)
-        Triangles with a corner whose value is nan or masked are left out.
-    levels : array_like
-        A level, or several that increase.
+        A value for each site. Triangles with a corner whose value is NaN or masked are left out.
+    levels : float or array_like, shape (k,)
+        One level, or several in increasing order.
     threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
 
     Returns
     -------
     Isolines
+        The lines of each level.
 
     Raises
     ------
     InvalidInput
         If a value is infinite, the levels do not increase, or the sites are weighted.
+
+    Notes
+    -----
+    Lines pass edges where linear interpolation between their ends has the level; values equal to
+    the level belong to the higher side. No line visits a point twice.
 
     Examples
     --------
@@ -60,19 +68,37 @@ def isolines(
 def bands(
     self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
 ) -> Bands:
-    """The regions between levels, of the field of `isolines`.
+    """Computes the regions between levels of the field that is linear in each triangle.
 
-    Together they are the triangles with values, without gaps: where two of them meet, both have
-    the same points, which are those of the isolines.
+    Together the regions are the triangles with values, without gaps: where two regions meet, both
+    have the same points, which are those of the isolines.
 
     Parameters
     ----------
-    values, levels, threads
-        As of `isolines`.
+    values : array_like, shape (n,)
+        A value for each site. Triangles with a corner whose value is NaN or masked are left out.
+    levels : float or array_like, shape (k,)
+        One level, or several in increasing order, which make k + 1 bands.
+    threads : int, optional
+        The largest number of threads; by default one for each core. The result does not depend on
+        it.
 
     Returns
     -------
     Bands
+        The regions: band k has the values from ``levels[k - 1]`` to below ``levels[k]``.
+
+    Raises
+    ------
+    InvalidInput
+        If a value is infinite, the levels do not increase, or the sites are weighted.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> tri = rondel.delaunay([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
+    >>> len(tri.bands([0, 0, 0, 0, 1, -1], [-0.5, 0.5]).band_offsets) - 1
+    3
 
     """
     return Bands(_core.bands(self._triangulation, *_as_input(self, values, levels, threads)))
@@ -108,7 +134,7 @@ class Isolines(Described):
         self.points: FloatArray = found.points
 
     def lines(self, level: int) -> list[FloatArray]:
-        """The lines of a level, each of shape (k, 3); a closed one ends where it begins."""
+        """Returns the lines of a level, each of shape (k, 3); a closed one ends where it begins."""
         found = []
         for i in range(*_rows(self.level_offsets, level)):
             line = self.points[slice(*_rows(self.line_offsets, i))]
@@ -124,35 +150,46 @@ class Isolines(Described):
     def to_geojson(
         self, path: str | os.PathLike[str] | io.IOBase | None = None, *, tolerance: float = 0.01
     ) -> Any:
-        """A feature for each level: a MultiLineString, or null, with the property `level`.
+        """Converts the lines to GeoJSON (RFC 7946).
+
+        There is a feature for each level: a MultiLineString, or null, with the property `level`.
 
         Parameters
         ----------
         path : path-like or file object, optional
-            Where to write the text; otherwise it is returned, parsed.
+            Where to write the text; by default it is parsed and returned.
         tolerance : float, optional
-            How far a line may be from its arc, in degrees.
+            The largest distance of a straight line from its arc, in degrees; by default 0.01.
 
         Returns
         -------
         dict or None
+            The FeatureCollection, or None if `path` is given.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
 
         """
         return written(path, lambda name: _core.write_isolines(name, self._found, tolerance, 0))
 
     def plot(self, ax: Any = None, *, projection: Any = None, **options: Any) -> Axes:
-        """Draws the lines, on axes as those of `SphericalDelaunay.plot`.
+        """Draws the lines on axes like those of `SphericalDelaunay.plot`.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
+            The axes to draw on; by default new ones.
         projection : cartopy.crs.CRS, optional
+            The projection of new axes; by default Robinson.
         **options
-            For `matplotlib.collections.LineCollection`.
+            Options of `matplotlib.collections.LineCollection`.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The axes.
 
         """
         lines = [line for k in range(len(self.levels)) for line in self.lines(k)]
@@ -202,16 +239,20 @@ class Bands(Described):
     def to_geojson(
         self, path: str | os.PathLike[str] | io.IOBase | None = None, *, tolerance: float = 0.01
     ) -> Any:
-        """A feature for each band: a MultiPolygon with `low` and `high`, null at the open ends.
+        """Converts the bands to GeoJSON (RFC 7946).
+
+        There is a feature for each band: a MultiPolygon with the properties `low` and `high`, which
+        are null at the open ends.
 
         Parameters
         ----------
         path, tolerance
-            As of `Isolines.to_geojson`.
+            As in `Isolines.to_geojson`.
 
         Returns
         -------
         dict or None
+            The FeatureCollection, or None if `path` is given.
 
         """
         return written(path, lambda name: _core.write_bands(name, self._found, tolerance, 0))

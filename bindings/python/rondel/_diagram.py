@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""What Voronoi and power diagrams have in common."""
+"""The parts that Voronoi and power diagrams share."""
 
 from __future__ import annotations
 
@@ -21,9 +21,11 @@ Delaunay = TypeVar("Delaunay", bound=Triangulated)
 
 
 class Cells(NamedTuple):
-    """Cells in compressed rows: the ring of site i is ``rings[offsets[i]:offsets[i + 1]]``,
-    positions in `points`, counterclockwise seen from outside. Its points are joined by the shorter
-    arcs of great circles, none longer than 120 degrees.
+    """Cells in compressed rows.
+
+    The ring of site i is ``rings[offsets[i]:offsets[i + 1]]``, rows of `points`, counterclockwise
+    seen from outside. Its points are joined by the shorter arcs of great circles, none longer than
+    120 degrees.
     """
 
     offsets: npt.NDArray[np.int64]
@@ -32,7 +34,7 @@ class Cells(NamedTuple):
 
 
 class Diagram(Described, Generic[Delaunay]):
-    """The dual of a triangulation, `SphericalDelaunay`; found when it is first asked for."""
+    """The dual of a `SphericalDelaunay`. Attributes are computed when they are first read."""
 
     # The kind of diagram that is the dual of triangulations of a model. (Triangulations know only
     # this class, as the kinds know them.)
@@ -101,8 +103,8 @@ class Diagram(Described, Generic[Delaunay]):
 
     @property
     def duplicates(self) -> IntArray:
-        """Ndarray of int32, shape (d, 2): rows of a site and the one in the same place that stands
-        for it. Duplicates have empty cells.
+        """Ndarray of int32, shape (d, 2): each row has a duplicate site and the site that
+        represents its place. Duplicates have empty cells.
         """
         return self._delaunay.duplicates
 
@@ -112,8 +114,9 @@ class Diagram(Described, Generic[Delaunay]):
 
     @cached_property
     def cells(self) -> Cells:
-        """Cells: every cell, whatever the sites are. Hemispheres and lunes have as many points on
-        their boundary as make its arcs short; a single site's cell, the whole sphere, none.
+        """Cells: every cell, for any set of sites. Long borders, as of hemispheres and lunes, have
+        points in between that make their arcs short. The cell of a single site is the whole sphere,
+        which has no points.
         """
         d = self._diagram
         return Cells(d.offsets, d.rings, frozen(self._on_sphere(d.points)))
@@ -121,8 +124,8 @@ class Diagram(Described, Generic[Delaunay]):
     @cached_property
     def vertices(self) -> FloatArray:
         """Ndarray of float64, shape (m, 3): the corners of the cells; vertex k is the center of the
-        circle of face k. Below dimension 2, all points of `cells`. An array of your own: nothing
-        else changes with it.
+        circle of face k. Below dimension 2 these are all points of `cells`. The array may be
+        changed: nothing else depends on it.
         """
         return self._found_vertices().copy()
 
@@ -177,16 +180,16 @@ class Diagram(Described, Generic[Delaunay]):
 
     @property
     def ridge_vertices(self) -> IntArray:
-        """Ndarray of int32, shape (r, 2): where each border of `ridge_points` begins and ends,
-        positions in ``cells.points``, whose first ones are `vertices`. The cell of the first site
-        is to the left of the arc. A border longer than 120 degrees is there in parts.
+        """Ndarray of int32, shape (r, 2): the ends of each border of `ridge_points`, rows of
+        ``cells.points``, the first of which are `vertices`. The cell of the first site is to the
+        left of the arc. A border longer than 120 degrees is divided into several rows.
         """
         return self._ridges[1]
 
     @cached_property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): the areas of the cells, in units of the radius squared;
-        0 for duplicates and hidden sites. Accurate for tiny cells too; the sum is
+        """Ndarray of float64, shape (n,): the areas of the cells in the squared unit of the radius;
+        0 for duplicates and hidden sites. They are accurate for tiny cells too; their sum is
         4 pi radius**2.
         """
         areas = self._diagram.areas
@@ -194,8 +197,8 @@ class Diagram(Described, Generic[Delaunay]):
 
     @cached_property
     def centroids(self) -> FloatArray:
-        """Ndarray of float64, shape (n, 3): the cells' centers of mass, moved out to the sphere;
-        nan where a cell is empty or its center of mass is that of the sphere.
+        """Ndarray of float64, shape (n, 3): the centers of mass of the cells, projected to the
+        sphere; NaN if a cell is empty or its center of mass is the center of the sphere.
         """
         directions = _core.centroids(self._delaunay._triangulation)
         none = ~directions.any(axis=1)

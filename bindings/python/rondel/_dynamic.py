@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""A triangulation whose sites come, go and move."""
+"""A triangulation whose sites can be inserted, removed and moved."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from ._types import ArrayLike, FloatArray, IntArray, Model
 
 
 class Snapshot(NamedTuple):
-    """A triangulation as it was: point i of `delaunay` has the id ``ids[i]``."""
+    """A triangulation at one time: point i of `delaunay` has the id ``ids[i]``."""
 
     ids: IntArray
     delaunay: SphericalDelaunay
@@ -45,31 +45,34 @@ def _as_id(site: int) -> int:
 class DynamicTriangulation(Described, Queries):
     """A Delaunay or regular triangulation under insertions, removals and moves.
 
-    At any time it is the triangulation that `delaunay` makes of the sites that are there. Each
-    site has an id that keeps its meaning until the site is removed; then the id may be given to a
-    new site. The sites of the constructor have the ids 0 to n - 1. A call that raises changes
-    nothing, and Ctrl-C waits for a change to end. Several threads may use one object.
+    At any time it is the triangulation that `delaunay` computes for the current sites. Each site
+    has an id, which it keeps until it is removed; then the id may be given to a new site. The sites
+    of the constructor have the ids 0 to n - 1. A call that raises changes nothing, and Ctrl-C waits
+    for the end of a change. Several threads may use one object.
 
     Parameters
     ----------
     points : array_like, shape (n, 3), optional
-        The first sites. They are copied.
+        The first sites, which are copied; by default there are none.
     model : {'projected', 'weighted'}, optional
+        What a point represents, as in `delaunay`; by default 'projected'.
     radius : float, optional
+        The radius of the sphere, in the unit of the points; by default 1.
     center : array_like, shape (3,), optional
+        The center of the sphere; by default the origin.
     threads : int, optional
-        For the first sites.
+        The largest number of threads for the first sites; by default one for each core.
 
     Raises
     ------
     InvalidInput
-        As `delaunay` does.
+        If a coordinate is not finite, or a projected point is the center.
 
     Notes
     -----
-    About two microseconds a change with a million sites, and some tenths of a second whenever the
-    number of sites has doubled or halved. Insertion: Caroli et al., SEA 2010, section 4;
-    removal: Chew 1990, Devillers 1999.
+    A change takes about two microseconds with a million sites, and some tenths of a second whenever
+    the number of sites has doubled or halved. Insertion follows Caroli et al., SEA 2010, section 4;
+    removal follows Chew 1990 and Devillers 1999.
 
     Examples
     --------
@@ -109,16 +112,25 @@ class DynamicTriangulation(Described, Queries):
     def from_lonlat(
         cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None
     ) -> DynamicTriangulation:
-        """The triangulation of longitudes and latitudes in degrees, on the unit sphere.
+        """Makes the triangulation of longitudes and latitudes on the unit sphere.
 
         Parameters
         ----------
         lon, lat : array_like, shape (n,)
+            Longitudes and latitudes of the first sites in degrees; latitudes are from -90 to 90.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         DynamicTriangulation
+            The triangulation; the sites have the ids 0 to n - 1.
+
+        Raises
+        ------
+        InvalidInput
+            If an angle is not finite or a latitude is outside [-90, 90].
 
         """
         return cls(unit_vectors(lon, lat).reshape(-1, 3), threads=threads)
@@ -138,13 +150,14 @@ class DynamicTriangulation(Described, Queries):
     @overload
     def insert(self, points: ArrayLike, *, hint: int | None = None) -> Any: ...
     def insert(self, points: ArrayLike, *, hint: int | None = None) -> Any:
-        """Adds one site or many.
+        """Adds one site or several.
 
         Parameters
         ----------
         points : array_like, shape (3,) or (n, 3)
+            The coordinates of one site, or of several.
         hint : int, optional
-            The id of a close site, which saves the search for the place of one new site.
+            The id of a close site, which saves the search for the place of a single new site.
 
         Returns
         -------
@@ -168,27 +181,35 @@ class DynamicTriangulation(Described, Queries):
         return self._state.insert_near(tuple(array.tolist()), _as_id(hint))
 
     def insert_lonlat(self, lon: ArrayLike, lat: ArrayLike, *, hint: int | None = None) -> Any:
-        """Adds one site or many by longitude and latitude in degrees.
+        """Adds one site or several by longitude and latitude.
 
         Parameters
         ----------
         lon, lat : float or array_like, shape (n,)
+            Longitudes and latitudes in degrees; latitudes are from -90 to 90.
         hint : int, optional
+            As in `insert`.
 
         Returns
         -------
         int or ndarray of int32, shape (n,)
-            As `insert` does.
+            The ids of the new sites.
+
+        Raises
+        ------
+        InvalidInput
+            If an angle is not finite, a latitude is outside [-90, 90], or there is no site `hint`.
 
         """
         return self.insert(unit_vectors(lon, lat), hint=hint)
 
     def remove(self, ids: ArrayLike) -> None:
-        """Removes one site or many.
+        """Removes one site or several.
 
         Parameters
         ----------
         ids : int or array_like of int, shape (n,)
+            The ids of the sites.
 
         Raises
         ------
@@ -199,73 +220,91 @@ class DynamicTriangulation(Described, Queries):
         self._state.remove(as_indices(np.atleast_1d(ids), "ids"))
 
     def move(self, ids: ArrayLike, points: ArrayLike) -> None:
-        """Moves one site, or many one after the other. They keep their ids.
+        """Moves one site, or several one after the other. They keep their ids.
 
         Parameters
         ----------
         ids : int or array_like of int, shape (n,)
+            The ids of the sites.
         points : array_like, shape (3,) or (n, 3)
+            The new coordinates of each of them.
 
         Raises
         ------
         InvalidInput
-            As `remove` and `insert` do, and if the lengths differ.
+            If there is no such site, a point is not valid as in `insert`, or the lengths differ.
 
         """
         to = as_points(np.atleast_2d(as_floats(points, "points")))
         self._state.move(as_indices(np.atleast_1d(ids), "ids"), to)
 
     def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
-        """The ids of the corners of the face that each query point lies in.
+        """Finds the corners of the face that contains each query point.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         ndarray of int32, shape (..., 3)
-            On an edge its two ends and -1, on a vertex it and -1, outside of all faces -1.
+            The ids of the three corners; for a point on an edge its two ends and -1, on a vertex
+            its id and -1, outside of all faces -1.
+
+        Raises
+        ------
+        InvalidInput
+            If a query is not finite or is the center.
 
         """
         queries, shape = as_queries(xi)
         return self._state.locate(queries, as_threads(threads)).reshape(*shape, 3)
 
     def neighbors(self, site: int) -> IntArray:
-        """The ids of the neighbors of a site, counterclockwise, the lowest first.
+        """Returns the neighbors of a site.
 
         Parameters
         ----------
         site : int
+            The id of the site.
 
         Returns
         -------
-        ndarray of int32
-            Of a duplicate, the neighbors of its representative; empty for a hidden site.
+        ndarray of int32, shape (k,)
+            The ids of the neighbors, counterclockwise from the lowest; for a duplicate those of its
+            representative, for a hidden site none.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no such site.
 
         """
         return self._state.neighbors(_as_id(site))
 
     def point(self, site: int) -> FloatArray:
-        """The coordinates of a site, ndarray of float64, shape (3,)."""
+        """Returns the coordinates of a site, an ndarray of float64, shape (3,)."""
         return np.array(self._state.site(_as_id(site)))
 
     def representative(self, site: int) -> int:
-        """The lowest id in the same place, which stands for all of them."""
+        """Returns the lowest id in the place of a site, which represents all sites there."""
         return self._state.representative(_as_id(site))
 
     def is_vertex(self, site: int) -> bool:
-        """Whether the site, or its representative, is a vertex; otherwise it is hidden."""
+        """Tells whether the site, or its representative, is a vertex; otherwise it is hidden."""
         return self._state.is_vertex(_as_id(site))
 
     def snapshot(self) -> Snapshot:
-        """The sites and their triangulation as they are now, as arrays.
+        """Returns the current sites and their triangulation as arrays.
 
         Returns
         -------
         Snapshot
-            `ids`, increasing, and `delaunay`, a `SphericalDelaunay` of their points.
+            `ids`, in increasing order, and `delaunay`, a `SphericalDelaunay` of their points.
 
         """
         ids, triangulation = self._state.snapshot()
@@ -285,7 +324,7 @@ class DynamicTriangulation(Described, Queries):
 
     @property
     def dimension(self) -> int:
-        """int: as of `SphericalDelaunay`."""
+        """int: the dimension, as in `SphericalDelaunay`."""
         return self._state.dimension
 
     def __len__(self) -> int:

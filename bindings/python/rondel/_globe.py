@@ -43,39 +43,41 @@ def save_html(
     circles: bool = False,
     view: tuple[float, float] | None = None,
 ) -> None:
-    """Writes a page with a globe to turn, zoom and point at: one file for any browser.
+    """Writes an HTML page with an interactive globe, one file for any browser.
 
-    It needs neither a server nor a network. A triangulation, its diagram, areas, values and
-    properties are all in it.
+    The page needs neither a server nor a network: it contains the triangulation, its diagram,
+    areas, values and properties.
 
     Parameters
     ----------
     path : path-like
+        The file to write. It appears when it is complete, and replaces an existing one.
     values : array_like, shape (n,), optional
-        A number for each site, shown as the color of its cell, with a color bar; nan for none.
+        A number for each site, shown as the color of its cell, with a color bar; NaN has no color.
     name : str, optional
-        What the values are.
+        The name of the values.
     isolines : Isolines, optional
-        Lines that are drawn over the cells, of `SphericalDelaunay.isolines`.
+        Lines of `SphericalDelaunay.isolines`, which are drawn over the cells.
     properties : mapping of str to sequence, optional
-        What is told of each site that is picked, and can be searched: for each name a value for
-        every site.
+        Properties of sites, which the page shows for a selected site and can search: for each name
+        a value for every site.
     title : str, optional
-        Of the page.
+        The title of the page.
     show : {'delaunay', 'voronoi', 'both'}, optional
-        The lines that the page shows at first; by default the cells of diagrams and where there are
+        The lines that the page shows at first; by default the cells of diagrams and if there are
         values, otherwise the triangles.
     sites, circles : bool, optional
         Whether the page shows the sites, and the circles of weighted sites, at first.
     view : (float, float), optional
-        Longitude and latitude in the middle, in degrees; by default the sites are in view.
+        Longitude and latitude of the middle of the picture in degrees; by default the sites are in
+        view.
 
     Raises
     ------
     OSError
         If the file cannot be written; then nothing is left of it.
     ValueError
-        If there is not one value for each site.
+        If the number of values is not n.
 
     Examples
     --------
@@ -106,18 +108,19 @@ def view(
     view: tuple[float, float] | None = None,
     height: int = 600,
 ) -> IPython.display.HTML:
-    """The globe of `save_html` in a frame of a notebook.
+    """Shows the globe of `save_html` in a frame of a notebook.
 
     Parameters
     ----------
     values, name, isolines, properties, title, show, sites, circles, view
-        As of `save_html`.
+        As in `save_html`.
     height : int, optional
-        Of the frame, in pixels.
+        The height of the frame in pixels.
 
     Returns
     -------
     IPython.display.HTML
+        The frame.
 
     Raises
     ------

@@ -19,7 +19,16 @@ _GRAPHS = ("delaunay", "urquhart", "gabriel", "relative", "mst")
 
 
 class Graph(NamedTuple):
-    """Edges between sites, shape (e, 2), the lower index first, and their lengths in radians."""
+    """A graph of sites.
+
+    Attributes
+    ----------
+    edges : ndarray of int32, shape (e, 2)
+        The two sites of each edge, the lower index first.
+    lengths : ndarray of float64, shape (e,)
+        The lengths of the edges in radians.
+
+    """
 
     edges: IntArray
     lengths: FloatArray
@@ -43,7 +52,18 @@ class Outline(NamedTuple):
 
 
 class EmptyCircles(NamedTuple):
-    """Circles without sites inside: centers (k, 3), radii (k,) in radians, three sites on each."""
+    """Circles without sites inside.
+
+    Attributes
+    ----------
+    centers : ndarray of float64, shape (k, 3)
+        Unit vectors to the centers.
+    radii : ndarray of float64, shape (k,)
+        Angular radii in radians.
+    sites : ndarray of int32, shape (k, 3)
+        Three sites on each circle.
+
+    """
 
     centers: FloatArray
     radii: FloatArray
@@ -51,31 +71,41 @@ class EmptyCircles(NamedTuple):
 
 
 class Graphs:
-    """The methods of triangulations that read graphs and regions from them."""
+    """The graphs, hulls and circles that triangulations contain."""
 
     _triangulation: Any
 
     def graph(self, kind: GraphName = "delaunay") -> Graph:
-        """A graph of near sites.
+        """Returns a graph of near sites.
 
         Parameters
         ----------
-        kind : {'delaunay', 'urquhart', 'gabriel', 'relative', 'mst'}
-            'delaunay': the edges of the faces that the center sees; the others are parts of it.
-            'urquhart': without edges longer than both others of a face. 'gabriel': no site in the
-            closed circle with the edge as its diameter. 'relative': no site nearer to both ends.
-            'mst': the shortest spanning tree, of equal edges those first in lexicographic order.
+        kind : {'delaunay', 'urquhart', 'gabriel', 'relative', 'mst'}, optional
+            'delaunay' (default): the edges of the solid faces, of which the other graphs are
+            subsets. 'urquhart': without edges that are the longest of a face. 'gabriel': edges
+            whose closed diametral circle contains no other site. 'relative' (relative neighborhood
+            graph): edges without a site that is nearer to both ends. 'mst': the minimum spanning
+            tree; of equal edges the first in lexicographic order is taken.
 
         Returns
         -------
         Graph
-            Edges in lexicographic order, exact ties included. Duplicates have no edges but the
-            lowest index of each place.
+            The edges in lexicographic order, and their lengths; ties are decided exactly. Of
+            duplicates only the lowest index has edges.
 
         Raises
         ------
         InvalidInput
             If the sites are weighted.
+        ValueError
+            If there is no such kind.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay_lonlat([0, 10, 25, 180], [0, 0, 0, 10])
+        >>> tri.graph("mst").edges.tolist()
+        [[0, 1], [1, 2], [2, 3]]
 
         """
         if kind not in _GRAPHS:
@@ -85,21 +115,27 @@ class Graphs:
     def edge_index(
         self, kind: GraphName = "delaunay", *, both: bool = True
     ) -> tuple[npt.NDArray[np.int64], FloatArray]:
-        """A graph as PyTorch Geometric takes it.
+        """Returns a graph in the form of PyTorch Geometric.
 
         Parameters
         ----------
-        kind : str
-            As `graph` has it.
+        kind : {'delaunay', 'urquhart', 'gabriel', 'relative', 'mst'}, optional
+            As in `graph`; by default 'delaunay'.
         both : bool, optional
-            Each edge in both directions; otherwise from the lower index to the higher.
+            Whether each edge occurs in both directions (default), or only from the lower index to
+            the higher.
 
         Returns
         -------
         edge_index : ndarray of int64, shape (2, e)
             Sources and targets, in lexicographic order.
         lengths : ndarray of float64, shape (e,)
-            Radians.
+            The lengths of the edges in radians.
+
+        Raises
+        ------
+        InvalidInput
+            If the sites are weighted.
 
         """
         edges, lengths = self.graph(kind)
@@ -112,55 +148,60 @@ class Graphs:
         return np.ascontiguousarray(ends), lengths
 
     def hull_polygon(self) -> Outline:
-        """The convex hull on the sphere, the union of the faces that the center sees.
+        """Returns the convex hull on the sphere, which is the union of the solid faces.
 
         Returns
         -------
         Outline
-            One polygon: without rings, which is the whole sphere, if no closed hemisphere has all
-            sites. No polygon below dimension 2.
+            One polygon, which has no rings and is the whole sphere if no closed hemisphere contains
+            all sites. There is no polygon below dimension 2.
 
         """
         return Outline(*_core.hull_polygon(self._triangulation))
 
     def alpha_shape(self, radius: float) -> Outline:
-        """The union of the faces whose circle has at most this radius.
+        """Returns the union of the solid faces whose circle has at most a given radius.
 
         Parameters
         ----------
         radius : float
-            Radians.
+            The largest radius of a circle in radians.
 
         Returns
         -------
         Outline
-            A polygon for each part that hangs together by edges.
+            A polygon for each part that is connected by edges.
 
         Raises
         ------
         InvalidInput
-            If the radius is negative or not a number, or the sites are weighted.
+            If the radius is negative or NaN, or the sites are weighted.
 
         """
         return Outline(*_core.alpha_shape(self._triangulation, float(radius)))
 
     def largest_empty_circles(self, k: int = 1, *, anywhere: bool = False) -> EmptyCircles:
-        """The largest circles of the faces, which have no site inside.
+        """Returns the largest circles of the faces, which have no site inside.
 
-        Each touches three sites or more. Where all sites are in half of the sphere, a circle that
-        touches two sites alone may be larger.
+        Each of them touches three or more sites. If all sites are in one half of the sphere, a
+        circle that touches only two sites may be larger.
 
         Parameters
         ----------
-        k : int
-            How many; fewer if there are fewer.
+        k : int, optional
+            The number of circles; by default 1. There are fewer if there are fewer faces.
         anywhere : bool, optional
-            Centers may lie outside of the hull of the sites.
+            Whether centers may lie outside of the hull of the sites; by default False.
 
         Returns
         -------
         EmptyCircles
-            The largest first.
+            The circles, the largest first.
+
+        Raises
+        ------
+        ValueError
+            If k is negative.
 
         """
         count = operator.index(k)

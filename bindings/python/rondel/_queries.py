@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Questions of place and distance, for triangulations that stay and for those that change."""
+"""Queries of position and distance, for static and dynamic triangulations."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ._types import ArrayLike, FloatArray, IntArray
 
 
 class Where(IntEnum):
-    """What the ray from the center through a query point meets."""
+    """What a query point lies on: the ray from the center through it meets this."""
 
     VERTEX = 0
     EDGE = 1
@@ -25,31 +25,42 @@ class Where(IntEnum):
 
 
 class Queries:
-    """Questions that `_locator()` answers. Query points stand for rays from the center."""
+    """The queries of a triangulation.
+
+    Query points are points in space; only their directions from the center of the sphere are used.
+    """
 
     def _locator(self) -> Any:
         raise NotImplementedError
 
     def nearest(self, xi: ArrayLike, *rest: NoReturn, threads: int | None = None) -> IntArray:
-        """The nearest vertex of each query point, exactly; of several the lowest index.
+        """Finds the nearest vertex of each query point, exactly.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
-            Only directions from the center of the sphere count.
+            Query points; only their directions from the center of the sphere are used.
         threads : int, optional
-            At most so many; by default one for each core.
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         ndarray of int32, shape (...)
-            -1 if there are no points. With model 'weighted' the site in whose power cell the query
-            lies.
+            Indices of sites; of several at the same distance the lowest, and -1 if there are no
+            sites. For model 'weighted' it is the site in whose power cell the query lies.
 
         Raises
         ------
         InvalidInput
             If a query is not finite or is the center.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> tri.nearest(rondel.unit_vectors([10, 100], [5, 80])).tolist()
+        [0, 4]
 
         """
         if rest:
@@ -58,24 +69,37 @@ class Queries:
         return self._locator().nearest(queries, as_threads(threads)).reshape(shape)[()]
 
     def k_nearest(self, xi: ArrayLike, k: int, *, threads: int | None = None) -> IntArray:
-        """The k nearest vertices of each query point in order of distance, exactly.
+        """Finds the k nearest vertices of each query point, exactly.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
         k : int
+            The number of vertices for each query, at least 0.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         ndarray of int32, shape (..., k)
-            Filled up with -1 where there are fewer vertices. Of equal distances the lower index
-            comes first.
+            Indices of sites in order of distance; of equal distances the lower index comes first.
+            Rows are filled up with -1 if there are fewer vertices.
 
         Raises
         ------
         InvalidInput
             If a query is not finite or is the center.
+        ValueError
+            If k is negative.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> tri.k_nearest(rondel.unit_vectors(10, 5), 3).tolist()
+        [0, 1, 4]
 
         """
         queries, shape = as_queries(xi)
@@ -95,20 +119,25 @@ class Queries:
     @overload
     def within(self, xi: ArrayLike, angle: float, *, threads: int | None = None) -> Any: ...
     def within(self, xi: ArrayLike, angle: float, *, threads: int | None = None) -> Any:
-        """All vertices within an angle of each query point.
+        """Finds all vertices within an angle of each query point, exactly.
 
         Parameters
         ----------
         xi : array_like, shape (3,) or (q, 3)
+            One query point or several; only their directions from the center of the sphere are
+            used.
         angle : float
-            Radians. With model 'weighted' and angle 0: the circles that hold the query.
+            The largest distance in radians. For model 'weighted', 0 finds the circles that contain
+            the query.
         threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
         Returns
         -------
         ndarray of int32, or Lists
-            For one query its sites in increasing order; for many a tuple (indptr, indices): those
-            of query i are ``indices[indptr[i]:indptr[i + 1]]``.
+            For one query its sites in increasing order. For several a tuple (indptr, indices): the
+            sites of query i are ``indices[indptr[i]:indptr[i + 1]]``.
 
         Raises
         ------
@@ -123,19 +152,21 @@ class Queries:
         return lists if shape else lists.indices
 
     def distance(self, xi: ArrayLike, sites: ArrayLike) -> FloatArray:
-        """Angles between query points and sites.
+        """Computes the distances between query points and sites.
 
         Parameters
         ----------
         xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
         sites : array_like of int, shape (...)
-            Broadcast against the query points: ``distance(xi[:, None], k_nearest(xi, 5))``.
+            Indices of sites, broadcast against the query points, as in
+            ``distance(xi[:, None], k_nearest(xi, 5))``.
 
         Returns
         -------
-        ndarray of float64
-            Radians from 0 to pi, infinite for the site -1. With model 'weighted' the Laguerre
-            distance ``arccos(cos(angle) |P| / R)``, 0 inside of the circle.
+        ndarray of float64, shape (...)
+            Angles in radians, from 0 to pi; infinite for the site -1. For model 'weighted' the
+            Laguerre distance ``arccos(cos(angle) |P| / R)``, which is 0 inside of the circle.
 
         Raises
         ------

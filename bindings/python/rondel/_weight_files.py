@@ -34,7 +34,7 @@ def weights_to_netcdf(
     target_areas: ArrayLike | None = None,
     method: str = "",
 ) -> None:
-    """Writes a file that other programs apply: ESMF's, uxarray, CDO, NCO.
+    """Writes a netCDF file that other programs (ESMF, uxarray, CDO, NCO) apply.
 
     Parameters
     ----------
@@ -42,17 +42,19 @@ def weights_to_netcdf(
         Ends in .nc or .nc4 (netCDF-4), .cdf or .ncf. The file appears when it is complete, and
         replaces the one that is there.
     format : {'esmf', 'scrip'}, optional
-        netCDF with the names of ESMF (`row`, `col`, `S`), or with those of SCRIP, which CDO reads.
+        The names of variables: those of ESMF (`row`, `col`, `S`; default), or those of SCRIP, which
+        CDO reads.
     sites : array_like, shape (n, 3), optional
+        The places of the sites, which the file stores as longitudes and latitudes; only directions
+        from the origin are used.
     targets : array_like, shape (..., 3), optional
-        The places, which the file then has as longitudes and latitudes; targets of shape
-        (nlat, nlon, 3) are a grid there. Only directions from the origin count.
+        The places of the targets. With the shape (nlat, nlon, 3) the file describes a grid.
     site_areas : array_like, shape (n,), optional
-        In steradians, as those of the sites' cells, `Voronoi.areas`.
-    target_areas : array_like, one for each target, optional
-        With both areas other programs compute what the weights conserve.
+        Areas of the sites in steradians, such as those of their Voronoi cells.
+    target_areas : array_like, shape (m,), optional
+        Areas of the targets in steradians. With both areas other programs can compute integrals.
     method : str, optional
-        What the file says of the method.
+        The name of the method in the file.
 
     Raises
     ------

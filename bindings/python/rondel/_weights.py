@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sparse weights, which carry values from sites to targets."""
+"""Sparse weights, which map values at sites to values at targets."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Weights(Described):
     @property
     def indices(self) -> IntArray:
         """Ndarray of int32, shape (k,): the site of each entry, read-only. The order within a row
-        depends on the places of the sites alone, so that sums along it do, too.
+        depends only on the places of the sites, and so do sums along it.
         """
         return self._weights.columns
 
@@ -214,7 +214,7 @@ class Weights(Described):
         return np.swapaxes(self.apply(np.swapaxes(as_floats(other, "values"), -1, -2)), -1, -2)
 
     def tocsr(self) -> Any:
-        """The same as a `scipy.sparse.csr_matrix`, which owns its arrays."""
+        """Returns a `scipy.sparse.csr_matrix` with copies of the arrays."""
         import scipy.sparse
 
         arrays = (self.data, self.indices, self.indptr)
@@ -226,7 +226,12 @@ class Weights(Described):
         Parameters
         ----------
         path : path-like
-            The file appears when it is complete, and replaces the one that is there.
+            The file to write. It appears when it is complete, and replaces an existing one.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
 
         """
         with _replaced(path) as name, open(name, "wb") as file:
@@ -247,10 +252,19 @@ class Weights(Described):
         Parameters
         ----------
         path : path-like
+            The .npz file.
 
         Returns
         -------
         Weights
+            The weights.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read.
+        ValueError
+            If the file has no matrix in compressed rows.
 
         """
         if (
@@ -303,22 +317,23 @@ def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
 
 
 def read_weights(path: Path) -> Weights:
-    """Weights of a file of `Weights.to_netcdf` or of another program, of ESMF's or SCRIP's kind.
+    """Reads weights from a file of `Weights.to_netcdf` or of another program.
 
     Parameters
     ----------
     path : path-like
-        Also an .npz file of `scipy.sparse.save_npz`.
+        A netCDF file with the names of ESMF or of SCRIP, or an .npz file of
+        `scipy.sparse.save_npz`.
 
     Returns
     -------
     Weights
-        Entries may have any order in the file; within a row they keep it.
+        The weights. Entries may have any order in the file; within a row they keep it.
 
     Raises
     ------
     OSError
-        If the file cannot be read, or holds no weights.
+        If the file cannot be read, or has no weights.
 
     Warns
     -----

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tangent vectors between sites, such as winds, for triangulations."""
+"""Interpolation of tangent vectors, such as winds, for triangulations."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def directions(lon: FloatArray, lat: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 class VectorInterpolation(Interpolation):
-    """Vectors between the sites of a triangulation, beside values."""
+    """Interpolation of vectors, besides that of values."""
 
     def interpolate_vectors(
         self,
@@ -44,23 +44,32 @@ class VectorInterpolation(Interpolation):
         threads: int | None = None,
         progress: Progress = None,
     ) -> FloatArray:
-        """Tangent vectors at the sites, such as winds, carried to tangent vectors at targets.
+        """Interpolates tangent vectors, such as winds, at targets.
 
-        In space, so that poles are places like all others: the wind of a turning globe comes back
-        as it is with 'linear', 'laplace' and 'sibson', and nearly so with 'hermite' and 'cubic'.
+        The interpolation is done in space, so that poles are no special places: the wind of a solid
+        rotation is reproduced by 'linear', 'laplace' and 'sibson', and nearly so by 'hermite' and
+        'cubic'.
 
         Parameters
         ----------
         vectors : array_like, shape (..., n, 3)
-            Cartesian. For components to the east and the north see `interpolate_winds`.
+            A Cartesian vector for each site; further axes, such as time, come first. For eastward
+            and northward components use `interpolate_winds`.
         targets : array_like, shape (..., 3)
+            Where vectors are wanted; only directions from the center of the sphere are used.
         method, outside, duplicates, rings, threads, progress
-            As in `weights`.
+            As in `weights`; the default method is 'sibson'.
 
         Returns
         -------
         ndarray of float64, shape (..., 3)
-            The shape of the vectors without the last two axes, then that of the targets.
+            Tangent vectors. The shape is that of the vectors without the last two axes, then that
+            of the targets.
+
+        Raises
+        ------
+        InvalidInput
+            As in `weights`.
 
         """
         fields = as_vectors(vectors, self.npoints, "vectors")
@@ -83,23 +92,31 @@ class VectorInterpolation(Interpolation):
         method: Method = "sibson",
         **options: Any,
     ) -> tuple[FloatArray, FloatArray]:
-        """Winds to the east and the north, at longitudes and latitudes; across poles, too.
+        """Interpolates eastward and northward components of winds, also across poles.
 
         Parameters
         ----------
         east, north : array_like, shape (..., n)
-            The components at the sites. At a pole the east is that of the longitude by which the
-            site was given, otherwise of longitude 0.
+            The components at the sites, in any unit. At a pole they refer to the longitude by which
+            the site was given, or else to longitude 0.
         lon, lat : array_like
-            Where to, in degrees; broadcast against each other.
-        method : str, optional
+            Longitudes and latitudes of the targets in degrees, broadcast against each other.
+        method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
+            As in `weights`; by default 'sibson'.
         **options
-            As in `interpolate_vectors`.
+            The options `outside`, `duplicates`, `rings`, `threads` and `progress` of
+            `interpolate_vectors`.
 
         Returns
         -------
-        tuple of ndarray of float64
-            The two components there. At a pole they are those of its longitude in `lon`.
+        east, north : ndarray of float64
+            The components at the targets, in the unit of the input. At a pole they refer to its
+            longitude in `lon`.
+
+        Raises
+        ------
+        InvalidInput
+            If an angle is not finite or a latitude is outside [-90, 90].
 
         """
         u = as_fields(east, self.npoints, "east")

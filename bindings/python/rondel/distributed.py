@@ -53,10 +53,10 @@ LongArray: TypeAlias = npt.NDArray[np.int64]
 
 
 class DistributedTriangulation:
-    """What one rank has of the triangulation that `delaunay` or `delaunay_file` made.
+    """The part of one rank of a triangulation that `delaunay` or `delaunay_file` made.
 
-    Numbers are those of all ranks: points of rank r come behind those of rank r - 1, and so do
-    faces. All arrays are of int64 and cannot be written to.
+    Points and faces are numbered through all ranks: those of rank r follow those of rank r - 1. All
+    arrays of numbers are of int64 and read-only.
     """
 
     def __init__(
@@ -68,47 +68,47 @@ class DistributedTriangulation:
 
     @property
     def dimension(self) -> int:
-        """As that of `SphericalDelaunay`; below 2 there are no faces."""
+        """int: the dimension, as in `SphericalDelaunay`; below 2 there are no faces."""
         return self._part.dimension
 
     @property
     def num_sites(self) -> int:
-        """The points of all ranks."""
+        """int: the number of points of all ranks."""
         return self._part.num_sites
 
     @property
     def num_vertices(self) -> int:
-        """Of all ranks; with duplicates and hidden points, `num_sites`."""
+        """int: the number of vertices: of points that are neither duplicates nor hidden."""
         return self._part.num_vertices
 
     @property
     def num_faces(self) -> int:
-        """The triangles of all ranks."""
+        """int: the number of triangles of all ranks."""
         return self._part.num_faces
 
     @property
     def num_ghost_faces(self) -> int:
-        """Those of all ranks that are not seen from the center."""
+        """int: the number of triangles that are not seen from the center, of all ranks."""
         return self._part.num_ghost_faces
 
     @property
     def num_duplicates(self) -> int:
-        """Points of all ranks that are in the same place as one before them."""
+        """int: the number of points that are in the same place as one before them."""
         return self._part.num_duplicates
 
     @property
     def num_hidden(self) -> int:
-        """Points of all ranks that are no vertices (model 'weighted')."""
+        """int: the number of hidden points, which exist for model 'weighted' only."""
         return self._part.num_hidden
 
     @property
     def num_open_sites(self) -> int:
-        """Points that no rank could decide alone, so that rank 0 joined them."""
+        """int: the number of points whose faces no rank could find alone; rank 0 joined them."""
         return self._part.num_open_sites
 
     @property
     def first_face(self) -> int:
-        """The number of this rank's first triangle, which row 0 of `faces` is."""
+        """int: the number of this rank's first triangle, row 0 of `faces`."""
         return self._part.first_face
 
     @cached_property
@@ -169,20 +169,22 @@ class DistributedTriangulation:
         return frozen(self._part.circumcenters(0))
 
     def areas(self, *, threads: int | None = None, progress: Progress = None) -> FloatArray:
-        """The areas of the cells of the points that this rank gave, in steradians.
+        """Computes the areas of the cells of the points that this rank gave.
 
-        All ranks call this together, after ``keep_points=True``.
+        All ranks call this together. It needs ``keep_points=True``.
 
         Parameters
         ----------
         threads : int, optional
+            The largest number of threads of this rank; by default its share of the cores.
         progress : callable, optional
-            As for `delaunay`.
+            Called as ``progress(stage, fraction)``, as in `delaunay`.
 
         Returns
         -------
-        ndarray, shape (n,)
-            As ``tri.voronoi().areas``, bit by bit: 0 for duplicates and hidden points.
+        ndarray of float64, shape (n,)
+            Areas in steradians, with the same bits as ``tri.voronoi().areas``; 0 for duplicates and
+            hidden points.
 
         Raises
         ------
@@ -222,34 +224,40 @@ def delaunay(
     threads: int | None = None,
     progress: Progress = None,
 ) -> DistributedTriangulation:
-    """The Delaunay triangulation of the points of all ranks, which call this together.
+    """Computes the Delaunay triangulation of the points of all ranks, which call this together.
 
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        Those of this rank: any share of all, also none. `rondel.unit_vectors` makes them of
-        longitudes and latitudes.
+        The points of this rank: any share of all, possibly none. For longitudes and latitudes use
+        `rondel.unit_vectors`.
     comm : mpi4py.MPI.Intracomm or Communicator, optional
-        The ranks; ``mpi4py.MPI.COMM_WORLD`` by default. It is called from another thread, and by
-        nobody else until this returns.
+        The ranks; by default ``mpi4py.MPI.COMM_WORLD``. It is called from another thread, and must
+        not be used elsewhere until this function returns.
     model : {'projected', 'weighted'}, optional
+        What a point represents, as in `rondel.delaunay`; by default 'projected'. It must be the
+        same on all ranks.
     radius : float, optional
+        The radius of the sphere; by default 1. It must be the same on all ranks.
     center : array_like, shape (3,), optional
-        As for `rondel.delaunay`, and the same on all ranks.
+        The center of the sphere; by default the origin. It must be the same on all ranks.
     most_bucket_sites : int, optional
-        At most so many points of a rank are triangulated at once. The same on all ranks.
+        The largest number of points that a rank triangulates at once. It must be the same on all
+        ranks.
     keep_points : bool, optional
-        Whether to keep the points, 24 bytes for each, for `areas` and `circumcenters` of the
-        result. The same on all ranks.
+        Whether to keep the points, which takes 24 bytes a point, for `areas` and `circumcenters` of
+        the result. It must be the same on all ranks.
     threads : int, optional
-        At most so many work for this rank; by default its share of the machine's cores.
+        The largest number of threads of this rank; by default its share of the cores of the
+        machine.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` with this rank's stages, 'triangulate' and 'join'.
-        What it raises ends the work on all ranks, also when it is called a last time.
+        Called as ``progress(stage, fraction)`` with the stages of this rank, 'triangulate' and
+        'join'. An exception that it raises ends the work on all ranks, even in its last call.
 
     Returns
     -------
     DistributedTriangulation
+        The part of this rank.
 
     Raises
     ------
@@ -308,11 +316,11 @@ def delaunay_file(
     threads: int | None = None,
     progress: Progress = None,
 ) -> DistributedTriangulation:
-    """The Delaunay triangulation of a file, of which each rank reads its share.
+    """Computes the Delaunay triangulation of a file, of which each rank reads its share.
 
-    Each rank writes its share of the results, too, on a disk that all of them see. The files appear
-    complete, when all ranks are done, or not at all; until then they are called
-    ``.rondel-N-M.tmp``. Their numbers are of type uint32 while all fit, otherwise int64.
+    Each rank also writes its share of the results, on a disk that all ranks share. The files appear
+    complete when all ranks are done, or not at all; until then they are called ``.rondel-N-M.tmp``.
+    Their numbers are of type uint32 if all fit, otherwise int64.
 
     Parameters
     ----------
@@ -327,21 +335,26 @@ def delaunay_file(
     duplicates : path_like, optional
         A `.npy` file, shape (k, 2): rows, and the rows that they repeat.
     areas : path_like, optional
-        A `.npy` file of doubles, shape (n,): the areas of the cells, 0 without a cell.
+        A `.npy` file of doubles, shape (n,): the areas of the cells in steradians; 0 for points
+        without a cell.
     circumcenters : path_like, optional
-        A `.npy` file of doubles, shape (m, 3): those of the triangles.
+        A `.npy` file of doubles, shape (m, 3): unit vectors to the circumcenters of the triangles.
     model : {'projected', 'weighted'}, optional
+        What a point represents, as in `rondel.delaunay`; by default 'projected'.
     radius : float, optional
+        The radius of the sphere; by default 1.
     center : array_like, shape (3,), optional
-        As for `rondel.delaunay`. All arguments but the last two are the same on all ranks.
+        The center of the sphere; by default the origin.
     radians : bool, optional
-        Whether longitudes and latitudes are in radians.
+        Whether longitudes and latitudes are in radians; by default False, degrees.
     most_bucket_sites, threads, progress : optional
-        As for `delaunay`.
+        As in `delaunay`. All arguments except `threads` and `progress` must be the same on all
+        ranks.
 
     Returns
     -------
     DistributedTriangulation
+        The part of this rank.
 
     Raises
     ------

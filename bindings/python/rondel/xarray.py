@@ -31,7 +31,7 @@ def __dir__() -> list[str]:
 
 
 class RondelAccessor:
-    """What ``ds.rondel`` and ``da.rondel`` are."""
+    """The accessor ``ds.rondel`` of a Dataset and ``da.rondel`` of a DataArray."""
 
     def __init__(self, data: Any) -> None:
         self._data = data
@@ -46,7 +46,7 @@ class RondelAccessor:
         lat: Hashable | None = None,
         **options: Any,
     ) -> Weights:
-        """What `interpolate` applies; to be kept, and given to it.
+        """Computes the weights that `interpolate` applies, for use in several calls.
 
         Parameters
         ----------
@@ -56,6 +56,7 @@ class RondelAccessor:
         Returns
         -------
         Weights
+            The argument `weights` of `interpolate`.
 
         """
         target = _target(target, grid=grid)
@@ -74,7 +75,9 @@ class RondelAccessor:
         most_missing: float = 1.0,
         **options: Any,
     ) -> Any:
-        """Values at other places. Attributes stay, and so do other dimensions, such as time.
+        """Interpolates values at other places.
+
+        Attributes and other dimensions, such as time, are kept.
 
         Parameters
         ----------
@@ -85,18 +88,20 @@ class RondelAccessor:
         method : str, optional
             As in `SphericalDelaunay.weights`, by default 'sibson'.
         grid : bool, optional
-            Whether the two arrays of a tuple are the axes of a grid: a value for each longitude
-            with each latitude.
+            Whether the two arrays of a tuple are the axes of a grid, which has a value for each
+            longitude with each latitude.
         lon, lat : str, optional
             The names of the longitudes and latitudes of the source, if they are not found.
         weights : Weights, optional
             Those of a former call of `weights`, with the same source and target places. Method and
             options are then theirs; others are without effect, which a warning tells.
         skipna : bool, optional
+            Whether to leave out missing values, as in `Weights.apply`; by default False.
         most_missing : float, optional
-            As in `Weights.apply`.
+            With `skipna`, the largest share of weights for which values may be missing, as in
+            `Weights.apply`; by default 1.
         **options
-            As in `SphericalDelaunay.weights`.
+            The options of `SphericalDelaunay.weights`.
 
         Returns
         -------
