@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// accuracy_bench SITES N TARGETS M [--seed S]: how far values at the targets are from Renka's function
-// F0 = 1 + x^8 + exp(2 y^3) + exp(2 z^2) + 10 x y z, the root of the mean square, by each method; one JSON
-// object on standard output. SITES and TARGETS are kinds of inputs or files.
+// accuracy_bench SITES N TARGETS M [--seed S]: prints, for each method, the root mean square of the
+// errors at the targets for Renka's function F0 = 1 + x^8 + exp(2 y^3) + exp(2 z^2) + 10 x y z, as
+// one JSON object. SITES and TARGETS are kinds of inputs or files.
 
 #include <cmath>
 #include <cstdio>

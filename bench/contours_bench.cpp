@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// contours_bench N [THREADS] [--seed S]: isolines and bands at 10 levels of a smooth field at uniform sites,
-// and of a rough one, and one JSON object on standard output: nanoseconds a face.
+// contours_bench N [THREADS] [--seed S]: measures isolines and bands at 10 levels of a smooth and
+// of a rough field at uniform sites, in nanoseconds a face; prints one JSON object.
 
 #include <array>
 #include <cstdio>
@@ -24,7 +24,8 @@ struct Field {
   std::vector<double> values;
 };
 
-// Polynomials of degree 6 and, with a step for each site, of anything between the levels.
+// Makes polynomials of degree 6; for the rough field, adds a random step of up to the distance of
+// levels at each site.
 Field make_field(std::size_t n, std::uint64_t seed, bool is_rough) {
   const auto sites = rondel::bench::make_input("uniform", n, seed);
   Field field{rondel::delaunay(sites), {}};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// dynamic_bench KIND N [projected|weighted] [--seed S]: a build of all sites at once, then their
-// insertion one by one in random order without hints, and their removal in another random
-// order. One JSON object on standard output.
+// dynamic_bench KIND N [projected|weighted] [--seed S]: measures a build of all sites at once,
+// their insertion one by one in random order without hints, and their removal in another random
+// order. Prints one JSON object.
 
 #include <sys/resource.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// graphs_bench N [THREADS] [--seed S]: the graphs of uniform sites, and one JSON object on standard output, in
-// nanoseconds a Delaunay edge. Every repetition has points of its own, and medians count.
+// graphs_bench N [THREADS] [--seed S]: measures the graphs of uniform sites, in nanoseconds a
+// Delaunay edge. Every repetition has its own points; prints the medians as one JSON object.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The inputs of the measurements, the same bits for every program.
+// The inputs of the measurements, with the same bits for every program.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,15 @@
 
 namespace rondel::bench {
 
-// Kinds: those of inputs/kinds.h, with an angle in degrees as in "circles:0.3". A name that ends
-// in .csv or .npy is a file, of which all sites are read.
-// Throws std::invalid_argument for others.
+// Returns the sites of a kind of inputs/kinds.h, which may have an angle in degrees as in
+// "circles:0.3". A name that ends in .csv or .npy is a file, of which all sites are read. Throws
+// std::invalid_argument for other names.
 std::vector<Point> make_input(const std::string& kind, std::size_t n, std::uint64_t seed = 1);
 
-// The S of "--seed S", which it takes out of the arguments; 1 if there is none.
+// Removes "--seed S" from the arguments and returns S; returns 1 if it is not given.
 std::uint64_t take_seed(int& argc, char** argv);
 
-// Inputs of one kind and number of sites, each with a seed of its own.
+// Inputs of one kind and number of sites, each with its own seed.
 class Source {
  public:
   Source(std::string kind, const char* n, std::uint64_t first_seed);

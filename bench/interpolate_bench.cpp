@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// interpolate_bench N TARGETS [THREADS] [--seed S]: uniform sites and as many other uniform points as
-// targets, from points to values, by each method; and one JSON object on standard output, in
-// nanoseconds a target (gradients: a site). Every repetition has points of its own, and medians count.
+// interpolate_bench N TARGETS [THREADS] [--seed S]: measures interpolation from uniform sites to
+// other uniform points, from points to values, by each method, in nanoseconds a target (gradients:
+// a site). Every repetition has its own points; prints the medians as one JSON object.
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,7 +25,7 @@ using rondel::bench::seconds_of;
 
 constexpr int repetitions = 5;
 
-// One of its gradients is (y, x, 1), made tangent.
+// A field whose gradient is (y, x, 1), made tangent.
 double field_at(const Point& p) { return p.x * p.y + p.z; }
 Point gradient_at(const Point& p) {
   const double up = 2 * p.x * p.y + p.z;
@@ -85,7 +85,7 @@ class Bench {
   void print() {
     std::printf(R"({"sites": %zu, "targets": %zu)", n_, num_targets_);
     for (Series& s : series_) {
-      s.seconds.erase(s.seconds.begin());  // the first has waited for memory
+      s.seconds.erase(s.seconds.begin());  // the first run has waited for memory
       const bool is_of_sites =
           std::string(s.name) == "prepare" || std::string(s.name) == "gradient";
       const auto count = static_cast<double>(is_of_sites ? n_ : num_targets_);

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// laws_bench N [--seed S]: how far weights are from their laws, for about N sites of several kinds and
-// as many targets: random ones, sites, middles of edges, points exactly on edges, circumcenters. One JSON
-// object a line: the number of rows, and of those with two weights; the largest |sum of weights - 1| over
-// 2^-52, over the sum of absolute weights where they have signs, and the largest length of
-// u x (sum of weights times sites).
+// laws_bench N [--seed S]: measures how far weights deviate from their laws, for about N sites of
+// several kinds and as many targets: random ones, sites, midpoints of edges, points exactly on
+// edges, circumcenters. Prints one JSON object a line: the number of rows, and of rows with two
+// weights; the largest |sum of weights - 1| over 2^-52, divided by the sum of absolute weights if
+// they have signs; and the largest length of u x (sum of weights times sites).
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,7 @@ using rondel::Point;
 
 struct Kind {
   const char* name;
-  bool is_patch;  // 1e-6 radians wide, and so are its targets
+  bool is_patch;  // 1e-6 radians wide, as are its targets
 };
 constexpr std::array<Kind, 4> kinds = {
     {{"uniform", false}, {"fibonacci", false}, {"lonlat-grid", false}, {"patch", true}}};
@@ -44,7 +44,8 @@ bool is_exact(double a, double b) {
   return sum - a == b && sum - b == a;
 }
 
-// a + b, whose ray is exactly on the edge, where no coordinate is rounded: of one edge in a few dozen.
+// Appends a + b, whose ray is exactly on the edge, if no coordinate is rounded: for a few edges in
+// a hundred.
 void append_if_on_edge(const Point& a, const Point& b, std::vector<Point>& targets) {
   if (is_exact(a.x, b.x) && is_exact(a.y, b.y) && is_exact(a.z, b.z)) {
     targets.push_back({a.x + b.x, a.y + b.y, a.z + b.z});
@@ -109,7 +110,7 @@ void print_laws(const rondel::Interpolator& interpolator, const char* kind, Meth
   std::printf(R"({"kind": "%s", "sites": %zu, "method": "%s", "rows": %zu, "of_two": %zu, )"
               R"("unity_ulp": %.3g)",
               kind, sites.size(), name, rows, rows_of_two, unity);
-  // Hermite's method and the cubic do not promise it.
+  // The methods hermite and cubic do not promise this law.
   if (method < Method::hermite) std::printf(R"(, "direction": %.3g)", direction);
   std::printf("}\n");
 }

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// limit_bench KIND N [--seed S]: what no construction of this kind can do without, measured apart for the
-// projected model. Their sum is the limit beside which the whole build is judged:
+// limit_bench KIND N [--seed S]: measures separately the parts that no construction of this kind
+// can avoid, for the projected model. Their sum is the limit with which the whole build is
+// compared:
 //
 //   sort    the spatial order;
 //   verify  one conflict test for each edge of the finished triangulation, faces and sites in
 //           spatial order, so that the memory is read in the best order there is;
-//   write   the arrays of faces and neighbors under the names of the sites, into new memory.
+//   write   the arrays of faces and neighbors, with sites instead of ranks, into new memory.
 
 #include <cstdio>
 #include <cstdlib>
@@ -37,8 +38,8 @@ std::vector<Index> invert(std::span<const Index> order, std::size_t num_sites) {
   return ranks;
 }
 
-// One test for each edge, in the face of smaller number; the corner across is what the neighbor's
-// corners have beyond the two that are shared.
+// Does one test for each edge, in the face of the smaller number; the corner across the edge is the
+// neighbor's corner that is not shared.
 std::size_t count_conflicts(rondel::kernel::ConflictTest<rondel::models::ProjectedPoints>& test,
                             std::span<const Triple> faces, std::span<const Triple> neighbors) {
   std::size_t conflicts = 0;
@@ -55,7 +56,7 @@ std::size_t count_conflicts(rondel::kernel::ConflictTest<rondel::models::Project
   return conflicts;
 }
 
-// A finished triangulation whose sites are named by their ranks.
+// A finished triangulation whose sites are numbered by their ranks.
 struct Finished {
   std::vector<rondel::Point> sites;
   rondel::Triangulation triangulation;

@@ -16,7 +16,7 @@
 namespace rondel::bench {
 namespace {
 
-// A line of /proc/self/status in bytes; 0 if there is none.
+// Returns a line of /proc/self/status in bytes; 0 if there is none.
 double status_bytes(const std::string& key) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -38,7 +38,7 @@ MemoryMeter::MemoryMeter() {
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif
-  // proc(5): "5" resets the peak to the present size.
+  // By proc(5), "5" resets the peak to the present size.
   std::ofstream("/proc/self/clear_refs") << 5;
   before_ = peak_bytes();
 }

@@ -1,20 +1,19 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What every measuring program shares: seconds, memory, and one JSON object on standard output.
+// What all measuring programs share: seconds, memory, and one JSON object on standard output.
 //
-// 1. Rondel and its peers alike are measured warm. The first build in a process waits for memory
-//    from the system, which a virtual machine may provide at 1 GB/s or less when it is touched; its
-//    time is reported apart. From then on the heap keeps what is freed, as it does in any case for
-//    small builds. The second build fills it, and the median of the next counts: of `enough_runs`,
-//    or of more if they and their inputs take less than `enough_seconds`, or of fewer if they take `long_seconds`.
-//    Each build has an input of its own, with another seed: a processor learns the branches of a
-//    small input that comes again and again, which no user's does.
-// 2. Memory is the growth of the peak of resident memory during the first build, above what the
-//    process held before: input that is in memory does not count.
+// 1. Rondel and its peers are all measured warm. The first build in a process waits for memory from
+//    the system, which a virtual machine may provide at 1 GB/s or less when it is first used; its
+//    time is reported separately. Afterwards the heap keeps freed memory, as it always does for
+//    small builds. The second build fills the heap, and the result is the median of the following
+//    builds: of `enough_runs`, or of more if they and their inputs take less than `enough_seconds`,
+//    or of fewer if they take `long_seconds`. Each build has an input with its own seed, since a
+//    processor learns the branches of a small input that is repeated.
+// 2. Memory is the growth of the peak of resident memory during the first build, beyond what the
+//    process held before; an input in memory does not count.
 // 3. Making an input and releasing a result are not measured.
-// 4. What is counted in a result is counted after the first build, of which every program has the
-//    same input.
+// 4. Counts of a result are taken after the first build, whose input is the same for every program.
 #pragma once
 
 #include <algorithm>
@@ -50,9 +49,9 @@ double seconds_of(Work work) {
   return watch.seconds();
 }
 
-// The growth of the peak of resident memory since its construction, which returns unused memory of
-// the heap to the system and resets the peak. Where the system cannot, the peak so far counts, and
-// the growth may be too small.
+// Measures the growth of the peak of resident memory since its construction, which returns unused
+// memory of the heap to the system and resets the peak. If the system cannot reset it, the growth
+// may be too small.
 class MemoryMeter {
  public:
   MemoryMeter();
@@ -62,7 +61,8 @@ class MemoryMeter {
   double before_ = 0;
 };
 
-// Where the C library is glibc. It returns the memory of large arrays to the system at once else.
+// Makes the heap keep freed memory. glibc would otherwise return the memory of large arrays to the
+// system at once.
 void keep_freed_memory();
 
 inline double median(std::vector<double> values) {
@@ -79,15 +79,15 @@ struct Counts {
 
 template <class Input, class Result>
 struct Measured {
-  std::optional<Input> input;  // of the last run
+  std::optional<Input> input;  // input of the last run
   std::optional<Result> result;
-  Counts counts;       // of the first run
-  double seconds = 0;  // the median
+  Counts counts;       // counts of the first run
+  double seconds = 0;  // median
   double first_seconds = 0;
   double memory_bytes = 0;
 };
 
-// make() -> Input; build(Input&) -> Result; count(Input&, Result&) -> Counts.
+// Measures builds: make() returns an Input, build(Input&) a Result, count(Input&, Result&) Counts.
 template <class Make, class Build, class Count>
 auto measure(Make make, Build build, Count count) {
   using Input = std::invoke_result_t<Make>;
@@ -130,10 +130,10 @@ struct Field {
   double value;
 };
 
-// {"name": value, ...} and a newline; whole numbers are printed as such.
+// Prints {"name": value, ...} and a newline; whole numbers are printed without a point.
 void print_json(std::initializer_list<Field> fields);
 
-// What the peers report.
+// Prints the report of a build by a peer.
 template <class Input, class Result>
 void print_build(const Measured<Input, Result>& measured) {
   const auto n = static_cast<double>(measured.counts.sites);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// mesh_bench BISECTIONS FILE [THREADS]: the mesh of an icosahedron, 10 * 4^BISECTIONS + 2 cells, its quality, and
-// MPAS's file of it, written and read back; one JSON object on standard output, in seconds.
+// mesh_bench BISECTIONS FILE [THREADS]: measures the mesh of an icosahedron with 10 * 4^BISECTIONS
+// + 2 cells, its quality, and writing and reading its MPAS file, in seconds; prints one JSON
+// object.
 
 #include <cmath>
 #include <cstdio>

@@ -1,24 +1,27 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: conservative weights from the Voronoi
-// cells of N sites of the kind to others, and one JSON object on standard output: nanoseconds a cell for the partitions,
-// made of triangulations that are there, and a piece and a cell for the overlay with its weights, of order 1 and 2, or 1
-// alone: narrow cells have many pieces, and of order 2 many more weights than that. Every repetition has sites of its
-// own, and medians count. PAIR says what the others are:
+// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: measures
+// conservative weights from the Voronoi cells of N sites of the kind to other cells. Prints one
+// JSON object: nanoseconds a cell for making the partitions from triangulations, and nanoseconds a
+// piece and a cell for the overlay with its weights, of order 1 and 2, or only 1, since narrow
+// cells have many pieces, and order 2 many more weights than pieces. Every repetition has its own
+// sites, and medians are printed. PAIR says what the other cells are:
 //
-//   other    the cells of M other sites of the kind (default)
-//   uniform  the cells of M uniform sites
-//   hemisphere  the same, all sites of both in the northern hemisphere
-//   same     the same cells
-//   turned   those of the same sites, turned by 1e-15 about the z axis
-//   half     every other one of the same cells: polygons that touch in corners, and run along edges
-//   grid     the cells between 501 parallels and 1001 meridians
-//   grids    the same, on themselves instead of on cells of sites
-//   checkers the black ones of these, their sides great circles, on themselves: polygons that touch in corners
+//   other       the cells of M other sites of the kind (default)
+//   uniform     the cells of M uniform sites
+//   hemisphere  the same, with all sites of both sides in the northern hemisphere
+//   same        the same cells
+//   turned      the cells of the same sites, turned by 1e-15 about the z axis
+//   half        every second one of the same cells: polygons that touch in corners and along edges
+//   grid        the cells between 501 parallels and 1001 meridians
+//   grids       the same grid, overlaid with itself instead of cells of sites
+//   checkers    the black fields of that grid with great circles as sides, overlaid with themselves: polygons
+//               that touch in corners
 //
-// Of the last repetition, order 1, also the greatest difference of a row's sum to the share of its target that is covered,
-// and of what all pieces add up to from what the smaller partition does, as a share of it.
+// For the last repetition of order 1 it also prints the greatest difference of a row's sum from the
+// covered share of its target, and the relative difference of the area of all pieces from that of
+// the smaller partition.
 
 #include <algorithm>
 #include <array>
@@ -60,7 +63,7 @@ struct Measured {
   double sum_error = 0;
 };
 
-// The value of an option, which it takes out of the arguments.
+// Removes an option from the arguments and returns its value.
 std::string take_option(int& argc, char** argv, std::string_view name, const char* otherwise) {
   char** const end = argv + argc;
   char** const at = std::find(argv, end, name);
@@ -77,7 +80,7 @@ std::vector<rondel::Point> turned(std::vector<rondel::Point> sites) {
   return sites;
 }
 
-// Those cells for which is_in() says so.
+// Returns the cells for which is_in() is true.
 template <class IsIn>
 Partition some_of(const Partition& partition, const IsIn& is_in,
                   const rondel::Execution& execution) {
@@ -111,7 +114,7 @@ Partition make_grid(rondel::GridSides sides, const rondel::Execution& execution)
   return Partition::lonlat_grid(grid, sides, execution);
 }
 
-// As exact as the numbers are, so that what is lost shows.
+// Sums exactly to rounding, so that losses can be seen.
 double sum_of(std::span<const double> values) {
   double sum = 0;
   double rest = 0;
@@ -153,7 +156,7 @@ std::vector<rondel::Point> sites_of_target(const What& what,
   return what.pair == "hemisphere" ? northern(std::move(others)) : others;
 }
 
-// Source and target.
+// Returns source and target.
 std::vector<Partition> make_partitions(const What& what, const rondel::Execution& execution,
                                        double& seconds) {
   std::vector<Partition> partitions;
@@ -200,7 +203,7 @@ void repeat(std::uint64_t k, const What& what, const rondel::Execution& executio
   const double first = remap(1);
   const double smaller = std::min(sum_of(partitions[0].areas()), sum_of(partitions[1].areas()));
   measured.sum_error = std::abs(sum_of(measured.last.areas) - smaller) / smaller;
-  if (k == 0) return;  // has waited for memory
+  if (k == 0) return;  // it has waited for memory
   measured.partition_seconds.push_back(seconds);
   measured.first_seconds.push_back(first);
   measured.second_seconds.push_back(second);

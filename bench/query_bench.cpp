@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// query_bench N QUERIES [projected|weighted] [THREADS] [--seed S]: uniform sites and as many other
-// uniform points as queries, in one batch of each kind, and one JSON object on standard output. The
-// check sum, of the nearest sites' indices, is the same for every program.
+// query_bench N QUERIES [projected|weighted] [THREADS] [--seed S]: measures queries with uniform
+// sites and as many other uniform points, in one batch of each kind. Prints one JSON object, whose
+// check sum, that of the nearest sites' indices, is the same for every program.
 
 #include <cstdio>
 #include <cstdlib>

@@ -66,7 +66,8 @@ OnRanks build_on_ranks(rondel::test::SimulatedRanks& ranks, std::size_t num_rank
   return result;
 }
 
-// A phase: rank 0, which joins what the others leave open, and of the others the one that takes longest.
+// The cost of a phase: for rank 0, which joins what the others leave open, and for the slowest of
+// the others.
 struct Phase {
   double first_seconds = 0;
   double most_seconds = 0;
@@ -132,7 +133,7 @@ int main(int argc, char** argv) {
   const std::vector<Point> sites = source.next();
   rondel::bench::keep_freed_memory();
 #if defined(__GLIBC__)
-  mallopt(M_ARENA_MAX, 1);  // of all threads, of which one runs
+  mallopt(M_ARENA_MAX, 1);  // one arena for all threads, of which one runs
 #endif
   rondel::test::SimulatedRanks ranks(num_ranks);
   build_on_ranks(ranks, static_cast<std::size_t>(num_ranks), sites);  // fills the heap

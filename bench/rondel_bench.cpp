@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual] [--seed S]: order,
-// triangulation and canonical result of inputs in memory, of which S is the first seed; with --dual
-// then the cells and areas of the last.
+// rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual] [--seed S]: measures order,
+// triangulation and canonical result of inputs in memory, the first of which has the seed S; with
+// --dual also the cells and areas of the last.
 
 #include <cstdio>
 #include <cstdlib>

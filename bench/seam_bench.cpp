@@ -26,7 +26,7 @@ struct Ledger {
   double order = 0;
   double blocks = 0;
   double stitch = 0;
-  double seam = 0;  // all of it
+  double seam = 0;  // the whole seam
   std::size_t num_blocks = 0;
   std::size_t num_seam_sites = 0;
   bulk::SeamLedger tree;
@@ -34,7 +34,7 @@ struct Ledger {
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// As the library does it, with a look at the clock between the parts.
+// Builds as the library does, and reads the clock between the parts.
 bool build(std::span<const Point> sites, Ledger& ledger) {
   const system::Job options{{}, {.threads = 1}};
   double start = processor_seconds();

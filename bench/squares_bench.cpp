@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// squares_bench N [--depth D] [--threads T] [--check]: builds of more sites than any memory or disk has
-// room for, with the library's own headers. 6 * 4^D squares have their sites made when they are needed,
-// and are triangulated one at a time as out of core, twice: first for what they leave open, which is
-// joined and numbered, then for their faces, which are hashed and not kept. Each thread has a square.
+// squares_bench N [--depth D] [--threads T] [--check]: builds triangulations of more sites than fit
+// any memory or disk, with the library's internal headers. The sites of 6 * 4^D squares are made
+// when they are needed, and triangulated one square at a time as out of core, twice: first for what
+// the square leaves open, which is joined and numbered, then for its faces, which are hashed and
+// not kept. Each thread has one square.
 //
-//   sites    uniform on the sphere, of each square as many as its solid angle says; their indices are
+//   sites    uniform on the sphere, in each square as many as its solid angle demands; their indices are
 //            spread over all of 0 ... N-1
 //   hash     of all corners and neighbors in canonical order, as 64-bit numbers
-//   checks   2V - 4 faces; each directed edge has its reverse, each neighbor its neighbor, by sums that
-//            cancel; with --check the hash is that of the build in memory
+//   checks   there are 2V - 4 faces; each directed edge has its reverse, and each neighbor its neighbor, by
+//            sums that cancel; with --check the hash is that of the build in memory
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@
 #include "rondel/rondel.h"
 #include "system/parallel.h"
 
-#if defined(__GLIBC__)  // which the headers above say
+#if defined(__GLIBC__)  // the headers above define it
 #include <malloc.h>
 #endif
 
@@ -69,7 +70,7 @@ Task parse(int argc, char** argv) {
   return task;
 }
 
-// The index of site i of n, one to one: i times a number that has no common divisor with n.
+// Maps site i of n one to one to an index: i times a number without a common divisor with n.
 class SpreadIndices {
  public:
   explicit SpreadIndices(std::uint64_t n)
@@ -94,7 +95,7 @@ class SquareSource {
         u_(ratio(square.corner.u)),
         v_(ratio(square.corner.v)),
         width_(std::ldexp(1.0, square.bits - (order::position_bits - 1))) {
-    // The density of directions is the greatest where the square comes closest to the face's middle.
+    // The density of directions is greatest where the square is closest to the middle of the face.
     const double u = closest_to_zero(u_);
     const double v = closest_to_zero(v_);
     most_density_ = density(u, v);
@@ -155,7 +156,7 @@ void add_sources(const bulk::Square& square, int depth, std::vector<SquareSource
     add_sources(bulk::quadrant(square, rank), depth - 1, sources);
 }
 
-// Differs from that of (b, a), and little else is known of it.
+// Returns a hash that differs from that of (b, a).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
   const std::uint64_t z = (a * 0xbf58'476d'1ce4'e5b9U) ^ (b * 0x94d0'49bb'1331'11ebU);
   return (z ^ (z >> 31)) * 0x9e37'79b9'7f4a'7c15U;
@@ -163,9 +164,9 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
 
 // What is known of faces that are not kept.
 struct FaceSums {
-  std::uint64_t hash = 0;       // depends on the order
-  std::uint64_t edges = 0;      // of all: 0 if each directed edge has its reverse
-  std::uint64_t neighbors = 0;  // of all: 0 if each neighbor has its neighbor
+  std::uint64_t hash = 0;       // depends on their order
+  std::uint64_t edges = 0;      // 0 over all faces if each directed edge has its reverse
+  std::uint64_t neighbors = 0;  // 0 over all faces if each neighbor has its neighbor
   std::uint64_t num_faces = 0;
 
   void add_corners(const Triple64& v) {
@@ -210,7 +211,7 @@ class Squares {
     all_ = bulk::AllSites(job_);
     const std::vector<Point> octants = {{1, 1, 1},  {1, 1, -1},  {1, -1, 1},  {1, -1, -1},
                                         {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}};
-    all_.add(octants);  // as in each there are sites
+    all_.add(octants);  // as there are sites in each octant
   }
 
   [[nodiscard]] LargeVector<Point> sites_of(std::size_t i) const {
@@ -221,7 +222,7 @@ class Squares {
   [[nodiscard]] std::size_t size() const { return sources_.size(); }
   [[nodiscard]] std::uint64_t index(std::uint64_t i) const { return spread_(i); }
 
-  // What all squares leave open, joined.
+  // Joins what all squares leave open.
   bool join() {
     struct Left {
       bulk::OpenBucket open;
@@ -255,7 +256,7 @@ class Squares {
     return true;
   }
 
-  // Of all squares, in their order.
+  // Returns the sums of all squares, in their order.
   std::vector<FaceSums> hash_faces() {
     bulk::JoinedNumbers numbers(joined_);
     std::vector<bulk::BucketFaces> faces;
@@ -323,7 +324,7 @@ class Squares {
   SpreadIndices spread_;
   system::Job job_;
   std::vector<SquareSource> sources_;
-  std::vector<std::uint64_t> begin_;  // of each square's sites
+  std::vector<std::uint64_t> begin_;  // by square: its first site
   bulk::AllSites all_;
   std::vector<bulk::BucketBorder> borders_;
   std::vector<std::uint64_t> open_indices_;
@@ -337,7 +338,7 @@ FaceSums sum_up(std::span<const FaceSums> sums) {
   return all;
 }
 
-// The same of the build in memory.
+// Returns the same sums for the build in memory.
 FaceSums sums_in_memory(const Squares& squares, const Task& task,
                         std::span<const FaceSums> expected) {
   std::vector<Point> sites(task.num_sites);
@@ -358,7 +359,8 @@ FaceSums sums_in_memory(const Squares& squares, const Task& task,
   return sum_up(sums);
 }
 
-// The memory of a square is that of the next one: a fifth of the time would go to its pages.
+// Keeps the memory of a square for the next one; otherwise a fifth of the time would be spent on
+// its pages.
 void keep_memory() {
 #if defined(__GLIBC__)
   mallopt(M_MMAP_MAX, 0);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_input KIND N FILE.npy [--seed S]: an input as an array (n, 3) of doubles, for peers in other
-// languages.
+// write_input KIND N FILE.npy [--seed S]: writes an input as an array (n, 3) of doubles, for peers
+// in other languages.
 
 #include <cstdio>
 #include <cstdlib>

@@ -15,13 +15,14 @@
 namespace rondel::inputs {
 namespace {
 
-// Number i of n random ones from `first` to `last` in their order, one in each of n equal steps.
+// Returns the i-th of n increasing random numbers from `first` to `last`, one in each of n equal
+// steps.
 double in_step(Random& random, std::size_t i, std::size_t n, double first, double last) {
   const double t = (static_cast<double>(i) + random.unit()) / static_cast<double>(n);
   return first + (last - first) * t;
 }
 
-// `others` and, before them, sites from place(i, number of these sites): together n.
+// Returns n sites: `others`, and after them place(i, count) for the `count` remaining ones.
 template <class Place>
 Input in_order(const Recipe& recipe, std::initializer_list<Point> others, Place place) {
   const std::size_t n = recipe.n - std::min(recipe.n, others.size());
@@ -33,7 +34,7 @@ Input in_order(const Recipe& recipe, std::initializer_list<Point> others, Place 
   return input;
 }
 
-// Every site but one has x = y, bit for bit.
+// All sites but one have x = y, bit for bit.
 Input meridian(const Recipe& recipe) {
   Random random(recipe.seed);
   return in_order(recipe, {random.direction()}, [&](std::size_t i, std::size_t n) {
@@ -58,7 +59,7 @@ Input meridian_rounded(const Recipe& recipe) {
   return from_positions(std::move(positions));
 }
 
-// The unit vector at this angle along the great circle around frame.up.
+// Returns the unit vector at this angle along the great circle around frame.up.
 Point along(const Frame& frame, double degrees) {
   const Point p = unit_vector({degrees, 0});
   return p.x * frame.east + p.y * frame.north;
@@ -80,7 +81,7 @@ Input rotated_circle_1(const Recipe& recipe) { return rotated_circle(recipe, 1);
 Input rotated_circle_2(const Recipe& recipe) { return rotated_circle(recipe, 2); }
 
 Input orbit(const Recipe& recipe) {
-  constexpr double step_deg = 360 * 20 / 40'030'000.0;  // of the Earth's circumference
+  constexpr double step_deg = 360 * 20 / 40'030'000.0;  // a step of 20 km on the Earth
   Random random(recipe.seed);
   const Frame frame = frame_around(random.direction());
   const double start_deg = 360 * random.unit();
@@ -121,7 +122,8 @@ Input wedge(const Recipe& recipe) {
   return from_positions(std::move(positions));
 }
 
-// At the distance r from the pole, at a random longitude. x and y keep all their digits.
+// Returns a point at the distance r from the pole, at a random longitude. x and y keep all their
+// digits.
 Point around_pole(Random& random, double r) {
   const Point p = unit_vector({360 * random.unit(), 0});
   return {r * p.x, r * p.y, std::sqrt((1 - r) * (1 + r))};
@@ -153,7 +155,7 @@ Input ulp_clusters(const Recipe& recipe) {
   });
 }
 
-// 2^-t, but linear between the powers of two.
+// Returns 2^-t at integers t, and interpolates linearly between them.
 double falling(double t) {
   const double whole = std::floor(t);
   return std::ldexp(1 - (t - whole) / 2, -static_cast<int>(whole));
@@ -161,7 +163,7 @@ double falling(double t) {
 
 constexpr double last_power = 49.8;  // 2^-49.8 is 1e-15
 
-// Each cluster is at half the distance from the pole of the one before, and half as wide.
+// Each cluster is at half the distance of the one before from the pole, and half as wide.
 Input falling_clusters(const Recipe& recipe) {
   Random random(recipe.seed);
   std::array<double, static_cast<std::size_t>(last_power)> lon_deg{};
@@ -177,7 +179,8 @@ Input falling_clusters(const Recipe& recipe) {
   });
 }
 
-// The golden section of a turn from each site to the next, as in a sunflower.
+// From each site to the next the longitude advances by the golden section of a turn, as in a
+// sunflower.
 Input falling_spiral(const Recipe& recipe) {
   constexpr double golden_deg = 137.50776405003785;
   Random random(recipe.seed);
@@ -190,7 +193,7 @@ Input falling_spiral(const Recipe& recipe) {
   });
 }
 
-// In [2^-996, 2^996), of either sign.
+// Returns a number whose absolute value is in [2^-996, 2^996).
 double any_magnitude(Random& random) {
   const double digits = (random.coin() ? 1 : -1) * (1 + random.unit());
   return std::ldexp(digits, random.between(-996, 995));

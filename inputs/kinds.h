@@ -3,7 +3,8 @@
 
 /// \file
 /// Named inputs for the tool, the tests and the benchmarks. The same recipe gives the same bits on
-/// every platform: integer random numbers, + - * / and sqrt, and rondel::unit_vector for angles.
+/// every platform, since only integer random numbers, + - * / and sqrt, and rondel::unit_vector for
+/// angles are used.
 #pragma once
 
 #include <cstddef>
@@ -19,17 +20,17 @@ namespace rondel::inputs {
 
 inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-/// What to make, apart from the kind.
+/// What to make, except for the kind.
 struct Recipe {
   std::size_t n = 0;
   std::uint64_t seed = 1;
-  std::size_t rows = 0;     ///< of a lonlat-grid; 0: from n
-  std::size_t columns = 0;  ///< of a lonlat-grid; 0: from n
-  double angle_deg = 0;     ///< 0: the kind's own
+  std::size_t rows = 0;     ///< of a lonlat-grid; 0: chosen by n
+  std::size_t columns = 0;  ///< of a lonlat-grid; 0: chosen by n
+  double angle_deg = 0;     ///< 0: the default of the kind
 };
 
-/// Sites, and their longitudes and latitudes if they were made from those. Where there are radii,
-/// the sites are the polar points of circles.
+/// Sites, and their longitudes and latitudes if they were made from those. If there are radii, the
+/// sites are the polar points of circles.
 struct Input {
   std::vector<Point> sites;
   std::vector<LonLat> positions;
@@ -41,17 +42,17 @@ struct Kind {
   std::string_view name;
   std::string_view what;
   Input (*from_recipe)(const Recipe& recipe);
-  double angle_deg = 0;  ///< where the recipe has none; 0: the kind has no angle
+  double angle_deg = 0;  ///< used if the recipe has none; 0: the kind has no angle
 };
 
-/// What is ordinary, or hard for other programs.
+/// Returns kinds that are ordinary, or hard for other programs.
 std::span<const Kind> plain_kinds();
-/// What costs an algorithm more time, or a predicate more digits, than it need.
+/// Returns kinds that cost an algorithm more time, or a predicate more digits, than usual.
 std::span<const Kind> hostile_kinds();
-/// Null if there is none of this name.
+/// Returns the kind of this name, or null.
 const Kind* find_kind(std::string_view name);
 
-/// \pre n > 0 or, for a lonlat-grid, rows > 0 and columns > 0
+/// Makes an input. \pre n > 0 or, for a lonlat-grid, rows > 0 and columns > 0
 Input make(const Kind& kind, Recipe recipe);
 
 }  // namespace rondel::inputs

@@ -14,7 +14,7 @@
 namespace rondel::inputs {
 namespace {
 
-// So many points, one drawn after the other.
+// Returns n points, drawn one after the other.
 template <class Draw>
 Input drawn(std::size_t n, const Draw& draw) {
   Input input;
@@ -28,7 +28,7 @@ Input uniform(const Recipe& recipe) {
   return drawn(recipe.n, [&] { return random.direction(); });
 }
 
-// Equal steps in z; the longitude advances by the golden section of a turn. The turns are counted
+// Takes equal steps in z; the longitude advances by the golden section of a turn. Turns are counted
 // in units of 2^-64, so the fraction is exact for every n.
 Input fibonacci(const Recipe& recipe) {
   constexpr std::uint64_t golden = 0x9e37'79b9'7f4a'7c15U;
@@ -45,8 +45,8 @@ Input fibonacci(const Recipe& recipe) {
   return input;
 }
 
-// Rows and columns whose product is as near to n as possible while the steps in latitude and
-// longitude stay within about 10 % of each other.
+// The rows and columns of a grid whose product is as near to n as possible while the steps in
+// latitude and longitude stay within about 10 % of each other.
 struct Shape {
   std::size_t rows = 1;
   std::size_t columns = 1;
@@ -70,13 +70,13 @@ Shape grid_shape(std::size_t n) {
   return best;
 }
 
-// a i/n - b, rounded once, so that the grid is its own mirror image.
+// Returns a i/n - b, rounded once, so that the grid is its own mirror image.
 double fraction(double a, std::size_t i, double b, std::size_t n) {
   const auto steps = static_cast<double>(n);
   return (a * static_cast<double>(i) - b * steps) / steps;
 }
 
-// The grid of climate data: both poles are rows, and the seam at 180 degrees occurs once.
+// A grid as in climate data: both poles are rows, and the seam at 180 degrees occurs once.
 Input lonlat_grid(const Recipe& recipe) {
   const auto [rows, columns] =
       recipe.rows > 0 ? Shape{recipe.rows, recipe.columns} : grid_shape(recipe.n);
@@ -91,7 +91,7 @@ Input lonlat_grid(const Recipe& recipe) {
   return from_positions(std::move(positions));
 }
 
-// The centers of cells in rows of equal latitudes, twice as many in a row as there are rows.
+// The centers of cells in rows of equal latitudes; a row has twice as many cells as there are rows.
 Input grid(const Recipe& recipe) {
   const auto rows = static_cast<std::size_t>(std::sqrt(static_cast<double>(recipe.n) / 2));
   std::vector<LonLat> positions;
@@ -105,7 +105,7 @@ Input grid(const Recipe& recipe) {
   return from_positions(std::move(positions));
 }
 
-// The set S_n of the paper, section 5: n+1 points with longitude theta = k pi/n and colatitude
+// The set S_n of Caroli et al., section 5: n+1 points with longitude theta = k pi/n and colatitude
 // phi = (theta^2 + 1) / pi^2, and four more that put the center inside the hull.
 Input paper_s(const Recipe& recipe) {
   constexpr double inverse_pi_squared = 1 / (std::numbers::pi * std::numbers::pi);
@@ -130,12 +130,12 @@ struct Cap {
 
 Cap make_cap(Random& random, double angle_deg) {
   const Point q = unit_vector({angle_deg, 0});
-  // 1 - cos without cancellation
+  // This is 1 - cos without cancellation.
   const double height = q.x > 0 ? q.y * q.y / (1 + q.x) : 1 - q.x;
   return {frame_around(random.direction()), height};
 }
 
-// The point of the cap at this fraction of its height, at a random longitude; uniform
+// Returns the point of the cap at this fraction of its height, at a random longitude; it is uniform
 // in the cap if the fraction is uniform in [0, 1).
 Point in_cap(Random& random, const Cap& cap, double fraction) {
   const double h = cap.height * fraction;
@@ -146,7 +146,7 @@ Point in_cap(Random& random, const Cap& cap, double fraction) {
   return (1 - h) * cap.frame.up + (u * cap.frame.east + v * cap.frame.north);
 }
 
-// A cluster for about each thousand sites, denser towards its middle.
+// One cluster for about each thousand sites, denser towards its middle.
 Input cluster(const Recipe& recipe) {
   Random random(recipe.seed);
   std::vector<Cap> caps(1 + recipe.n / 1000);
@@ -198,7 +198,7 @@ Input cube(const Recipe& recipe) {
   return drawn(recipe.n, [&] { return random.in_cube(); });
 }
 
-// Of twelve uniform numbers: the tails are cut.
+// The sum of twelve uniform numbers, which is normal but for its tails.
 double normal(Random& random) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += random.unit();
@@ -251,7 +251,8 @@ Input antipodal(const Recipe& recipe) {
   return input;
 }
 
-// Uniform centers without an arc sine: a latitude is taken with a probability that is its cosine.
+// Uniform centers without an arc sine: a latitude is accepted with a probability equal to its
+// cosine.
 Input circles(const Recipe& recipe) {
   Random random(recipe.seed);
   Input input;

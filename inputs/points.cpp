@@ -24,7 +24,7 @@ Point normalized(const Point& p) {
   return {p.x / length, p.y / length, p.z / length};
 }
 
-// Duff et al., Building an orthonormal basis, revisited, JCGT 2017.
+// This is the method of Duff et al., Building an orthonormal basis, revisited, JCGT 2017.
 Frame frame_around(const Point& up) {
   const double sign = up.z < 0 ? -1 : 1;
   const double a = -1 / (sign + up.z);
@@ -34,7 +34,8 @@ Frame frame_around(const Point& up) {
 }
 
 Point random_near(Random& random, const Point& pole, double radius) {
-  const Point direction = random.direction();  // first: compilers order operands as they like
+  const Point direction = random.direction();  // drawn first, since compilers may evaluate operands
+                                               // in any order
   return normalized(pole + (radius * random.unit()) * direction);
 }
 

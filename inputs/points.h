@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The exactly reproducible pieces of which inputs are made.
+/// Exactly reproducible operations from which inputs are made.
 #pragma once
 
 #include <vector>
@@ -19,15 +19,15 @@ Point operator*(double s, const Point& p);
 Point cross_product(const Point& a, const Point& b);
 Point normalized(const Point& p);
 
-/// A direction and two more that are orthogonal to it, all three to within rounding.
+/// A direction and two others that are orthogonal to it and to each other, all up to rounding.
 struct Frame {
   Point up, east, north;
 };
 Frame frame_around(const Point& up);
 
-/// A unit vector at most about `radius` (in radians) away from `pole`.
+/// Returns a unit vector at most about `radius` (in radians) away from `pole`.
 Point random_near(Random& random, const Point& pole, double radius);
-/// One coordinate moved to a neighboring double.
+/// Returns p with one coordinate moved to a neighboring double.
 Point moved_by_one_ulp(Random& random, Point p);
 
 Input from_positions(std::vector<LonLat> positions);

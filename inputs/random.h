@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Random numbers that are the same everywhere; the standard library's distributions are not.
+/// Random numbers that are the same everywhere, unlike the standard library's distributions.
 #pragma once
 
 #include <cmath>
@@ -27,15 +27,16 @@ class Random {
     return z ^ (z >> 31);
   }
 
-  /// Below `bound`; the bias of the remainder does not matter for a bound far below 2^64.
+  /// Returns a number below `bound`; the bias of the remainder does not matter if the bound is far
+  /// below 2^64.
   std::size_t below(std::size_t bound) { return static_cast<std::size_t>(next() % bound); }
-  /// In [low, high].
+  /// Returns a number in [low, high].
   int between(int low, int high) {
     return low + static_cast<int>(below(static_cast<std::size_t>(high - low + 1)));
   }
-  /// A multiple of 2^-53 in [0, 1).
+  /// Returns a multiple of 2^-53 in [0, 1).
   double unit() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-  /// In [-1, 1).
+  /// Returns a number in [-1, 1).
   double signed_unit() { return 2 * unit() - 1; }
   bool coin() { return (next() >> 63) != 0; }
 
@@ -50,7 +51,8 @@ class Random {
       if (p.x * p.x + p.y * p.y + p.z * p.z <= 1) return p;
     }
   }
-  /// Uniform on the sphere, without a sine: a point of the ball that is not too near to its center.
+  /// Returns a uniform direction without a sine: a point of the ball that is not too near to its
+  /// center, normalized.
   Point direction() {
     for (;;) {
       const Point p = in_ball();

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// atlas_bench SOURCE TARGET [TURNS]: conservative weights of first order between the cells of the meshes that Atlas
-// makes of two of its grids ("O256", "F180", "N64"), by Atlas and by Rondel on one thread, in turns. Both have the meshes
-// before the clock starts; Rondel's time is the overlay with its weights, its two partitions are beside it. One
-// JSON object: medians of seconds, the number of weights, by how much they differ at most, and the sums of rows from 1.
+// atlas_bench SOURCE TARGET [TURNS]: compares first-order conservative weights by Atlas and by
+// Rondel, on one thread, in turns, between the cells of the meshes that Atlas makes of two of its
+// grids ("O256", "F180", "N64"). Both have the meshes before the clock starts; Rondel's time is
+// that of the overlay with its weights, and that of its two partitions is printed too. Prints one
+// JSON object: medians of seconds, the number of weights, their largest difference, and the largest
+// difference of row sums from 1.
 
 #include <atlas/array.h>
 #include <atlas/functionspace/CellColumns.h>
@@ -32,11 +34,11 @@
 
 namespace {
 
-// Atlas' cells as rings, where nodes that are one place (poles, both sides of the date line) become one. Those of a halo are
-// others once more, whole turns away.
+// Atlas' cells as rings, where nodes at one place (poles, both sides of the date line) become one.
+// Cells of a halo are repetitions of others, whole turns away.
 struct AtlasCells {
   rondel::CellRings rings;
-  std::vector<std::size_t> names;  // of Atlas' cells, halo and all, the one of the rings
+  std::vector<std::size_t> names;  // by cell of Atlas, including the halo: its cell in `rings`
 };
 
 AtlasCells cells_of(const atlas::Mesh& mesh) {
@@ -71,7 +73,8 @@ AtlasCells cells_of(const atlas::Mesh& mesh) {
   return cells;
 }
 
-// The greatest difference of two weights of one pair; a pair that one of them lacks has weight 0 there.
+// Returns the largest difference of two weights of one pair; a pair that one of them lacks has
+// weight 0 there.
 double difference(const rondel::Weights& ours, const atlas::interpolation::MatrixCache& theirs,
                   const std::vector<std::size_t>& source_of) {
   const auto& matrix = theirs.matrix();
@@ -89,7 +92,7 @@ double difference(const rondel::Weights& ours, const atlas::interpolation::Matri
   return most;
 }
 
-// By how much a row's sum differs from 1 at most.
+// Returns the largest difference of a row's sum from 1.
 double row_error(std::span<const double> values, const auto& offsets, std::size_t num_rows) {
   double most = 0;
   for (std::size_t i = 0; i < num_rows; ++i) {

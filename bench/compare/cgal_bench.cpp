@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// cgal_bench KIND N [kernel|projection|insert]: CGAL's Delaunay triangulation on the sphere of
-// the same sites, with the traits that take points as given or those that project them; `insert`:
-// points as given, one by one in random order without hints.
+// cgal_bench KIND N [kernel|projection|insert]: measures CGAL's Delaunay triangulation on the
+// sphere for the same sites, with the traits that take points as given (kernel) or project them
+// (projection); `insert` takes points as given, one by one in random order without hints.
 
 #include <CGAL/Delaunay_triangulation_on_sphere_2.h>
 #include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// cgal_delaunay3_bench KIND N: CGAL's Delaunay triangulation in space of the same sites and the
-// center of the sphere, as in the paper: its convex hull is the triangulation on the sphere, and
-// the center spares the predicates most sets of five cospherical points.
+// cgal_delaunay3_bench KIND N: measures CGAL's Delaunay triangulation in space of the same sites
+// and the center of the sphere, as in the paper: its convex hull is the triangulation on the
+// sphere, and with the center the predicates meet fewer sets of five cospherical points.
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     built->insert(points.begin(), points.end());
     return built;
   };
-  // The hull: what is beside the infinite vertex.
+  // The hull consists of the neighbors of the infinite vertex.
   const auto count = [](const Points& points, const auto& built) {
     std::vector<Triangulation::Vertex_handle> vertices;
     std::vector<Triangulation::Cell_handle> faces;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// cgal_hull_bench KIND N: the convex hull of the same sites by CGAL's convex_hull_3 with exact
-// predicates, as a Surface_mesh.
+// cgal_hull_bench KIND N: measures the convex hull of the same sites by CGAL's convex_hull_3 with
+// exact predicates, as a Surface_mesh.
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// cgal_natural_bench N TARGETS [--seed S]: Sibson's weights of uniform targets among N uniform sites by
-// Rondel and by CGAL, one thread; medians of repetitions, each with targets of its own. CGAL's function takes the points that it should look at, and says
-// whether they were enough: the nearest ones in a k-d tree, twice as many until they are. The largest
-// difference of a weight is that from CGAL with exact numbers, at 300 sites.
+// cgal_natural_bench N TARGETS [--seed S]: compares Sibson's weights of uniform targets among N
+// uniform sites by Rondel and by CGAL, with one thread; prints medians of repetitions, each with
+// its own targets. CGAL's function takes the points that it should use, and says whether they were
+// enough: the nearest ones in a k-d tree, twice as many until they are. The largest difference of a
+// weight is that from CGAL with exact numbers, at 300 sites.
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -40,7 +41,7 @@ typename Kernel::Vector_3 normal(const typename Kernel::Point_3& p) {
   return p - typename Kernel::Point_3(0, 0, 0);
 }
 
-// Of all sites, exactly.
+// Compares with exact weights that use all sites.
 double largest_difference(std::uint64_t seed) {
   using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
   constexpr std::size_t n = 300;
@@ -74,12 +75,12 @@ double largest_difference(std::uint64_t seed) {
   return largest;
 }
 
-// Where the points do not surround the target CGAL 5.5 reads beyond an array. Of 32 random ones, that
-// happens to one target in 60 million.
+// If the points do not surround the target, CGAL 5.5 reads beyond an array. With 32 random points
+// that happens for one target in 60 million.
 constexpr unsigned fewest = 32;
 constexpr std::uint64_t repetitions = 7;
 
-// Sums of x over the targets, so that nothing is left out.
+// Returns the sum of x over the targets, so that no work is optimized away.
 double sum_by_cgal(const std::vector<Point>& sites, std::span<const Point> targets,
                    double& seconds) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

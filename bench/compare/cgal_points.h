@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The sites as CGAL's points.
+// Converts the sites to points of CGAL.
 #pragma once
 
 #include <vector>

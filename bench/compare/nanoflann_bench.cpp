@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// nanoflann_bench N QUERIES: the nearest of uniform sites to other uniform points by a k-d tree in
-// space, the queries in the order given. On the sphere the nearest in space is the
-// nearest in angle.
+// nanoflann_bench N QUERIES: measures the nearest of uniform sites to other uniform points by a k-d
+// tree in space, with the queries in the given order. On the sphere the nearest site in space is
+// the nearest in angle.
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace {
 
-// The interface that nanoflann asks for.
+// The interface that nanoflann requires.
 struct Cloud {
   std::span<const rondel::Point> points;
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// qhull_bench KIND N: the convex hull of the same sites by Qhull's reentrant library, option "Qt"
-// (triangulated output), from a copy of the coordinates in memory.
+// qhull_bench KIND N: measures the convex hull of the same sites by Qhull's reentrant library with
+// the option "Qt" (triangulated output), from a copy of the coordinates in memory.
 
 #include <libqhull_r/qhull_ra.h>
 

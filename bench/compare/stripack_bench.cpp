@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// stripack_bench KIND N [csstrid|trmesh]: the Delaunay triangulation of the same sites by STRIPACK
-// (Renka, ACM TOMS 23, 1997) as it is in NCAR's library of mathematics.
+// stripack_bench KIND N [csstrid|trmesh]: measures the Delaunay triangulation of the same sites by
+// STRIPACK (Renka, ACM TOMS 23, 1997) as it is in NCAR's mathematical library.
 //
 //   csstrid  its function for users: from latitudes and longitudes in degrees to a list of
 //            triangles. The search for the neighbors of each triangle takes most of its time.
@@ -98,7 +98,7 @@ struct Coordinates {
   std::vector<double> z;
 };
 
-// For each node its neighbors as a circular list; that of a node on the boundary ends with a
+// For each node its neighbors as a circular list; the list of a node on the boundary ends with a
 // negative number.
 struct Lists {
   explicit Lists(std::size_t n) : list(6 * n), lptr(6 * n), lend(n) {}
@@ -128,7 +128,7 @@ Counts count_lists(const Coordinates& at, const Lists& lists) {
   const auto boundary = static_cast<std::size_t>(
       std::count_if(lists.list.begin(), end, [](int node) { return node < 0; }));
   const std::size_t n = at.x.size();
-  // Euler: V - E + F = 2, the outside being a face where there is a boundary.
+  // By Euler, V - E + F = 2, where the outside is a face if there is a boundary.
   return {n, n, entries / 2 + 2 - n - (boundary > 0 ? 1 : 0)};
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// native_bench N [RUNS]: medians of the processor time of a build and of its diagram, with one thread, of the sites
-// that bench/js/run.mjs makes.
+// native_bench N [RUNS]: measures medians of the processor time of a build and of its diagram, with
+// one thread, for the sites that bench/js/run.mjs makes.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace {
 
-// Lehmer's generator.
+// Lehmer's random number generator.
 class Numbers {
  public:
   double next() {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whole builds: order, triangulation, canonical result.
+// Measures whole builds: order, triangulation, canonical result.
 
 #include "parts.h"
 #include "rondel/hull.h"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The canonical result, written from a mesh whose faces lie in memory in that order already: a
-// mesh fresh from its construction costs more misses of the caches.
+// Measures the canonical result, written from a mesh whose faces are already in that order in
+// memory; a mesh directly after its construction causes more cache misses.
 
 #include <algorithm>
 

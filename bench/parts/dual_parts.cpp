@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is computed from a triangulation.
+// Measures what is computed from a triangulation.
 
 #include "parts.h"
 #include "rondel/diagram.h"
@@ -9,7 +9,7 @@
 namespace rondel::bench {
 namespace {
 
-// work(triangulation)
+// Measures work(triangulation).
 template <class Work>
 void measure_dual(benchmark::State& state, Work work) {
   const Case& uniform = case_of("uniform", state.range(0));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The spatial order and what it consists of.
+// Measures the spatial order and its parts.
 
 #include "order/place_keys.h"
 #include "order/radix_sort.h"
@@ -28,7 +28,7 @@ void order_keys(benchmark::State& state, Model model) {
   report_each(state, sites.size());
 }
 
-// A leaf of the key tree.
+// Sorts one leaf of the key tree.
 void order_sort_words(benchmark::State& state) {
   const auto unsorted = keys_of(case_of("uniform", state.range(0)).sites);
   std::vector<std::uint64_t> words(unsorted.size());
@@ -41,7 +41,7 @@ void order_sort_words(benchmark::State& state) {
   report_each(state, unsorted.size());
 }
 
-// Queries.
+// Sorts keys as queries do.
 void order_radix_sort(benchmark::State& state) {
   order::KeyedIndices unsorted;
   unsorted.keys = keys_of(case_of("uniform", state.range(0)).sites);

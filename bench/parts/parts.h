@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the benchmarks of the parts share. Each measures one thread, and reports the time for one
-// site (face, query, call) as the counter "each".
+// What the benchmarks of the parts share. Each uses one thread, and reports the time for one site
+// (face, query, call) as the counter "each".
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -22,7 +22,7 @@ namespace rondel::bench {
 inline constexpr std::int64_t small_size = std::int64_t{1} << 12;
 inline constexpr std::int64_t large_size = std::int64_t{1} << 20;
 
-// Sites and their triangulation, made once.
+// Sites and their triangulation, made when they are first used.
 struct Case {
   std::vector<Point> sites;
   Triangulation triangulation;
@@ -39,7 +39,7 @@ inline const Case& case_of(const std::string& kind, std::int64_t n) {
   return found;
 }
 
-// So many inputs that a processor does not learn the branches of one that comes again and again.
+// So many inputs that a processor cannot learn their branches.
 class Inputs {
  public:
   Inputs(const std::string& kind, std::int64_t n) {

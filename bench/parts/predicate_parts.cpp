@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The rungs of the conflict test (predicates/conflict.h), each on the calls that a verification of a triangulation makes:
-// a face and the corner across one of its edges. "patch" has its sites about 1e-8 apart.
+// Measures the rungs of the conflict test (predicates/conflict.h), each on the calls that verifying
+// a triangulation makes: a face and the corner across one of its edges. The sites of "patch" are
+// about 1e-8 apart.
 
 #include <array>
 
@@ -41,7 +42,8 @@ std::vector<Four> calls_of(const std::string& kind) {
   return calls;
 }
 
-// Squares of an integer grid in a plane that is not parallel to an axis: every test is a tie.
+// Returns squares of an integer grid in a plane that is not parallel to an axis, so that every test
+// is a tie.
 std::vector<Four> coplanar_calls() {
   std::vector<Four> calls;
   for (std::size_t i = 0; i < num_calls; ++i) {
@@ -55,13 +57,13 @@ std::vector<Four> coplanar_calls() {
   return calls;
 }
 
-// What a rung takes for a point.
+// The forms in which rungs take points.
 Point as_given(const Point& p) { return p; }
 exact::SplitPoint as_split(const Point& p) { return exact::unit_vector(p, {}); }
 Vector as_vector(const Point& p) { return exact::to_vector(p); }
 Vector as_direction(const Point& p) { return exact::to_vector(as_split(p).hi); }
 
-// The rung decides all calls, whose points are converted before the clock starts.
+// Measures a rung that decides all calls; their points are converted before the clock starts.
 template <class Convert, class Rung>
 void measure_rung(benchmark::State& state, const std::vector<Four>& calls, Convert convert,
                   Rung rung) {
@@ -111,7 +113,7 @@ void plane_perturbation(benchmark::State& state) {
                });
 }
 
-// The whole ladder behind the public interface.
+// Measures the whole ladder behind the public interface.
 void conflict_test(benchmark::State& state, const std::string& kind, Model model) {
   measure_rung(state, calls_of(kind), as_given,
                [model](const auto& a, const auto& b, const auto& c, const auto& p) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Questions to a triangulation, in ranges and one by one.
+// Measures queries to a triangulation, in batches and one by one.
 
 #include <span>
 
@@ -19,7 +19,7 @@ std::span<const Point> queries() {
   return std::span(points).last(num_queries);
 }
 
-// work(locator) asks all queries.
+// Measures work(locator), which does all queries.
 template <class Work>
 void measure_queries(benchmark::State& state, Work work) {
   const Case& uniform = case_of("uniform", state.range(0));

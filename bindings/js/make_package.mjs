@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Fills the folder of the npm package, all but its types: make_package.mjs SOURCE FOLDER
+// Fills the folder of the npm package, except for its types: make_package.mjs SOURCE FOLDER
 
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -18,12 +18,12 @@ cpSync(join(javascript, "tsconfig.json"), join(folder, "tsconfig.json"));
 cpSync(join(source, "LICENSE"), join(folder, "LICENSE"));
 cpSync(join(javascript, "README.md"), join(folder, "README.md"));
 
-// The version is in one place, and what only development needs is nobody else's.
+// The version comes from VERSION; dependencies of development are left out.
 const { devDependencies, ...description } = JSON.parse(readFileSync(join(javascript, "package.json"), "utf8"));
 description.version = readFileSync(join(source, "VERSION"), "utf8").trim();
 writeFileSync(join(folder, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
 
-// The module twice: as a file, and as text that is there at once, without a request.
+// The package has the module twice: as a file, and as text that needs no request.
 const module = readFileSync(join(source, "build", "wasm", "bin", "rondel.wasm"));
 writeFileSync(join(folder, "rondel.wasm"), module);
 writeFileSync(

@@ -3,10 +3,10 @@
 
 /**
  * \file
- * The C interface of Rondel: what C++ programs get from rondel/rondel.h, for C and for every language that can call C.
+ * The C interface of Rondel: the functions of rondel/rondel.h for C and for every language that can call C.
  *
  * 1. Functions that can fail return a status, 0 for success. After another status rondel_error_message() and
- *    rondel_error_index() say more, what was to be written is unspecified, and a handle that was to be made is NULL.
+ *    rondel_error_index() say more; the content of output arrays is unspecified, and an output handle is NULL.
  *    A change of a rondel_dynamic that fails changes nothing.
  * 2. Handles are made by a function whose last argument is where to put them, and freed by the rondel_..._free() of
  *    their type, which takes NULL, too. Handles share what they need of each other and may be freed in any order.
@@ -44,7 +44,7 @@ extern "C" {
 
 /* ---- Versions and errors ---- */
 
-/** "0.1.0": of the library that runs, which may be newer than this header. */
+/** Returns the version of the running library, such as "0.1.0"; it may be newer than this header. */
 RONDEL_C_API const char* rondel_version_string(void);
 
 typedef int32_t rondel_status;
@@ -57,12 +57,12 @@ enum {
   RONDEL_FAILED = 4 /**< anything else, such as threads that the system refuses */
 };
 
-/** One line about the last call of this thread that failed; "" before. Valid until this thread calls again. */
+/** Returns one line about the last failed call of this thread, or "". Valid until this thread calls again. */
 RONDEL_C_API const char* rondel_error_message(void);
-/** The first offending position of the array that the message names; 0 where there is none. */
+/** Returns the first offending position of the array that the message names; 0 if there is none. */
 RONDEL_C_API size_t rondel_error_index(void);
 
-/* ---- What and how ---- */
+/* ---- Options ---- */
 
 enum {
   RONDEL_PROJECTED = 0, /**< a site is its exact projection on the sphere: Delaunay, Voronoi */
@@ -79,19 +79,19 @@ typedef struct rondel_options {
 
 RONDEL_C_API void rondel_options_init(rondel_options* options);
 
-/** A request to stop, made by any thread. */
+/** A request to stop, which any thread may make. */
 typedef struct rondel_stop rondel_stop;
 RONDEL_C_API rondel_status rondel_stop_create(rondel_stop** stop);
-/** Work that was given this stop ends soon, with RONDEL_INTERRUPTED. May be called from a signal handler. */
+/** Ends all work that was given this stop soon, with RONDEL_INTERRUPTED. A signal handler may call it. */
 RONDEL_C_API void rondel_stop_request(rondel_stop* stop);
 RONDEL_C_API void rondel_stop_free(rondel_stop* stop);
 
-/** Called now and then by one thread at a time, any of those that work, with the fraction of a stage that is done.
- *  Anything but 0 ends the work with RONDEL_INTERRUPTED, without further calls. */
+/** A function that is called now and then with the fraction of a stage that is done, by one of the working threads
+ *  at a time. If it returns anything but 0, the work ends with RONDEL_INTERRUPTED, without further calls. */
 typedef int32_t (*rondel_progress)(void* context, const char* stage, double fraction);
 
-/** rondel/types.h: Execution. NULL stands for the default: a thread for each core, no progress, no stop. No result
- *  depends on it. */
+/** rondel/types.h: Execution. NULL stands for the default: a thread for each core, no progress, no stop. It changes no
+ *  result. */
 typedef struct rondel_execution {
   size_t size;      /**< sizeof(rondel_execution) */
   uint32_t threads; /**< at most; 0: one for each core */
@@ -104,10 +104,10 @@ RONDEL_C_API void rondel_execution_init(rondel_execution* execution);
 
 /* ---- Sites (rondel/delaunay.h) ---- */
 
-/** The unit vectors, shape (n, 3), of n positions: longitude and latitude in degrees, shape (n, 2). */
+/** Writes the unit vectors, shape (n, 3), of n positions: longitude and latitude in degrees, shape (n, 2). */
 RONDEL_C_API rondel_status rondel_unit_vectors(const double* lonlat_deg, size_t n, double* points);
 
-/** The weighted sites, shape (n, 3), of n circles: centers as above, angular radii in [0, 90) degrees. */
+/** Writes the weighted sites, shape (n, 3), of n circles: centers as above, angular radii in [0, 90) degrees. */
 RONDEL_C_API rondel_status rondel_polar_points(const double* lonlat_deg, const double* radii_deg,
                                                size_t n, double* points);
 
@@ -115,27 +115,27 @@ RONDEL_C_API rondel_status rondel_polar_points(const double* lonlat_deg, const d
 
 typedef struct rondel_triangulation rondel_triangulation;
 
-/** The Delaunay or regular triangulation of n points.
+/** Makes the Delaunay or regular triangulation of n points.
  *  RONDEL_INVALID_INPUT: a coordinate is not finite, a projected site is the center, the sphere is not valid. */
 RONDEL_C_API rondel_status rondel_delaunay(const double* points, size_t n,
                                            const rondel_options* options,
                                            const rondel_execution* execution,
                                            rondel_triangulation** triangulation);
 
-/** The convex hull of n points in space. */
+/** Makes the convex hull of n points in space. */
 RONDEL_C_API rondel_status rondel_convex_hull(const double* points, size_t n,
                                               const rondel_execution* execution,
                                               rondel_triangulation** hull);
 
 RONDEL_C_API void rondel_triangulation_free(rondel_triangulation* triangulation);
 
-/** -1 without sites; 0: one vertex; 1: all on one great circle, in rondel_ring(); 2: a closed surface of faces. */
+/** Returns -1 without sites; 0: one vertex; 1: all on one great circle, in rondel_ring(); 2: a closed surface of faces. */
 RONDEL_C_API int32_t rondel_dimension(const rondel_triangulation* triangulation);
-/** RONDEL_PROJECTED or RONDEL_WEIGHTED. */
+/** Returns RONDEL_PROJECTED or RONDEL_WEIGHTED. */
 RONDEL_C_API int32_t rondel_model(const rondel_triangulation* triangulation);
-/** Of a hull: the center that was chosen. */
+/** Writes the center of the sphere; for a hull, the center that was chosen. */
 RONDEL_C_API void rondel_center(const rondel_triangulation* triangulation, double center[3]);
-/** "ring", "incremental", "sphere", "blocks", or "given" for a snapshot. */
+/** Returns "ring", "incremental", "sphere", "blocks", or "given" for a snapshot. */
 RONDEL_C_API const char* rondel_builder(const rondel_triangulation* triangulation);
 
 RONDEL_C_API size_t rondel_num_sites(const rondel_triangulation* triangulation);
@@ -161,13 +161,13 @@ RONDEL_C_API const uint32_t* rondel_duplicates(const rondel_triangulation* trian
 /** Pairs of a site that is no vertex and a face below which it lies, increasing, shape (num_hidden, 2). */
 RONDEL_C_API const uint32_t* rondel_hidden(const rondel_triangulation* triangulation);
 
-/** Proves or refutes that m triangles, shape (m, 3), are the faces of the triangulation of n points. RONDEL_OK, and
- *  whether they are; if not, rondel_error_message() says what is wrong. */
+/** Proves or refutes that m triangles, shape (m, 3), are the faces of the triangulation of n points. Returns RONDEL_OK
+ *  and writes 1 or 0; after 0, rondel_error_message() says what is wrong. */
 RONDEL_C_API rondel_status rondel_check(const double* points, size_t n, const uint32_t* triangles,
                                         size_t m, const rondel_options* options,
                                         const rondel_execution* execution, int32_t* is_valid);
 
-/** Of a triangulation that rondel_convex_hull() made. */
+/** Writes volume and surface area of a triangulation that rondel_convex_hull() made. */
 RONDEL_C_API rondel_status rondel_size_of_hull(const rondel_triangulation* hull, double* volume,
                                                double* area);
 
@@ -182,8 +182,8 @@ RONDEL_C_API rondel_status rondel_areas(const rondel_triangulation* triangulatio
 /** Directions of the cells' centers of mass, unit vectors, shape (num_sites, 3). */
 RONDEL_C_API rondel_status rondel_centroids(const rondel_triangulation* triangulation,
                                             const rondel_execution* execution, double* centroids);
-/** Edges, lower index first, in lexicographic order: writes at most `capacity` of them, shape (capacity, 2), and how
- *  many there are. */
+/** Writes at most `capacity` edges, shape (capacity, 2), lower index first, in lexicographic order, and their whole
+ *  number. */
 RONDEL_C_API rondel_status rondel_edges(const rondel_triangulation* triangulation, uint32_t* edges,
                                         size_t capacity, size_t* num_edges);
 
@@ -216,44 +216,44 @@ RONDEL_C_API rondel_status rondel_merge_cocircular(const rondel_triangulation* t
                                                    const rondel_execution* execution,
                                                    rondel_lists** facets);
 
-/* ---- Questions (rondel/query.h) ---- */
+/* ---- Queries (rondel/query.h) ---- */
 
 typedef struct rondel_dynamic rondel_dynamic;
 typedef struct rondel_locator rondel_locator;
 
 RONDEL_C_API rondel_status rondel_locator_create(const rondel_triangulation* triangulation,
                                                  rondel_locator** locator);
-/** After the next change of `dynamic` its answers are RONDEL_INVALID_INPUT. Sites are ids. */
+/** Makes a locator whose sites are ids. After the next change of `dynamic` its queries return RONDEL_INVALID_INPUT. */
 RONDEL_C_API rondel_status rondel_locator_create_dynamic(const rondel_dynamic* dynamic,
                                                          rondel_locator** locator);
 RONDEL_C_API void rondel_locator_free(rondel_locator* locator);
 
-/** The nearest vertex of each of n points, shape (n,); of several the lowest. */
+/** Writes the nearest vertex of each of n points, shape (n,); of several the lowest. */
 RONDEL_C_API rondel_status rondel_nearest(const rondel_locator* locator, const double* points,
                                           size_t n, const rondel_execution* execution,
                                           uint32_t* sites);
-/** The k nearest vertices of each of n points in order of distance, shape (n, k), filled up with RONDEL_NO_INDEX. */
+/** Writes the k nearest vertices of each of n points in order of distance, shape (n, k), filled up with RONDEL_NO_INDEX. */
 RONDEL_C_API rondel_status rondel_k_nearest(const rondel_locator* locator, const double* points,
                                             size_t n, size_t k, const rondel_execution* execution,
                                             uint32_t* sites);
-/** The vertices within an angle in radians of each of n points, as lists in increasing order. */
+/** Finds the vertices within an angle in radians of each of n points, as lists in increasing order. */
 RONDEL_C_API rondel_status rondel_within(const rondel_locator* locator, const double* points,
                                          size_t n, double angle, const rondel_execution* execution,
                                          rondel_lists** sites);
 
 enum { RONDEL_VERTEX = 0, RONDEL_EDGE = 1, RONDEL_FACE = 2, RONDEL_OUTSIDE = 3 };
-/** What the rays through n points meet: `where` of shape (n,); a face that has it, shape (n,); its sites: one, two or
- *  three, then RONDEL_NO_INDEX, shape (n, 3). */
+/** Finds the vertex, edge or face that the ray through each of n points meets: its kind `where`, shape (n,); a face that
+ *  contains it, shape (n,); its one, two or three sites, filled up with RONDEL_NO_INDEX, shape (n, 3). */
 RONDEL_C_API rondel_status rondel_locate(const rondel_locator* locator, const double* points,
                                          size_t n, const rondel_execution* execution,
                                          int32_t* where, uint32_t* faces, uint32_t* sites);
-/** The distance in radians between one point and a site. */
+/** Writes the distance in radians between one point and a site. */
 RONDEL_C_API rondel_status rondel_distance(const rondel_locator* locator, const double point[3],
                                            uint32_t site, double* distance);
 
 /* ---- Changes (rondel/dynamic.h) ---- */
 
-/** With n sites, whose ids are 0 ... n-1. */
+/** Makes a dynamic triangulation with n sites, whose ids are 0 ... n-1. */
 RONDEL_C_API rondel_status rondel_dynamic_create(const double* points, size_t n,
                                                  const rondel_options* options,
                                                  const rondel_execution* execution,
@@ -271,12 +271,12 @@ RONDEL_C_API rondel_status rondel_move(rondel_dynamic* dynamic, const uint32_t* 
                                        const rondel_execution* execution);
 
 RONDEL_C_API size_t rondel_dynamic_num_sites(const rondel_dynamic* dynamic);
-/** The ids in use, increasing, shape (dynamic_num_sites,). */
+/** Writes the ids in use, increasing, shape (dynamic_num_sites,). */
 RONDEL_C_API rondel_status rondel_dynamic_ids(const rondel_dynamic* dynamic, uint32_t* ids);
-/** The vertices adjacent to a vertex, counterclockwise from the lowest: one list. */
+/** Finds the vertices adjacent to a vertex, counterclockwise from the lowest: one list. */
 RONDEL_C_API rondel_status rondel_dynamic_neighbors(const rondel_dynamic* dynamic, uint32_t id,
                                                     rondel_lists** ids);
-/** The triangulation as it is now; its site i is the i-th of rondel_dynamic_ids(). */
+/** Makes a copy of the current triangulation; its site i is the i-th of rondel_dynamic_ids(). */
 RONDEL_C_API rondel_status rondel_dynamic_snapshot(const rondel_dynamic* dynamic,
                                                    rondel_triangulation** snapshot);
 

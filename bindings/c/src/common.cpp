@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Versions, errors, options.
+// Versions, errors and options.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -24,7 +24,8 @@
 namespace rondel::c {
 namespace {
 
-// About the last call of a thread that failed. Fixed, because there may be no memory for it.
+// What is known of the last failed call of a thread. Its size is fixed, because there may be no
+// memory.
 struct Failure {
   static constexpr std::size_t capacity = 1024;
   char message[capacity] = "";

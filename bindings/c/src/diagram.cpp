@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Duals: centers, cells, areas, facets.
+// Duals: centers, cells, areas and facets.
 #include "rondel/diagram.h"
 
 #include <algorithm>

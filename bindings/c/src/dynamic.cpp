@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites that come, go and move.
+// Insertion, removal and moves of sites.
 #include "rondel/dynamic.h"
 
 #include <algorithm>

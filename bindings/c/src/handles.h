@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the handles of rondel.h hold, and what its functions share: C++ exceptions become statuses here.
+// The content of the handles of rondel.h, and what its functions share. C++ exceptions become
+// statuses here.
 #pragma once
 
 #include <atomic>
@@ -52,10 +53,10 @@ struct rondel_locator {
 
 namespace rondel::c {
 
-// The status of the exception that is being handled; keeps its message for this thread.
+// Returns the status of the exception that is being handled; keeps its message for this thread.
 rondel_status status_of_exception() noexcept;
 
-// Runs `work` and says how it ended.
+// Runs `work` and returns its status.
 template <class Work>
 rondel_status guarded(const Work& work) noexcept {
   try {
@@ -66,26 +67,27 @@ rondel_status guarded(const Work& work) noexcept {
   }
 }
 
-// What the next rondel_error_message() of this thread says.
+// Sets the text that the next rondel_error_message() of this thread returns.
 void set_message(const std::string& message);
 
-// \throws InvalidInput that names the argument if it is NULL.
+// \throws InvalidInput that names the argument if it is NULL
 void require(const void* argument, const char* name);
 
-// n points at `points`, copied; `name` is the argument's.
+// Returns a copy of n points; `name` is the name of the argument.
 std::vector<Point> copied_points(const double* points, std::size_t n, const char* name);
 
-// n indices at `indices`.
+// Returns a view of n indices.
 std::span<const Index> indices_at(const std::uint32_t* indices, std::size_t n, const char* name);
 
-// NULL, or a struct whose size is known.
+// Read options, which may be NULL or a struct of a known size.
 Options options_of(const rondel_options* options);
 Execution execution_of(const rondel_execution* execution);
 
-// Writes points to 3 doubles each.
+// Writes points as 3 doubles each.
 void write_points(std::span<const Point> points, double* out);
 
-// Runs `make`, which returns a pointer to a new handle, and puts that at `*handle`; NULL after a failure.
+// Runs `make`, which returns a pointer to a new handle, and stores that at `*handle`; stores NULL
+// after a failure.
 template <class Handle, class Make>
 rondel_status make_handle(Handle** handle, const Make& make) {
   if (handle != nullptr) *handle = nullptr;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Questions of place and distance.
+// Queries of position and distance.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

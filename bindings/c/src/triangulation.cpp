@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites, triangulations, hulls, predicates.
+// Sites, triangulations, hulls and predicates.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -43,7 +43,7 @@ rondel::Point point_at(const double* p, const char* name) {
   return {p[0], p[1], p[2]};
 }
 
-// The numbers of an array of triples; NULL of none.
+// Returns the numbers of an array of triples; NULL if it is empty.
 const std::uint32_t* numbers(std::span<const rondel::Triple> triples) {
   return triples.empty() ? nullptr : triples.front().data();
 }

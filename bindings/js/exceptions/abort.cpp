@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How the C++ runtime ends a program that broke its contract: by a trap, which JavaScript sees as a
-// WebAssembly.RuntimeError. The runtime's own versions print a message first; there is nobody to read it.
+// Ends a program that breaks a contract of the C++ runtime by a trap, which JavaScript sees as a
+// WebAssembly.RuntimeError. The runtime's own versions print a message first, which nobody would
+// read.
 
 #include <cstdint>
 #include <version>
@@ -11,7 +12,7 @@ extern "C" {
 
 [[noreturn]] void abort_message(const char* /*format*/, ...) { __builtin_trap(); }
 
-// For clang's stack protector, which Debian's compiler runtime is built with.
+// Clang's stack protector needs these, since Debian's compiler runtime is built with it.
 std::uintptr_t __stack_chk_guard = 0x5bd1'e995;
 [[noreturn]] void __stack_chk_fail() { __builtin_trap(); }
 }

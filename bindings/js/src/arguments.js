@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What users pass, as the module wants it.
+// Converts the arguments of users to the arrays and structs that the module takes.
 
 import { RondelError } from "./errors.js";
 
@@ -9,12 +9,12 @@ import { RondelError } from "./errors.js";
 /** @typedef {Uint32Array | readonly number[]} Indices */
 
 /**
- * What to triangulate.
+ * The model and the sphere.
  * @typedef {object} Options
  * @property {"projected" | "weighted"} [model] a site is its exact projection on the sphere (the default): Delaunay
  *   triangulation, Voronoi diagram; or the circle whose pole it is: regular triangulation, power diagram
- * @property {readonly [number, number, number]} [center] of the sphere; default the origin
- * @property {number} [squaredRadius] of the sphere; default 1
+ * @property {readonly [number, number, number]} [center] the center of the sphere; default the origin
+ * @property {number} [squaredRadius] the squared radius of the sphere; default 1
  */
 
 const models = ["projected", "weighted"];
@@ -56,7 +56,7 @@ export function count(value, what) {
 }
 
 /**
- * rondel_options: size, model, center, squared_radius.
+ * Writes a rondel_options: size, model, center, squared_radius.
  * @param {import("./engine.js").Engine} engine
  * @param {{room(n: number, size?: 4 | 8): number}} scope
  * @param {Options} options

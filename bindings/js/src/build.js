@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What makes triangulations, and sites of longitudes and latitudes.
+// Makes triangulations, and sites from longitudes and latitudes.
 
 import { numbers, placeOptions } from "./arguments.js";
 import { engine } from "./engine.js";
@@ -26,7 +26,8 @@ export function build(Type, owner, sites, options) {
 }
 
 /**
- * The unit vectors of longitudes and latitudes, the same bits on every machine; multiples of 90 degrees are exact.
+ * Converts longitudes and latitudes to unit vectors, with the same bits on every machine; multiples of 90 degrees are
+ * exact.
  * @param {Numbers} lonLat degrees, of shape (n, 2)
  * @returns {Float64Array} of shape (n, 3)
  * @throws {import("./errors.js").RondelError} for the first angle that is not finite, or latitude outside [-90, 90]
@@ -43,7 +44,7 @@ export function unitVectors(lonLat) {
 }
 
 /**
- * The weighted sites of circles on the unit sphere: the poles of their planes.
+ * Converts circles on the unit sphere to weighted sites, the poles of their planes.
  * @param {Numbers} lonLat centers, degrees, of shape (n, 2)
  * @param {Numbers} radii angular, degrees in [0, 90), of shape (n,)
  * @returns {Float64Array} of shape (n, 3)
@@ -67,7 +68,7 @@ export function polarPoints(lonLat, radii) {
  */
 
 /**
- * The function that makes a Type of sites, with its lonLat().
+ * Returns the function that makes a Type of sites, with its lonLat().
  * @template {Triangulation} T
  * @param {new (owner: Engine, place: number) => T} Type
  */
@@ -83,12 +84,12 @@ export function maker(Type) {
 }
 
 /**
- * The triangulation of sites x0, y0, z0, x1, ...: unique and exact for every finite input.
+ * Computes the triangulation of sites x0, y0, z0, x1, ...: unique and exact for every finite input.
  * `delaunay.lonLat(array, options)` takes longitudes and latitudes in degrees.
  * @throws {import("./errors.js").RondelError} if a coordinate is not finite or a projected site is the center
- * @throws {RangeError} where memory runs out
+ * @throws {RangeError} if memory runs out
  */
 export const delaunay = maker(Triangulation);
 
-/** As delaunay(), with `cells`, `areas` and `centers` of the Voronoi or power diagram. */
+/** Does the same as delaunay(), and adds `cells`, `areas` and `centers` of the Voronoi or power diagram. */
 export const voronoi = maker(VoronoiDiagram);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A triangulation whose sites come, go and move.
+// A triangulation whose sites can be inserted, removed and moved.
 
 import { indices, numbers, placeOptions } from "./arguments.js";
 import { dispose, engine, Handle } from "./engine.js";
@@ -14,9 +14,9 @@ import { VoronoiDiagram } from "./triangulation.js";
 /** @typedef {import("./arguments.js").Options} Options */
 
 /**
- * At any time the triangulation is the one that delaunay() makes of the sites that are there. Each site has an id that
- * keeps its meaning until the site is removed; then the id may be given to a new site. A call that throws changes
- * nothing. The questions of Located answer with ids; the faces of locate() mean nothing after the next change.
+ * At any time the triangulation is the one that delaunay() computes for the current sites. Each site has an id, which
+ * it keeps until it is removed; then the id may be given to a new site. A call that throws changes nothing. The queries
+ * of Located answer with ids; the faces of locate() are not valid after the next change.
  */
 export class DynamicTriangulation extends Located {
   #handle;
@@ -90,7 +90,7 @@ export class DynamicTriangulation extends Located {
    * Moves site ids[i] to point i, one after the other.
    * @param {Indices} ids
    * @param {Numbers} xyz of shape (n, 3)
-   * @throws {RondelError} as remove() and insert() do, and if the lengths differ; an id may appear again
+   * @throws {RondelError} like remove() and insert(), and if the lengths differ; an id may appear again
    */
   move(ids, xyz) {
     const wanted = indices(ids);
@@ -121,13 +121,13 @@ export class DynamicTriangulation extends Located {
     });
   }
 
-  /** The diagram as it is now; its site i is the i-th of `ids`. @returns {VoronoiDiagram} */
+  /** Returns the current diagram; its site i is the i-th of `ids`. @returns {VoronoiDiagram} */
   snapshot() {
     const place = this.engine.scoped((scope) => scope.made("rondel_dynamic_snapshot", this.#handle.place));
     return new VoronoiDiagram(this.engine, place);
   }
 
-  /** Gives its memory back. */
+  /** Frees its memory. */
   free() {
     this.freeLocator();
     this.#handle.free();

@@ -3,7 +3,7 @@
 
 /// <reference lib="esnext.disposable" preserve="true" />
 
-// The module rondel.wasm: how it is loaded, its memory, and how its functions are called. They are those of
+// Loads the module rondel.wasm, manages its memory, and calls its functions, which are those of
 // bindings/c/include/rondel.h.
 
 import { RondelError } from "./errors.js";
@@ -24,7 +24,7 @@ function decode(text) {
   return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 }
 
-// What the C library asks of its system: a clock, and places to print to, which are not there.
+// The system functions that the C library imports: a clock, and output, which is discarded.
 /** @param {() => DataView} view of the memory */
 function systemFunctions(view) {
   const notSupported = () => 52; // ENOSYS of WASI
@@ -39,7 +39,7 @@ function systemFunctions(view) {
   });
 }
 
-/** One instance of the module. All functions of this package share one; a test may want its own. */
+/** One instance of the module. All functions of this package share one; a test may have its own. */
 export class Engine {
   /**
    * @param {WebAssembly.Module} module
@@ -129,7 +129,7 @@ class Scope {
     this.places = [];
   }
 
-  /** Room for n elements of 4 or 8 bytes. @param {number} n @param {4 | 8} [size] */
+  /** Allocates n elements of 4 or 8 bytes. @param {number} n @param {4 | 8} [size] */
   room(n, size = 4) {
     const place = this.engine.allocate(n * size);
     this.places.push(place);
@@ -144,7 +144,7 @@ class Scope {
     return place;
   }
 
-  /** Calls a function whose last argument is where to put a pointer, and returns that. @param {string} name @param {any[]} args */
+  /** Calls a function whose last argument is the address of a pointer, and returns the pointer. @param {string} name @param {any[]} args */
   made(name, ...args) {
     const place = this.room(1);
     this.engine.call(name, ...args, place);
@@ -159,7 +159,7 @@ class Scope {
 /** @type {Engine | undefined} */
 let shared;
 
-/** The engine that all functions share; compiled now, if it is needed for the first time. */
+/** Returns the engine that all functions share; compiles it when it is needed for the first time. */
 export function engine() {
   shared ??= new Engine(new WebAssembly.Module(decode(encodedModule)));
   return shared;
@@ -179,21 +179,21 @@ export async function init(source = decode(encodedModule)) {
 }
 
 /**
- * An engine of its own memory.
+ * Makes an engine with its own memory.
  * @param {{maximumMemory?: number}} limits
  */
 export function separateEngine(limits) {
   return new Engine(new WebAssembly.Module(decode(encodedModule)), limits);
 }
 
-// What is not freed by hand is freed some time after the garbage collector found it.
+// Objects that are not freed by free() are freed some time after the garbage collector has found them.
 /** @type {FinalizationRegistry<{owner: Engine, name: string, place: number}>} */
 const forgotten = new FinalizationRegistry(({ owner, name, place }) => owner.functions[name](place));
 
-/** The method that `using` calls, also where the language does not know it yet. @type {typeof Symbol.dispose} */
+/** The method that `using` calls, even if the engine does not support it yet. @type {typeof Symbol.dispose} */
 export const dispose = Symbol.dispose ?? Symbol.for("Symbol.dispose");
 
-/** A thing in the memory of the module. */
+/** An object in the memory of the module. */
 export class Handle {
   #place;
   #name;

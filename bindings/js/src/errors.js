@@ -13,7 +13,7 @@ export class RondelError extends Error {
   constructor(message, index) {
     super(message);
     this.name = "RondelError";
-    /** The first bad element of the array that was passed; 0 where there is none. @readonly */
+    /** The first bad element of the array that was passed; 0 if there is none. @readonly */
     this.index = index;
   }
 }

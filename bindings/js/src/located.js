@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Questions about places.
+// Queries of position and distance.
 
 import { count, numbers } from "./arguments.js";
 
@@ -9,7 +9,7 @@ import { count, numbers } from "./arguments.js";
 /** @typedef {import("./engine.js").Engine} Engine */
 /** @typedef {import("./engine.js").Handle} Handle */
 
-/** Stands for "none" in arrays of indices. */
+/** The index that means "none" in arrays of indices. */
 export const noIndex = 0xffffffff;
 
 /**
@@ -18,13 +18,13 @@ export const noIndex = 0xffffffff;
  */
 
 /**
- * What the rays from the center through n points meet: `where` has 0 for a vertex, 1 for an edge, 2 for a face, 3 for
- * none (outside); `faces` a face that has it, of shape (n,); `sites` its one, two or three sites, of shape (n, 3),
- * filled up with noIndex.
+ * The vertex, edge or face that the ray from the center through each of n points meets: `where` is 0 for a vertex, 1
+ * for an edge, 2 for a face, 3 for none (outside); `faces`, shape (n,), a face that contains it; `sites`, shape (n, 3),
+ * its one, two or three sites, filled up with noIndex.
  * @typedef {{where: Int32Array, faces: Uint32Array, sites: Uint32Array}} Locations
  */
 
-/** Questions about places, which triangulations and dynamic ones answer. All answers are exact, ties included. */
+/** Queries of static and dynamic triangulations. All answers are exact, ties included. */
 export class Located {
   /** @type {Handle | undefined} */
   #locator;
@@ -60,10 +60,10 @@ export class Located {
   }
 
   /**
-   * The nearest site to each point; of several the lowest index, without sites noIndex.
+   * Finds the nearest site to each point; of several the lowest index, and noIndex if there are no sites.
    * @param {Numbers} points of shape (n, 3), which stand for their directions from the center
    * @returns {Uint32Array} of shape (n,)
-   * @throws {import("./errors.js").RondelError} with the first point that is not finite or the center, as all questions do
+   * @throws {import("./errors.js").RondelError} with the first point that is not finite or the center, like all queries
    */
   nearest(points) {
     return this.#ask(points, (place, n, locator, scope) => {
@@ -74,7 +74,7 @@ export class Located {
   }
 
   /**
-   * The k nearest sites to each point in order of distance, filled up with noIndex.
+   * Finds the k nearest sites to each point in order of distance, filled up with noIndex.
    * @param {Numbers} points of shape (n, 3)
    * @param {number} k
    * @returns {Uint32Array} of shape (n, k)
@@ -90,7 +90,7 @@ export class Located {
   }
 
   /**
-   * The sites at a distance of at most `angle` from each point, in increasing order.
+   * Finds the sites at a distance of at most `angle` from each point, in increasing order.
    * @param {Numbers} points of shape (n, 3)
    * @param {number} angle radians
    * @returns {SiteLists}
@@ -108,7 +108,7 @@ export class Located {
   }
 
   /**
-   * The vertex, edge or face that each point lies on.
+   * Finds the vertex, edge or face that each point lies on.
    * @param {Numbers} points of shape (n, 3)
    * @returns {Locations}
    */
@@ -125,7 +125,7 @@ export class Located {
   }
 
   /**
-   * The distance between a point and a site in radians; weighted, the Laguerre distance.
+   * Returns the distance between a point and a site in radians; for the weighted model the Laguerre distance.
    * @param {Numbers} point x, y, z
    * @param {number} site
    * @returns {number}

@@ -17,8 +17,8 @@ import { Located } from "./located.js";
  */
 
 /**
- * A Delaunay or regular triangulation. Arrays are copies, made when first asked for; they stay when it is freed.
- * Its memory is given back by free(), at the end of a `using` block, or some time after nothing refers to it.
+ * A Delaunay or regular triangulation. Its arrays are copies, made when they are first read; they remain valid after it
+ * is freed. Its memory is freed by free(), at the end of a `using` block, or some time after nothing refers to it.
  */
 export class Triangulation extends Located {
   /** @type {Map<string, any>} */
@@ -140,7 +140,7 @@ export class Triangulation extends Located {
     return this.#written("rondel_centroids", 3 * this.numSites);
   }
 
-  /** Gives its memory back. Arrays that were asked for stay. */
+  /** Frees its memory. Arrays that were read before remain valid. */
   free() {
     this.freeLocator();
     this.handle.free();

@@ -3,12 +3,13 @@
 
 // Arrays between NumPy and the library, without copies.
 //
-// 1. What comes in is C-contiguous float64 or uint32 memory of the caller, used where it lies. The
-//    package converts whatever else users pass before it calls, and copies what an object keeps.
-// 2. Indices go out as int32: no index of the library reaches 2^31 (max_sites), and `no_index`, all
-//    bits set, is -1. Offsets go out as int64.
-// 3. A vector that goes out moves into a capsule that owns it; an array of an object refers to the
-//    object, keeps it alive and cannot be written to.
+// 1. Input arrays are C-contiguous float64 or uint32 memory of the caller, used in place. Before
+//    the call the Python package converts whatever else users pass, and copies what an object
+//    keeps.
+// 2. Indices are returned as int32: no index of the library reaches 2^31 (max_sites), and
+//    `no_index`, all of whose bits are set, becomes -1. Offsets are returned as int64.
+// 3. A returned vector moves into a capsule that owns it; an array of an object refers to the
+//    object, keeps it alive and is read-only.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -41,7 +42,7 @@ using IndexPairsIn =
 template <class T>
 using ArrayOut = nb::ndarray<nb::numpy, T, nb::c_contig>;
 
-// Structures of numbers of one type lie in memory as rows of an array.
+// Returns rows of an array as structures of numbers of one type.
 template <class Row, class Array>
 std::span<const Row> rows_of(const Array& array) {
   static_assert(sizeof(Row) % sizeof(*array.data()) == 0);
@@ -49,7 +50,7 @@ std::span<const Row> rows_of(const Array& array) {
 }
 inline std::span<const Point> points_of(const PointsIn& array) { return rows_of<Point>(array); }
 
-// The points as sites, which keep the array.
+// Returns the points as sites, which keep the array alive.
 inline Sites sites_of(const PointsIn& array) {
   std::shared_ptr<const PointsIn> owner(new PointsIn(array), [](const PointsIn* kept) {
     const nb::gil_scoped_acquire acquired;
@@ -60,19 +61,19 @@ inline Sites sites_of(const PointsIn& array) {
 
 inline Point point_of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 
-// Columns of Row as an array of T; 0 for an array of one dimension.
+// The number of columns of Row as an array of T; 0 for an array of one dimension.
 template <class T, class Row>
 constexpr std::size_t columns_of = sizeof(Row) == sizeof(T) ? 0 : sizeof(Row) / sizeof(T);
 
 template <class T, class Row, class Pointer>
 ArrayOut<T> make_array(Pointer data, std::size_t count, nb::handle owner) {
-  static T nothing[3] = {};  // an empty array, too, has an address
+  static T nothing[3] = {};  // an empty array must have an address too
   const std::size_t shape[2] = {count, columns_of<T, Row>};
   T* first = count == 0 ? nothing : reinterpret_cast<T*>(data);
   return ArrayOut<T>(first, shape[1] == 0 ? 1 : 2, shape, owner);
 }
 
-// The vector as an array that owns it.
+// Returns the vector as an array that owns it.
 template <class T, class Row>
 ArrayOut<T> to_array(std::vector<Row>&& rows) {
   auto* kept = new std::vector<Row>(std::move(rows));
@@ -80,7 +81,7 @@ ArrayOut<T> to_array(std::vector<Row>&& rows) {
   return make_array<T, Row>(kept->data(), kept->size(), owner);
 }
 
-// The array of an object that lives in Python.
+// Returns an array that keeps an object of Python alive.
 template <class T, class Row>
 ArrayOut<const T> array_of(const nb::object& owner, std::span<const Row> rows) {
   return make_array<const T, Row>(rows.data(), rows.size(), owner);

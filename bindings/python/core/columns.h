@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Properties, as the columns of a table.
+// Properties of cells as the columns of a table.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@
 
 namespace rondel::python {
 
-// Name and cells: texts, or JSON, or empty for null.
+// A name and cells, which are texts or JSON, or empty for null.
 using ColumnIn = std::tuple<std::string, std::vector<std::string>>;
 
-// The properties of cells, which Python only carries from what reads them to what writes them.
+// The properties of cells, which Python only passes from readers to writers.
 struct CellColumns {
   std::vector<Column> columns;
 };

@@ -14,7 +14,7 @@
 namespace rondel::python {
 namespace {
 
-// An array of the object `self`, of the class Contours.
+// Returns a getter of an array of the object `self`, which is of the class Contours.
 template <class T, class Contours, auto member>
 auto contour_array() {
   return [](const nb::object& self) {

@@ -22,10 +22,12 @@
 namespace rondel::python {
 namespace {
 
-// The name of a variable, whether it holds numbers, its dimensions, their lengths, and its attributes that are texts.
+// The name of a variable, whether it holds numbers, its dimensions, their lengths, and its
+// attributes that are texts.
 using HeaderIn = std::tuple<std::string, bool, std::vector<std::string>, std::vector<std::uint64_t>,
                             std::vector<std::pair<std::string, std::string>>>;
-// Indices of longitudes, latitudes and their bounds (-1: none), degrees in a unit of each, whether they are axes, and the rank.
+// Indices of longitudes, latitudes and their bounds (-1 for none), the degrees in a unit of each,
+// whether they are axes, and the rank.
 using PairOut = std::tuple<std::vector<std::int64_t>, std::vector<double>, bool, int>;
 
 std::vector<VariableHeader> headers_of(const std::vector<HeaderIn>& in) {
@@ -62,7 +64,7 @@ std::vector<double> vector_of_axis(const NumbersIn& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
-// The name, type, text and numbers of an attribute.
+// Marks missing values as NaN; an attribute has a name, type, text and numbers.
 using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>>;
 using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
@@ -86,7 +88,7 @@ void add_conventions(nb::module_& module) {
         const std::vector<VariableHeader> headers = headers_of(in);
         std::vector<std::string> remarks;
         std::vector<PairOut> pairs;
-        // Units of pairs that are not the best ones do not matter.
+        // The units of pairs that are not the best ones do not matter.
         for (const CoordinatePair& pair : find_coordinates(headers, {lon, lat, values}, &remarks)) {
           if (!pairs.empty() && pair.rank < std::get<3>(pairs.front())) break;
           pairs.push_back(pair_out(headers, pair));

@@ -19,7 +19,7 @@
 namespace rondel::python {
 namespace {
 
-// Stars in compressed rows.
+// Lists of indices in compressed rows.
 struct Lists {
   std::vector<std::uint64_t> offsets;
   std::vector<Index> items;
@@ -50,9 +50,9 @@ Lists ring_neighbors(const Triangulation& t) {
   return lists;
 }
 
-// The neighbors of each vertex, counterclockwise from the lowest index: a turn through the faces
-// around it. Face f has corner i; the next face counterclockwise around that corner is across the
-// edge to the corner before it.
+// Writes the neighbors of a vertex, counterclockwise from the lowest index, by going around it
+// through its faces. Face f has corner i; the next face counterclockwise around that corner is
+// across the edge to the corner before it.
 void write_star(const Triangulation& t, Index first_face, Index site, Index* out) {
   Index face = first_face;
   Index* end = out;
@@ -85,7 +85,7 @@ Lists neighbor_lists(const Triangulation& t) {
   return lists;
 }
 
-// The largest | |p - center| - radius |; a number that is not finite counts as infinite.
+// Returns the largest | |p - center| - radius |; a number that is not finite counts as infinite.
 double largest_discrepancy(const PointsIn& points, const std::array<double, 3>& center,
                            double radius) {
   return unlocked([&] {
@@ -105,8 +105,8 @@ ListsOut lists_out(Lists&& lists) {
   return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.items))};
 }
 
-// While it lives, the collector of garbage rests: it would look at all lists again and again while
-// there are more and more.
+// While it lives, Python's garbage collector is off, since it would visit all lists again and again
+// while they grow in number.
 class NoCollection {
  public:
   NoCollection() : was_enabled_(PyGC_Disable() != 0) {}
@@ -126,8 +126,8 @@ T checked(PyObject* object) {
   return nb::steal<T>(object);
 }
 
-// Compressed rows as lists of integers. Each integer is an object of its own: one for all places of
-// the same number would be anywhere in memory, and took twice the time.
+// Returns compressed rows as lists of integers. Each integer is a new object; sharing one object
+// for equal numbers would scatter the accesses in memory, and took twice the time.
 nb::list to_lists(const IndicesIn& items, const OffsetsIn& offsets) {
   const NoCollection none;
   const auto num_rows = static_cast<Py_ssize_t>(offsets.shape(0)) - 1;

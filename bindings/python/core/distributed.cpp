@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Ranks of Python. What is written in Python is called by the thread that works, with the lock of the
-// interpreter, while the one that was called waits: handlers of signals run in the main thread alone,
-// so that Ctrl-C ends no call in its middle, for which all other ranks wait.
+// Ranks in Python. Functions written in Python are called by the thread that works, with the lock
+// of the interpreter, while the calling thread waits. Signal handlers run in the main thread only,
+// so that Ctrl-C does not end a call for which all other ranks wait.
 
 #include "rondel/distributed.h"
 
@@ -31,7 +31,8 @@
 namespace rondel::python {
 namespace {
 
-// rondel.distributed's ranks. All is called without the lock, which the calls into Python take.
+// The ranks of rondel.distributed. All functions are called without the lock, which the calls into
+// Python take.
 class PythonRanks final : public Communicator {
  public:
   explicit PythonRanks(const nb::object& ranks)
@@ -42,12 +43,12 @@ class PythonRanks final : public Communicator {
   [[nodiscard]] int rank() const override { return rank_; }
   [[nodiscard]] int size() const override { return size_; }
 
-  // Whether all ranks have what they need to begin; how many threads this one has.
+  // Returns the number of threads of this rank, when all ranks have what they need to begin.
   unsigned meet() {
     const nb::gil_scoped_acquire locked;
     return nb::cast<unsigned>(ranks_.attr("meet")());
   }
-  // The last call of all ranks. Throws if something was raised on one of them.
+  // The last call of all ranks. Throws if one of them has raised an exception.
   void agree(bool has_raised) {
     for (const Bytes& message : all_gather(Bytes(1, std::byte{has_raised}))) {
       if (message != Bytes(1, std::byte{0})) throw Interrupted();
@@ -93,19 +94,19 @@ class PythonRanks final : public Communicator {
     return {first, first + view.len};
   }
 
-  nb::handle ranks_;  // of the caller
+  nb::handle ranks_;  // owned by the caller
   int rank_;
   int size_;
 };
 
-// Work on all ranks, which always takes long enough to be watched: any of them may come late. What is raised
-// on one of them when all have done theirs leaves no result on another.
+// Runs work on all ranks, which is always watched, since any of them may be late. If one of them
+// raises an exception after all have done their work, no other rank has a result.
 template <class Work>
 auto on_ranks(const nb::object& python_ranks, const nb::object& listener, const Work& work) {
   PythonRanks ranks(python_ranks);
   std::optional<std::invoke_result_t<Work, Communicator&, const Execution&>> result;
   const auto run = [&](const Execution& watching, const std::function<bool()>& ask) {
-    // One thread to Python, whatever it calls there.
+    // Python sees one thread, whatever it calls there.
     const nb::gil_scoped_acquire attached;
     const nb::gil_scoped_release released;
     Execution execution = watching;
@@ -143,7 +144,7 @@ DistributedTriangulation build_files_on_ranks(const nb::object& ranks, const std
 
 using Rows = std::function<void(std::span<const GlobalTriple>)>;
 
-// What one of the two visits shows, as an array.
+// Returns the rows that one of the two visits shows, as an array.
 template <void (DistributedTriangulation::*visit)(const Rows&) const>
 ArrayOut<std::int64_t> rows_out(const DistributedTriangulation& t) {
   return to_array<std::int64_t>(unlocked([&] {
@@ -176,7 +177,7 @@ ArrayOut<double> circumcenters_of(const DistributedTriangulation& t, unsigned th
   }));
 }
 
-// Functions that return an array of the object `self`.
+// Returns a getter of an array of the object `self`.
 template <auto get>
 auto list_getter() {
   return [](const nb::object& self) {

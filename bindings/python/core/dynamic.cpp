@@ -22,7 +22,7 @@
 namespace rondel::python {
 namespace {
 
-// A triangulation that threads of Python share: one changes it, or several ask.
+// A triangulation that threads of Python share: one changes it, or several query it.
 class SharedDynamic {
  public:
   explicit SharedDynamic(const Options& options) : triangulation_(options) {}
@@ -35,7 +35,7 @@ class SharedDynamic {
     const std::unique_lock lock(mutex_);
     return change(triangulation_);
   }
-  // A change of so many sites, which Ctrl-C ends.
+  // Changes `size` sites; Ctrl-C ends it.
   void change_many(
       std::size_t size,
       const std::function<void(DynamicTriangulation&, const Execution& execution)>& change) {
@@ -54,7 +54,7 @@ class SharedDynamic {
  private:
   mutable std::shared_mutex mutex_;
   DynamicTriangulation triangulation_;
-  unsigned threads_ = 0;  // of builds for ranges of changes; 0: one for each core
+  unsigned threads_ = 0;  // for builds that changes cause; 0: one for each core
 };
 
 template <auto get>

@@ -30,7 +30,7 @@ std::span<const Point> vectors_of(const VectorsIn& fields) {
   return {reinterpret_cast<const Point*>(fields.data()), fields.size() / 3};
 }
 
-// Method, Outside, SharedPlace, Normalization as numbers, and the rings of gradients.
+// Method, Outside, SharedPlace and Normalization as numbers, and the rings of gradients.
 using Choices = std::tuple<int, int, int, int, unsigned>;
 
 InterpolationOptions options_of(const Choices& choices) {
@@ -52,7 +52,8 @@ nb::tuple names_of_values() {
   return nb::tuple(names);
 }
 
-// The names of the values of each enumeration, in the order of Choices, and then those of Undetermined.
+// Returns the names of the values of each enumeration, in the order of Choices, and then those of
+// Undetermined.
 nb::tuple interpolation_names() {
   return nb::make_tuple(names_of_values<Method>(), names_of_values<Outside>(),
                         names_of_values<SharedPlace>(), names_of_values<Normalization>(),
@@ -73,7 +74,7 @@ Weights weights_from_arrays(const OffsetsIn& offsets, const IndicesIn& columns,
           .targets_hash = targets_hash};
 }
 
-// An array of the object `self`.
+// Returns a getter of an array of the object `self`.
 template <class T, auto member>
 auto vector_getter() {
   return [](const nb::object& self) {

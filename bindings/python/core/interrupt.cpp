@@ -19,10 +19,10 @@ namespace {
 namespace nb = nanobind;
 using namespace std::chrono_literals;
 
-constexpr std::size_t many_items = std::size_t{1} << 16;  // some hundredths of a second
+constexpr std::size_t many_items = std::size_t{1} << 16;  // this takes some hundredths of a second
 constexpr auto nap = 50ms;
 
-// What the thread that works and the one that watches share.
+// What the working and the watching thread share.
 class Work {
  public:
   enum class State { works, asks, has_ended };
@@ -30,7 +30,7 @@ class Work {
   Work(unsigned threads, const WatchedWork& work)
       : thread_([this, threads, &work] { run(threads, work); }) {}
 
-  // Returns after a nap, or before, when there is an answer to give, or when all is done.
+  // Returns after a short time, or earlier if there is an answer to give or the work has ended.
   State wait() {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, nap, [this] { return state_ != State::works; });
@@ -53,7 +53,7 @@ class Work {
     }
     if (!stage.empty()) listener(stage.c_str(), fraction);
   }
-  // After the end, and without the lock of the interpreter.
+  // Call this when the work has ended, without the lock of the interpreter.
   std::exception_ptr join() {
     thread_.join();
     return error_;
@@ -97,10 +97,10 @@ class Work {
   std::string stage_;
   double fraction_ = 0;
   std::exception_ptr error_;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // the last member, since it uses the others
 };
 
-// Handlers of signals, then the listener; what one of them raises.
+// Runs signal handlers, then the listener; returns what one of them raises.
 std::exception_ptr watch(Work& work, const nb::object& listener) {
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();

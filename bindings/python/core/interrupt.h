@@ -15,27 +15,27 @@
 
 namespace rondel::python {
 
-// Runs the work on `size` items without the lock of the interpreter. Where there are many items, or
-// somebody listens, another thread does it, and this one wakes some times a second
-// 1. to run the handlers of signals: Ctrl-C ends the work at its next piece, and then raises
+// Runs the work on `size` items without the lock of the interpreter. If there are many items or a listener,
+// another thread does it, and this one wakes some times a second
+// 1. to run the handlers of signals: Ctrl-C ends the work at its next piece, and raises
 //    KeyboardInterrupt;
 // 2. to tell `listener`, if it is not None, the stage and the fraction done. An exception of the
-//    listener ends the work, too.
-// The work passes what it is given, with the number of threads, to the library. Called with the lock
-// of the interpreter.
+//    listener ends the work too.
+// The work passes the Execution that it is given to the library. Call this with the lock of the interpreter.
 void run_watched(std::size_t size, unsigned threads, const nanobind::object& listener,
                  const std::function<void(const Execution&)>& work);
 
-// Work, and how it asks at its end, once, whether one of the two has raised: they are called a last
-// time before, and not again, so that it can tell others and nothing is raised behind its back.
+// Work that asks once, at its end, whether a signal handler or the listener has raised. They are
+// called a last time before the answer and not again, so that the work can tell others, and nothing
+// is raised afterwards.
 using WatchedWork =
     std::function<void(const Execution& execution, const std::function<bool()>& ask)>;
 
-// The same, always by another thread, for work that asks.
+// Does the same for work that asks, always in another thread.
 void run_watched_until_asked(unsigned threads, const nanobind::object& listener,
                              const WatchedWork& work);
 
-// As run_watched() for work that returns something.
+// Returns the result of work that run_watched() runs.
 template <class Work>
 auto watched(std::size_t size, unsigned threads, const nanobind::object& listener,
              const Work& work) {
@@ -45,13 +45,13 @@ auto watched(std::size_t size, unsigned threads, const nanobind::object& listene
   return std::move(*result);
 }
 
-// Work on many items without progress.
+// Does the same without a listener.
 template <class Work>
 auto watched_quietly(std::size_t size, unsigned threads, const Work& work) {
   return watched(size, threads, nanobind::none(), work);
 }
 
-// Work that is not watched, without the lock of the interpreter.
+// Runs work that is not watched, without the lock of the interpreter.
 template <class Work>
 auto unlocked(const Work& work) {
   const nanobind::gil_scoped_release released;

@@ -33,7 +33,7 @@ MeshArrays mesh_of(const Triangulation& t, double radius, const NumbersIn& densi
                  [&](const Execution& execution) { return mesh::arrays(t, options, execution); });
 }
 
-// The mesh, and what the reader remarks.
+// Returns the mesh and the remarks of the reader.
 std::tuple<MeshArrays, std::vector<std::string>> mesh_of_file(const std::string& path,
                                                               double radius, bool allow_zero_edges,
                                                               unsigned threads) {
@@ -64,7 +64,7 @@ WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
           to_array<double>(std::move(found.weights))};
 }
 
-// A member of MeshArrays as an array that refers to it.
+// Adds a member of MeshArrays as an array that refers to it.
 template <class T, auto member>
 void add_member(nb::class_<MeshArrays>& type, const char* name) {
   type.def_prop_ro(name, [](const nb::object& self) {

@@ -21,10 +21,11 @@ namespace {
 
 using mesh::SizeFunction;
 
-// Odd cells, short edges, obtuse triangles, least ratio.
+// The number of odd cells, of short edges and of obtuse triangles, and the least ratio.
 using DefectsOut = std::tuple<std::size_t, std::size_t, std::size_t, double>;
-// Points, densities (none: empty), how it ended, steps of the last level, mean offset, largest offset,
-// defects before and after the repair, sites that it moved, those of fixed places.
+// Points, densities (empty if there are none), how the work ended, steps of the last level, mean
+// offset, largest offset, defects before and after the repair, the number of sites that it moved,
+// and the sites of fixed places.
 using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double,
                            DefectsOut, DefectsOut, std::size_t, ArrayOut<std::int32_t>>;
 using AreasOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int,

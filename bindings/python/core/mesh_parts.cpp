@@ -48,7 +48,8 @@ ArrayOut<std::uint8_t> points_inside(const PointsIn& points, const Partition& re
       }));
 }
 
-// Sites on lines, or rows beside them, for so many cells of these spacings: `places` is what finds them.
+// Returns sites on lines, or rows beside them, which `places` finds, for `count` cells with these
+// spacings.
 template <auto places>
 std::tuple<ArrayOut<double>, std::size_t> sites_of_lines(const std::vector<PointsIn>& lines,
                                                          std::size_t count,
@@ -67,7 +68,7 @@ std::tuple<ArrayOut<double>, std::size_t> sites_of_lines(const std::vector<Point
   return {points_out(std::move(found.sites)), found.num_left_out};
 }
 
-// Cells as polygons of the plane: positions, where each polygon begins, and its cell.
+// Returns cells as polygons of the plane: positions, the begin of each polygon, and its cell.
 std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mesh_polygons(
     const MeshArrays& arrays, double tolerance_deg) {
   LonLatRegions found = watched_quietly(arrays.num_cells(), 0, [&](const Execution& execution) {
@@ -87,7 +88,7 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
           indices_out(std::move(found.owners))};
 }
 
-// `read` is read_lines() or read_places().
+// Returns the lines of a file; `read` is read_lines() or read_places().
 template <auto read>
 std::vector<ArrayOut<double>> lines_of_file(const std::string& path, bool is_geodesic,
                                             unsigned threads) {

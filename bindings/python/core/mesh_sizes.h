@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Spacings as Python passes them: numbers at the nodes of the raster, none where all are the same.
+// Spacings as Python passes them: numbers at the nodes of the raster, or none if they are the same
+// everywhere.
 #pragma once
 
 #include <cmath>
@@ -15,7 +16,7 @@
 
 namespace rondel::python {
 
-inline constexpr std::size_t many_sites = 1U << 20U;  // enough to be watched
+inline constexpr std::size_t many_sites = 1U << 20U;  // from this number on, work is watched
 
 inline std::optional<mesh::SizeFunction> size_of(std::span<const double> spacings,
                                                  std::size_t steps, double gradient) {
@@ -30,7 +31,7 @@ inline std::optional<mesh::SizeFunction> size_of(std::span<const double> spacing
   return gradient > 0 ? size.limited(gradient) : size;
 }
 
-// The spacings of a mesh of so many cells; 0: as they are.
+// Returns the spacings of a mesh of `count` cells; 0: as they are.
 inline mesh::SizeFunction size_along(const std::optional<mesh::SizeFunction>& size,
                                      std::size_t count) {
   const auto cells = static_cast<double>(count);

@@ -16,7 +16,7 @@ namespace {
 
 namespace nb = nanobind;
 
-// rondel.InvalidInput(message, index), a ValueError that the package defines.
+// Raises rondel.InvalidInput(message, index), a ValueError that the package defines.
 void raise_invalid_input(const rondel::InvalidInput& error) {
   const nb::object type = nb::module_::import_("rondel._errors").attr("InvalidInput");
   const bool has_index = error.index() != rondel::InvalidInput::no_index;
@@ -25,7 +25,7 @@ void raise_invalid_input(const rondel::InvalidInput& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
-// Python turns OSError(errno, reason, file) into a FileNotFoundError and the like.
+// Raises OSError(errno, reason, file), which Python turns into FileNotFoundError and the like.
 void raise_os_error(const rondel::FileError& error) {
   if (error.code().category() != std::generic_category() || !error.code()) {
     PyErr_SetString(PyExc_OSError, error.what());
@@ -39,7 +39,7 @@ void raise_os_error(const rondel::FileError& error) {
   PyErr_SetObject(value.type().ptr(), value.ptr());
 }
 
-// rondel.distributed.DistributedError(message, rank).
+// Raises rondel.distributed.DistributedError(message, rank).
 void raise_distributed_error(const rondel::DistributedError& error) {
   const nb::object type = nb::module_::import_("rondel.distributed").attr("DistributedError");
   const nb::object value = type(error.what(), error.rank());
@@ -56,7 +56,7 @@ void translate(const std::exception_ptr& pointer, void* /*payload*/) {
   } catch (const rondel::DistributedError& error) {
     raise_distributed_error(error);
   } catch (const rondel::Interrupted& /*error*/) {
-    // Where this rank itself is, it raises what interrupted it.
+    // The rank that was interrupted itself raises its own exception.
     PyErr_SetString(PyExc_KeyboardInterrupt, "another rank was interrupted");
   }
 }
@@ -68,7 +68,7 @@ NB_MODULE(_core, module) {
       "The C++ library behind the package rondel. Use that: arguments are not converted here.";
   module.attr("version") = rondel::version;
   nb::register_exception_translator(translate);
-  // Libraries that hold an array, and threads that never end, may do so when the interpreter ends.
+  // Libraries that hold an array, and threads that never end, may leak when the interpreter ends.
   nb::set_leak_warnings(false);
   module.def("set_netcdf_library", &rondel::set_netcdf_library, nb::arg("path"),
              "Names the file of the library netCDF-C, for netCDF-4.");

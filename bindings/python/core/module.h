@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What each file adds to the module rondel._core.
+// The functions by which each file adds to the module rondel._core.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -33,15 +33,16 @@ void add_regions(nanobind::module_& module);
 void add_remap(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);
 
-// The options of a build, from what the package passes.
+// Returns the options of a build.
 inline Options make_options(bool is_weighted, const std::array<double, 3>& center,
                             double squared_radius) {
   return {.model = is_weighted ? Model::weighted : Model::projected,
           .sphere = {{center[0], center[1], center[2]}, squared_radius}};
 }
 
-// How many threads work on what a triangulation gives: as many as it was built by. One that nobody
-// built, a snapshot or a copy from a pickle, says nothing of them: one for each core.
+// Returns how many threads to use for a triangulation: as many as built it. A triangulation that
+// was not built here, such as a snapshot or a copy from a pickle, has no such number, and one for
+// each core is used (0).
 inline unsigned threads_of(const Triangulation& t) {
   return t.report().builder == Builder::given ? 0 : t.report().threads;
 }

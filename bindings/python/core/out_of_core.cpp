@@ -22,7 +22,7 @@ nb::dict delaunay_of_file(const std::string& sites, const std::array<std::string
                           std::uint64_t memory, const std::string& scratch, bool resume,
                           bool radians, bool is_weighted, const std::array<double, 3>& center,
                           double squared_radius, unsigned threads, const nb::object& progress) {
-  // However many sites there are, it takes long enough to be watched.
+  // The work is always long enough to be watched.
   constexpr std::size_t size = std::numeric_limits<std::size_t>::max();
   const OutOfCoreReport report = watched(size, threads, progress, [&](const Execution& execution) {
     return delaunay_file(sites, {files[0], files[1], files[2], files[3]},

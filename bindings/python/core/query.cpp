@@ -40,7 +40,7 @@ LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
           to_array<std::int32_t>(std::move(columns.sites))};
 }
 
-// One distance for each query: to its own site, or to the only one.
+// Returns one distance for each query: to its own site, or to the only one.
 std::vector<double> distances(const Locator& locator, std::span<const Point> queries,
                               std::span<const Index> sites) {
   std::vector<double> result;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Answers to queries as arrays, for triangulations that stay and for those that change.
+// Answers to queries as arrays, for static and dynamic triangulations.
 #pragma once
 
 #include <span>
@@ -14,12 +14,12 @@
 
 namespace rondel::python {
 
-// The kind of place, the face, the three sites of each query.
+// The kind of place, the face and the three sites of each query.
 using LocationsOut =
     std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>>;
 using SiteListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
-// Called without the lock of the interpreter.
+// Call this without the lock of the interpreter.
 LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
                         const Execution& execution);
 

@@ -23,7 +23,7 @@
 namespace rondel::python {
 namespace {
 
-// Positions, and where rings and polygons begin; the owner of each polygon.
+// Positions, the begins of rings and polygons, and the owner of each polygon.
 using RegionsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int64_t>,
                               ArrayOut<std::int32_t>>;
 
@@ -44,7 +44,8 @@ void add_region_functions(nb::module_& module) {
                        [&](const Execution& execution) { return clip(cells, regions, execution); });
       },
       nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
-  // The pieces of cells and regions, joined by the regions' groups; which cell and which group each is of.
+  // Binds the pieces of cells and regions, joined by the groups of regions, with the cell and the
+  // group of each piece.
   module.def(
       "intersection",
       [](const Partition& cells, const Partition& regions, const IndicesIn& groups,

@@ -29,7 +29,7 @@ namespace {
 
 using RingsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>,
                             ArrayOut<double>, ArrayOut<std::int32_t>>;
-// The weights; areas of sources and of targets; fractions of both.
+// The weights, the areas of sources and of targets, and the fractions of both.
 using RemapOut =
     std::tuple<Weights, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>>;
 
@@ -61,7 +61,8 @@ GridSides sides_of(bool are_arcs) {
   return are_arcs ? GridSides::great_circles : GridSides::parallels;
 }
 
-// The partition, its mask, its shape, the centers in degrees that the file has, and what the reader remarks.
+// Returns the partition, its mask, its shape, the centers of the file in degrees, and the remarks
+// of the reader.
 nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
   auto [partition, table] = unlocked([&] {
     CellTable read = read_cells(path);
@@ -79,7 +80,8 @@ std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
   return {mask.data(), mask.data() + mask.size()};
 }
 
-// The partition, and the properties of its cells; polygons of a group below 0 are left out.
+// Returns the partition and the properties of its cells; polygons whose group is below 0 are left
+// out.
 std::tuple<Partition, CellColumns> read_polygon_partition(const std::string& path, bool is_geodesic,
                                                           unsigned overlap,
                                                           const std::optional<IndicesIn>& groups,

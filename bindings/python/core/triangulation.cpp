@@ -39,7 +39,7 @@ Triangulation build_hull(const PointsIn& points, unsigned threads, const nb::obj
   });
 }
 
-// For pickle: arrays that somebody may have changed.
+// Makes a triangulation of the arrays of a pickle, which may have been changed.
 Triangulation from_arrays(const PointsIn& points, int dimension, bool is_weighted,
                           const Center& center, double squared_radius, const TriplesIn& faces,
                           const TriplesIn& neighbors, const IndicesIn& ghost_faces,
@@ -74,7 +74,7 @@ nb::dict report_of(const Triangulation& t) {
   return result;
 }
 
-// Functions that return an array of the object `self`.
+// Returns a getter of an array of the object `self`.
 template <class T, auto get>
 auto array_getter() {
   return [](const nb::object& self) {

@@ -23,7 +23,8 @@
 namespace rondel::python {
 namespace {
 
-// Degrees, areas, fractions, the shape of a grid, the mask, the corners and the properties of cells; what is empty is not written.
+// Degrees, areas, fractions, the shape of a grid, the mask, the corners and the properties of
+// cells; empty ones are not written.
 using SideIn = std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>, IndicesIn,
                           PairsIn, std::optional<CellColumns>>;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// geoDelaunay() of d3-geo-voronoi 2.1, with properties that are made when they are first read.
+// geoDelaunay() of d3-geo-voronoi 2.1, with properties that are computed when they are first read.
 
 import { unitVectors, voronoi } from "../build.js";
 import { noIndex } from "../located.js";
@@ -13,7 +13,7 @@ import { toLonLat, withinPoles } from "./sphere.js";
 /** @typedef {[number, number]} Pair */
 
 /**
- * What geoDelaunay() returns. All arrays hold positions in the array of points; those that are not finite belong to nothing.
+ * The result of geoDelaunay(). All arrays have positions in the array of points; points that are not finite are ignored.
  * @typedef {object} GeoDelaunay
  * @property {any} delaunay triangles, halfedges, inedges, points and projection, as d3-delaunay has them
  * @property {Pair[]} edges of the triangles that face away from the center, lower index first
@@ -28,7 +28,7 @@ import { toLonLat, withinPoles } from "./sphere.js";
  * @property {(lon: number, lat: number, next?: number) => number} find the nearest point
  */
 
-// Arcs that lack less than 1.4 mrad to half a circle keep a point in between: which way they go would drown in rounding.
+// Arcs that are less than 1.4 mrad short of half a circle keep a point in between, since rounding would decide their way.
 const leastCosine = -1 + 1e-6;
 
 /** The positions of the points that are finite. @param {ArrayLike<number>[]} points */
@@ -88,7 +88,7 @@ class LazyDelaunay {
     return isGhost;
   }
 
-  /** Of a great circle: the pairs of neighbors around it. */
+  /** Returns the pairs of neighbors around a great circle. */
   ringPairs() {
     const ring = this.toPositions(this.diagram.ring);
     /** @type {Pair[]} */
@@ -157,7 +157,7 @@ class LazyDelaunay {
       for (let i = end - 1; i >= begin; --i) {
         const before = rings[i === begin ? end - 1 : i - 1];
         const after = rings[i + 1 === end ? begin : i + 1];
-        // The library bends arcs of more than 120 degrees; d3-geo wants points where they are needed only.
+        // The library divides arcs of more than 120 degrees; d3-geo needs points only in longer ones.
         const isBend = rings[i] >= numFaces && before < numFaces && after < numFaces;
         if (isBend && numCenters > 2 && cosine(before, after) > leastCosine) continue;
         ring.push(rings[i]);

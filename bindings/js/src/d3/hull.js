@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The hull of sites in a hemisphere: what the ghost faces leave over.
+// The hull of sites in a hemisphere: the faces that are no ghosts.
 
 import { following } from "./planar.js";
 import { cross, dot } from "./sphere.js";
@@ -9,10 +9,10 @@ import { cross, dot } from "./sphere.js";
 /** @typedef {import("./sphere.js").Vector} Vector */
 /** @typedef {import("../triangulation.js").VoronoiDiagram} VoronoiDiagram */
 
-// Of sites on one side of a hull, say those on a meridian, rounding moves some inside, by less than this, in radians.
+// Rounding moves sites on one side of a hull, such as sites on a meridian, inside by less than this, in radians.
 const flat = 1e-14;
 
-/** Which of its edges a face is as flat as, as the corner opposite to the longest; none if it is not flat.
+/** Returns the corner opposite to the longest edge of a face that is flat, or nothing if it is not flat.
  * @param {VoronoiDiagram} diagram
  * @param {number} face */
 function flatCorner({ triangles, points }, face) {
@@ -30,7 +30,7 @@ function flatCorner({ triangles, points }, face) {
 }
 
 /**
- * The ghost faces, and from them on inwards the faces that are flat.
+ * Returns the ghost faces, and the flat faces that are connected with them.
  * @param {VoronoiDiagram} diagram
  * @param {Uint8Array} isGhost
  */
@@ -52,7 +52,7 @@ function outsideOfHull(diagram, isGhost) {
 }
 
 /**
- * The sites of the hull, clockwise seen from outside, the lowest first; none where no face is a ghost.
+ * Returns the sites of the hull, clockwise seen from outside, the lowest first; none if no face is a ghost.
  * @param {VoronoiDiagram} diagram
  * @param {Uint8Array} isGhost
  */

@@ -24,7 +24,7 @@ export function toVector(p) {
   return [cosine * Math.cos(p[0] * degree), cosine * Math.sin(p[0] * degree), Math.sin(p[1] * degree)];
 }
 
-/** Of a vector of any length. @param {number} x @param {number} y @param {number} z @returns {LonLat} */
+/** Returns the position of a vector of any length. @param {number} x @param {number} y @param {number} z @returns {LonLat} */
 export function toLonLat(x, y, z) {
   return [Math.atan2(y, x) / degree, Math.atan2(z, Math.sqrt(x * x + y * y)) / degree];
 }
@@ -60,7 +60,7 @@ function eachPosition(positions, visit) {
   else for (const inner of positions) eachPosition(inner, visit);
 }
 
-// Sums by dimension: of points, of arcs by their length, of areas (half the sum of length times normal).
+// Sums by dimension: of points, of arcs weighted by length, of areas (half the sum of length times normal).
 class Moments {
   /** @type {[Vector, Vector, Vector]} */
   sums = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
@@ -99,7 +99,7 @@ class Moments {
 }
 
 /**
- * The center of mass of a GeoJSON object: of its areas, without these of its lines, without these of its points.
+ * Returns the center of mass of a GeoJSON object: of its areas, or if it has none of its lines, or of its points.
  * @param {any} object
  * @returns {LonLat} NaN where there is none
  */

@@ -61,7 +61,7 @@ function addAccessors(v) {
   v.y = (/** @type {any} */ f) => (f ? ((v._vy = f), v) : v._vy);
 }
 
-// Adds a method that takes new data if it is given any, and is false without data.
+// Adds a method that takes new data if it is given some, and returns false without data.
 /** @param {any} v @param {string} name @param {() => any} make */
 function addMethod(v, name, make) {
   v[name] = (/** @type {any} */ data) => {
@@ -70,7 +70,7 @@ function addMethod(v, name, make) {
   };
 }
 
-/** The properties of a cell. Its neighbors, which d3 does not document, are found when they are read. */
+/** The properties of a cell. Its neighbors, which d3 does not document, are computed when they are read. */
 class CellProperties {
   #delaunay;
   #position;
@@ -149,7 +149,7 @@ function addQuestions(v) {
     if (hull.length === 0) return null;
     return { type: "Polygon", coordinates: [closed(hull.map((/** @type {number} */ i) => v.points[i]))] };
   });
-  // The radius is in radians, whatever the README of d3-geo-voronoi says, and what is farther is undefined.
+  // The radius is in radians, in spite of the README of d3-geo-voronoi; farther sites give undefined.
   v.find = (/** @type {number} */ lon, /** @type {number} */ lat, /** @type {number} */ radius) => {
     v._found = v.delaunay.find(lon, lat, v._found);
     if (!radius || distance([lon, lat], v.points[v._found]) < radius) return v._found;

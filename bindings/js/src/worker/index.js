@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /**
- * Rondel in a worker of its own, so that a page stays alive while it computes. Results are plain objects whose arrays
- * were moved here, not copied, with methods that return promises.
+ * Rondel in its own worker, so that a page stays responsive while it computes. Results are plain objects with methods
+ * that return promises; their arrays were moved here, not copied.
  *
  *     const rondel = await startWorker();
  *     const diagram = await rondel.voronoi(xyz);       // diagram.triangles, diagram.cells, diagram.areas ...
@@ -88,7 +88,7 @@ function revived({ name, text, index }) {
   return name === "RangeError" ? new RangeError(text) : name === "TypeError" ? new TypeError(text) : new Error(text);
 }
 
-/** A worker and what it is asked. */
+/** A worker and its pending requests. */
 export class RondelWorker {
   #connection;
   #lastId = 0;
@@ -140,7 +140,7 @@ export class RondelWorker {
     return this.#remote(await this.#ask(0, "dynamic", [xyz, options]), [...questions, ...changes]);
   }
 
-  /** Ends the worker; what it has not answered stays without an answer. */
+  /** Ends the worker; pending requests are never answered. */
   async stop() {
     await this.#connection.stop();
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What runs in the worker: it answers messages {id, object, method, args} by {id, value} or {id, error}. Objects stay
-// here and have numbers.
+// The code that runs in the worker. It answers messages {id, object, method, args} by {id, value} or {id, error}.
+// Objects stay in the worker and are referred to by numbers.
 
 import { DynamicTriangulation } from "../dynamic.js";
 import { delaunay, voronoi } from "../build.js";
