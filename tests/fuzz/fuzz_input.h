@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// From the bytes of a fuzzer to values that reach the geometry: sites that are likely to coincide,
-// to be cocircular, to be one ulp apart or to differ by hundreds of orders of magnitude.
+// Turns the bytes of a fuzzer into values that reach the geometry: sites that are likely to
+// coincide, to be cocircular, to be one ulp apart or to differ by hundreds of orders of magnitude.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What must hold of a GeoJSON file of polygons (RFC 7946), read by another program.
+// Checks that a GeoJSON file of polygons follows RFC 7946; the file is read by another program.
 #pragma once
 
 #include <cmath>

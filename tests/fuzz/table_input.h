@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// From the bytes of a fuzzer to a table of sites for the writers, and files as bytes.
+// Turns the bytes of a fuzzer into a table of sites for the writers, and reads files as bytes.
 #pragma once
 
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What must hold of the polygons of a GeoJSON file as geometries of the plane, by rational numbers.
+// Checks in rational numbers that the polygons of a GeoJSON file are valid geometries of the plane.
 #pragma once
 
 #include <nlohmann/json.hpp>

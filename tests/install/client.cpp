@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What clients of a library meet that is not in their program: exceptions that cross its border,
-// its version, a file. Compiled alone it is a program, with -DRONDEL_TEST_PLUGIN a plugin.
+// Does what clients of a library do beyond their program: catch exceptions that cross its border,
+// ask its version, write a file. Compiled alone it is a program, with -DRONDEL_TEST_PLUGIN a
+// plugin.
 
 #include <rondel/io.h>
 #include <rondel/rondel.h>

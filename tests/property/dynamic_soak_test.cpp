@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Long random scripts on sites with heavy ties: the triangulation stays right, gives back all
+// Runs long random scripts on sites with many ties: the triangulation stays correct, frees all
 // memory, and takes no more than its largest set of sites needed.
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where the two models must agree, and what a change of scale must not change.
+// The two models agree where they must, and a change of scale changes nothing.
 #include <cmath>
 
 #include "property/property.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the property tests share.
+// The parts that property tests share.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Larger triangulations: a closed surface whose edges are all regular by the exact oracle.
+// Larger triangulations are closed surfaces whose edges are all regular by the exact oracle.
 #include "property/property.h"
 #include "support/surface_check.h"
 

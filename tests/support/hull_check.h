@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What convex_hull promises, proved with GMP in linear time, and clouds to build hulls of.
+// Proves the promises of convex_hull with GMP in linear time, and makes clouds of points for hulls.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the library's predicates mean, computed from the definition with GMP and MPFR. It
-// shares no code and no formula with the library.
+// Computes the library's predicates from their definition with GMP and MPFR. It shares no code and
+// no formula with the library.
 #pragma once
 
 #include <gmpxx.h>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether polygons of the plane are valid as simple features have it, by rational numbers and brute force.
+// Checks in rational numbers and by brute force whether polygons of the plane are valid simple
+// features.
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ using PlanarPolygon = std::vector<PlanarRing>;    // the outer ring and the hole
 using PlanarRegion = std::vector<PlanarPolygon>;  // a MultiPolygon
 
 // Empty if they are, otherwise what is wrong, and where:
-// 1. a ring has four positions or more, is closed, and no two of its sides meet but neighbors in their common end;
+// 1. a ring has four positions or more, is closed, and no two of its sides meet but neighbors in
+//    their common end;
 // 2. outer rings are counterclockwise, holes clockwise;
 // 3. sides of two rings meet in single positions only, and do not cross;
 // 4. holes lie in their outer ring and in no other hole, polygons do not overlap;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which of three sites on one great circle is between the others: m = i a + j b is between a and b
-// if i and j are positive, and in the triangle with the center if i + j <= 1 as well. All numbers
-// are integers, so nothing is rounded.
+// The library finds which of three sites on one great circle is between the others: m = i a + j b
+// is between a and b if i and j are positive, and in the triangle with the center if also i + j <=
+// 1. All numbers are integers, so nothing is rounded.
 #include <array>
 #include <cmath>
 #include <cstdint>

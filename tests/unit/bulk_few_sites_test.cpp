@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where divide and conquer ends: the table of four points, which the compiler fills, found again at
-// run time for all signs that four points in the plane can have.
+// The base case of divide and conquer: the table of four points, which the compiler fills, is
+// computed again at run time for all signs that four points in the plane can have.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What RFC 7946 and the sphere demand of polygons in longitude and latitude, from first principles.
+// Checks from first principles what RFC 7946 and the sphere demand of polygons in longitude and
+// latitude.
 #pragma once
 
 #include <algorithm>

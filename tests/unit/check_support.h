@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Small solids for the tests of the validator.
+// Makes small solids for the tests of the validator.
 #pragma once
 
 #include <stdexcept>

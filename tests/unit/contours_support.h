@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the tests of isolines and bands share: fields, and what rings enclose.
+// The parts that tests of isolines and bands share: fields, and the areas that rings enclose.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How rings and lines hang together, for any values: ties, plateaus, saddles, missing ones.
+// Rings and lines are connected correctly for any values: ties, plateaus, saddles, missing ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is wrong in files, and where: the messages are those of a run in memory.
+// Errors in files are reported with their place, and with the messages of a run in memory.
 #include <gtest/gtest.h>
 
 #include <cmath>

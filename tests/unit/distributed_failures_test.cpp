@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What one rank cannot do ends all of them, with one line.
+// If one rank fails, all ranks end with the same line.
 #include <gtest/gtest.h>
 
 #include <algorithm>

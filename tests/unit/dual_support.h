@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the tests of the duals share: every named generator in both models.
+// The parts that tests of duals share: every named generator in both models.
 #pragma once
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How much of a facet changes when cocircular sites come in order, and how many neighbors they
-// have (docs/theory/perturbation.md).
+// Counts how much of a facet changes when cocircular sites are inserted in order, and how many
+// neighbors they have (docs/theory/perturbation.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What files of graphs, outlines and circles say, number by number.
+// Files of graphs, outlines and circles contain the right numbers, one by one.
 #include <gtest/gtest.h>
 
 #include <array>

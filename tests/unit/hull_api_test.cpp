@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What rondel/hull.h promises beyond the shape of the hull.
+// The promises of rondel/hull.h beyond the shape of the hull.
 #include <gtest/gtest.h>
 
 #include <cmath>

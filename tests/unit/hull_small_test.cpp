@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Small hulls against brute force around the same center, and against their definition.
+// Compares small hulls with brute force around the same center, and with their definition.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What must hold of the weights of natural neighbors, as Interpolator gives them.
+// The laws of natural neighbors hold for the weights that Interpolator returns.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What tests of the rules of all methods share.
+// The parts that tests of the rules of all methods share.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What holds for all methods: sites, targets outside, any order and any threads, rotations.
+// These rules hold for all methods: at sites, outside, in any order, with any threads, under
+// rotations.
 
 #include "unit/interpolation_rules.h"
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What tests of interpolation share: cases of every kind, rows, and directions in many bits.
+// The parts that tests of interpolation share: cases of every kind, rows, and directions in many
+// bits.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Both orders of bytes, of which a machine has one: what it does for the other is tested on every machine.
+// Tests both byte orders on every machine, including the conversion to the order that it does not
+// have.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the tests of the readers and writers share.
+// The parts that tests of readers and writers share.
 #pragma once
 
 #include <gtest/gtest.h>

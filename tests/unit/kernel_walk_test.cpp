@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How far the incremental algorithm walks where doubles cannot tell on which side of an edge a site
-// is: among sites that lie nearly on one great circle, or in a crowd. No timing: steps are counted.
+// Counts how far the incremental algorithm walks where doubles cannot decide on which side of an
+// edge a site is: among sites nearly on one great circle, or in a crowd. Steps are counted, time is
+// not measured.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Small netCDF files from variables with their values.
+// Writes small netCDF files from variables with their values.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is inside of a polygon of a file, read with straight lines in longitude and latitude and with arcs: hostile polygons.
-// Lines are judged in their plane, by rational numbers and by integrals, arcs by the oracle of overlay_oracle.h, and so are
-// the pieces of what was read. RONDEL_TEST_SCALE multiplies the number of polygons.
+// The inside of hostile polygons of files, read with straight lines in longitude and latitude and
+// with arcs, is right. Lines are judged in their plane, by rational numbers and by integrals, arcs
+// by the oracle of overlay_oracle.h, and so are the pieces of what was read. RONDEL_TEST_SCALE
+// multiplies the number of polygons.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 

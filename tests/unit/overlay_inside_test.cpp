@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is inside of a cell: hostile regions against cells of every kind. The oracle knows what rings go around by winding
-// numbers in numbers of 77 digits (overlay_oracle.h): pieces are right to rounding, or it agrees that the rings bound nothing.
-// RONDEL_TEST_SCALE multiplies the number of regions.
+// The inside of hostile regions is found for cells of every kind. The oracle computes winding
+// numbers of rings with 77 digits (overlay_oracle.h): either pieces are correct up to rounding, or
+// it agrees that the rings bound nothing. RONDEL_TEST_SCALE multiplies the number of regions.
 #include <gtest/gtest.h>
 
 #include <cstdint>

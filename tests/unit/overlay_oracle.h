@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What rings go around, and how much of it lies in a convex cell or between meridians and parallels: from the definition, by
-// winding numbers, in numbers of 77 digits. Shares no code and no formula with the overlay.
+// Computes what rings enclose, and how much of it lies in a convex cell or between meridians and
+// parallels, from the definition: by winding numbers, with 77 digits. It shares no code and no
+// formula with the overlay.
 //
-// Every corner is moved by some 1e-50, by its coordinates alone. So no three are on one great circle, no case is special,
-// and areas change by 1e-50 of the length of the border.
+// Every corner is moved by about 1e-50, depending only on its coordinates. So no three corners are on one great
+// circle, no case is special, and areas change by 1e-50 times the length of the border.
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which cells overlap, by more than rounding.
+// The library finds which cells overlap by more than rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>

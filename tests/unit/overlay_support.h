@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What tests of the overlay share: partitions, and areas of pieces by clipping one cell by another.
+// The parts that tests of the overlay share: partitions, and areas of pieces by clipping one cell
+// by another.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which arcs a figure shows.
+// Checks which arcs a figure shows.
 #include "plot_arcs.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which circles a figure of weighted sites shows.
+// Checks which circles a figure of weighted sites shows.
 #include "plot_circles.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which rung decides: a cheap one where it should, and never one that cannot.
+// The right rung decides: a cheap one where it should, and never one that cannot.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the steps of a tessellation are made of: springs along its edges, and sums of a density over its cells.
+// The parts of the steps of a tessellation: springs along its edges, and sums of a density over its
+// cells.
 
 #include <gtest/gtest.h>
 

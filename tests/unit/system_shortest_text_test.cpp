@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Both ways to write a double say the same.
+// Both ways to write a double give the same text.
 
 #include <gtest/gtest.h>
 
