@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What all measuring programs share: seconds, memory, and one JSON object on standard output.
+// The parts that all measuring programs share: seconds, memory, and one JSON object on standard output.
 //
 // 1. Rondel and its peers are all measured warm. The first build in a process waits for memory from
 //    the system, which a virtual machine may provide at 1 GB/s or less when it is first used; its

@@ -162,7 +162,7 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
   return (z ^ (z >> 31)) * 0x9e37'79b9'7f4a'7c15U;
 }
 
-// What is known of faces that are not kept.
+// Sums over faces that are not kept.
 struct FaceSums {
   std::uint64_t hash = 0;       // depends on their order
   std::uint64_t edges = 0;      // 0 over all faces if each directed edge has its reverse

@@ -41,7 +41,7 @@ struct FilledCells {
   std::vector<double> values{};  ///< by site: the values that determine the colors; empty: areas do
 };
 
-/// What a figure shows. Layers that are not wanted stay empty.
+/// The content of a figure. Layers that are not wanted stay empty.
 struct Figure {
   FigureStyle style;
   View view{LonLat{}};

@@ -105,7 +105,7 @@ Column rows_of(const Column& column, std::span<const Index> rows) {
   return made;
 }
 
-// What is written: cells, or the pieces into which the values of --clip-value divide them.
+// The written features: cells, or the pieces into which the values of --clip-value divide them.
 struct Features {
   CellRings rings;
   std::vector<Column> columns;

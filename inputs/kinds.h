@@ -20,7 +20,7 @@ namespace rondel::inputs {
 
 inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-/// What to make, except for the kind.
+/// The parameters of an input, except for its kind.
 struct Recipe {
   std::size_t n = 0;
   std::uint64_t seed = 1;

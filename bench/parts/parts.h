@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the benchmarks of the parts share. Each uses one thread, and reports the time for one site
+// The code that benchmarks of the parts share. Each uses one thread, and reports the time for one site
 // (face, query, call) as the counter "each".
 #pragma once
 
@@ -39,7 +39,7 @@ inline const Case& case_of(const std::string& kind, std::int64_t n) {
   return found;
 }
 
-// So many inputs that a processor cannot learn their branches.
+// A set of so many inputs that a processor cannot learn their branches.
 class Inputs {
  public:
   Inputs(const std::string& kind, std::int64_t n) {

@@ -29,7 +29,7 @@ struct BucketSites {
                                     // needed
 };
 
-// Where the sites of a bucket are stored, and where its duplicates go.
+// The places where the sites of a bucket are stored, and where its duplicates go.
 struct BucketFiles {
   const Slots& slots;
   BucketStore& store;

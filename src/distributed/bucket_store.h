@@ -31,7 +31,7 @@ struct AreaRow {
   double area;
 };
 
-// Which parts of the buckets are stored, as the wanted results need.
+// The parts of the buckets that are stored, as the wanted results need.
 struct StoreParts {
   bool has_neighbors = false;
   bool has_points = false;
@@ -43,7 +43,7 @@ constexpr std::uint64_t bytes_of_stored_site(StoreParts parts) {
          (parts.has_points ? sizeof(Point) : 0);
 }
 
-// Where a bucket is stored, and its sizes. The journal records it.
+// The place and the sizes of a stored bucket. The journal records it.
 struct StoredBucket {
   std::uint64_t num_vertices = 0;  // with the hidden sites
   std::uint64_t num_faces = 0;

@@ -54,8 +54,8 @@ struct JoinedPart {
   Index first_edge = 0;
   std::vector<std::uint64_t> site_indices;  // by open site of the part: its index in the input
   std::vector<Point> site_points;           // by open site of the part, if points are kept
-  std::vector<NumberList> told;             // what this rank tells others, and
-  std::vector<NumberList> asked;            // what it receives from them, in the same order
+  std::vector<NumberList> told;             // numbers that this rank tells others, and
+  std::vector<NumberList> asked;            // that it receives from them, in the same order
 };
 
 // Appends the part of each rank to its message. `indices` has the input index of each open site of

@@ -55,7 +55,7 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
 // Returns the message with what the buckets leave open, to be joined.
 Bytes write_open_buckets(const RankBuckets& own, bool keep_points);
 
-// What the buckets of all ranks leave open: the buckets in the order of the curve, and their open
+// The open parts of the buckets of all ranks: the buckets in the order of the curve, and their open
 // sites. The points of buckets are those that represent their places in ties; among duplicates, the
 // lowest site may be another point on the same ray.
 struct OpenBuckets {

@@ -97,7 +97,7 @@ class Dealer {
  private:
   static constexpr std::size_t lines_ahead = 256;  // bytes
 
-  // Where the next site of a bucket is written.
+  // The addresses at which the next site of a bucket is written.
   struct DealtPlace {
     std::byte* point;  // null if points are not sent
     std::byte* offset;

@@ -26,7 +26,7 @@
 
 namespace rondel::interpolation {
 
-// What region k is: a `band` has levels[k-1] <= f < levels[k]; `from_level_on` has levels[k-1] <=
+// The extent of region k: a `band` has levels[k-1] <= f < levels[k]; `from_level_on` has levels[k-1] <=
 // f.
 enum class RegionKind : std::uint8_t { band, from_level_on };
 
@@ -63,10 +63,10 @@ class ContourTracer {
     std::size_t side = 0;
     ContourPiece piece{};
   };
-  // What a side is: `inner` if the region goes on beyond it, `line` if it lies between two regions,
+  // The kind of a side: `inner` if the region goes on beyond it, `line` if it lies between two regions,
   // `rim` if it is on the border of the surface.
   enum class SideKind : std::uint8_t { inner, line, rim };
-  // What a face contains: a `plain` face belongs to one region and has no border in it.
+  // The content of a face: a `plain` face belongs to one region and has no border in it.
   enum class Content : std::uint8_t { plain, mixed, missing };
 
   [[nodiscard]] ValueRange range(std::size_t region) const;

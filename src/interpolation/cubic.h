@@ -57,7 +57,7 @@ class CubicKernel {
   void begin() { are_weighed_ = false; }
 
  private:
-  // What expect() has found for a lane.
+  // The data that expect() has found for a lane.
   struct Lane {
     Row flat;  // the linear weights of the target
     std::array<Index, 6> vertices{};

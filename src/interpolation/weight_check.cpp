@@ -44,7 +44,7 @@ bool has_word(const std::string& text, std::string_view word) {
   return text.find(word) != std::string::npos;
 }
 
-// What the name of a method says about its weights.
+// The properties of weights that the name of their method implies.
 struct MethodFacts {
   explicit MethodFacts(const std::string& method) {
     const std::string name = lower_case(method);

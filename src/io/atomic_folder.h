@@ -17,7 +17,7 @@
 
 namespace rondel::io {
 
-// Which files a kind of folder may contain.
+// A kind of folder: the files that it may contain.
 struct FolderKind {
   // True for names such as "faces" and "faces/c.0.0".
   bool (*is_known)(std::string_view name);

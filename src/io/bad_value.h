@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is wrong in a file, and where. The function that finds it says what; its callers add the
+// An error in a file and its place. The function that finds it says what; its callers add the
 // item, the line, and at last the name of the file: `mesh.ply: face 7: index 12 is too large`.
 #pragma once
 

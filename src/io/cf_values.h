@@ -50,7 +50,7 @@ class RONDEL_API ValueRules {
 
   NetcdfType type_;
   double wrapped_ =
-      0;  // what is added to negative integers, or subtracted from those of its half and more
+      0;  // added to negative integers, or subtracted from integers of at least half of it
   bool becomes_unsigned_ = false;
   std::vector<double> missing_;
   std::vector<double> rounded_missing_;  // of 64-bit integers that somebody else has made doubles

@@ -31,7 +31,7 @@ void require_points(const char* name, unsigned threads, const std::vector<Point>
   });
 }
 
-// Whether an array may contain no_index, as at the border of a mesh.
+// Says whether an array may contain no_index, as at the border of a mesh.
 enum class None : std::uint8_t { refused, allowed };
 
 void require_size(const char* name, std::size_t size, std::size_t wanted) {

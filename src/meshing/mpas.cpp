@@ -98,7 +98,7 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
   define_values(file, "areaCell", sizes.cells, {}, arrays.cell_areas);
   file.numbers("meshDensity", sizes.cells, {}, size,
                [&arrays](std::size_t i) { return arrays.density.empty() ? 1 : arrays.density[i]; });
-  // As in MPAS-Tools: the least distance of neighbors over the largest, and the mean distance.
+  // By the definitions of MPAS-Tools: the least distance of neighbors over the largest, and the mean distance.
   const auto distances = [&arrays](std::size_t i) {
     std::array<double, 3> found = {arrays.cell_distances[arrays.edges_on_cell[arrays.offsets[i]]],
                                    0, 0};

@@ -63,7 +63,7 @@ class MovingSurface {
   }
 
  private:
-  // What checking a face finds: all edges are Delaunay, one is not, or the face has turned over.
+  // The result of checking a face: all edges are Delaunay, one is not, or the face has turned over.
   enum class Look : unsigned char { fine, broken, turned };
 
   bool build(std::span<const Point> sites);

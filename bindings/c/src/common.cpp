@@ -24,7 +24,7 @@
 namespace rondel::c {
 namespace {
 
-// What is known of the last failed call of a thread. Its size is fixed, because there may be no
+// The record of the last failed call of a thread. Its size is fixed, because there may be no
 // memory.
 struct Failure {
   static constexpr std::size_t capacity = 1024;

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t many_items = std::size_t{1} << 16;  // this takes some hundredths of a second
 constexpr auto nap = 50ms;
 
-// What the working and the watching thread share.
+// The data that the working and the watching thread share.
 class Work {
  public:
   enum class State { works, asks, has_ended };
