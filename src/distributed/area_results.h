@@ -21,6 +21,7 @@
 
 namespace rondel::distributed {
 
+// Collects areas and writes them in the order of rows.
 class AreaResults {
  public:
   // The areas are kept in the scratch file until write().

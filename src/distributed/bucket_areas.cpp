@@ -62,6 +62,7 @@ class StarPiece {
       local_of_.emplace(faces_[f].second, static_cast<Index>(f));
   }
 
+  // True if the corner is a site of the piece.
   [[nodiscard]] bool is_in_piece(const bulk::BucketCorner& v) const {
     return v.is_own && v.index >= begin_ && v.index < end_;
   }
@@ -75,6 +76,7 @@ class StarPiece {
     return true;
   }
 
+  // Returns the local number of a site, which it gets when it is first seen.
   Index site_of(const bulk::BucketCorner& v) {
     if (is_in_piece(v)) return static_cast<Index>(input_.landmarks.size()) + (v.index - begin_);
     const std::uint64_t key = (v.is_own ? 0 : std::uint64_t{1} << 32U) | v.index;

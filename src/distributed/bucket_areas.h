@@ -19,6 +19,7 @@
 
 namespace rondel::distributed {
 
+// The parts of a triangulation from which the areas of a bucket's cells are computed.
 struct AreaInput {
   const bulk::BucketSurface& surface;
   std::span<const Point> points;       // by rank

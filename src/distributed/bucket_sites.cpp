@@ -37,6 +37,7 @@ class DistinctSites {
   }
 
  private:
+  // Keeps one site of each place.
   void keep(const order::SpatialOrder& order) {
     std::vector<Index> space;
     const auto names = order::names_of(order.order, order.renamed, space);

@@ -22,6 +22,7 @@
 
 namespace rondel::distributed {
 
+// The sites of a bucket, by their position in it.
 struct BucketSites {
   LargeVector<Point> points;
   LargeVector<Point> named_points;  // the points of `rows`, if these are not `points`

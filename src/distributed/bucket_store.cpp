@@ -40,6 +40,7 @@ class BorderWriter {
   void add(std::uint64_t word) { put(std::span<const std::uint64_t>(&word, 1)); }
 
   template <class T>
+  // Appends a vector as WordReader::read() expects it, and adds it to the checksum.
   void add(const std::vector<T>& values) {
     add(values.size());
     const auto bytes = std::as_bytes(std::span(values));
@@ -65,6 +66,7 @@ class BorderWriter {
   Checksum sum_;
 };
 
+// Writes the border of a bucket in the order in which border_of() reads it.
 void write_border(const StoredBorder& stored, BorderWriter& writer) {
   const bulk::BucketBorder& border = stored.border;
   writer.add(stored.points);
@@ -79,6 +81,7 @@ void write_border(const StoredBorder& stored, BorderWriter& writer) {
   writer.add(border.rim_neighbors);
 }
 
+// Reads the border of a bucket, with or without its rim.
 StoredBorder border_of(const Words& words, bool has_rim) {
   StoredBorder stored;
   bulk::BucketBorder& border = stored.border;

@@ -26,6 +26,7 @@ struct DuplicateRow {
   std::uint64_t row;
   std::uint64_t representative;
 };
+// The area of a site, by its row of the input.
 struct AreaRow {
   std::uint64_t row;
   double area;

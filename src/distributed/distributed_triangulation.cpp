@@ -25,6 +25,7 @@ class RowVisits {
     rows_.push_back(row);
     if (rows_.size() == most_rows) flush();
   }
+  // Shows the collected rows.
   void flush() {
     if (!rows_.empty()) visit_(rows_);
     rows_.clear();

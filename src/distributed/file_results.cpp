@@ -51,6 +51,7 @@ void join_flat(std::span<const bulk::OpenBucket> open, const system::Job& option
             options);
 }
 
+// Computes the faces between all buckets from their outlines.
 Joined join(const RunState& state, const BucketStore& store, const system::Job& options,
             bool has_areas) {
   Joined joined;
@@ -113,6 +114,7 @@ class ResultWriter {
 
  private:
   template <class Visit>
+  // Calls visit(bucket) for each bucket with its faces numbered, one bucket in memory at a time.
   void for_each_bucket(Visit visit) {
     Index first_site = 0;
     Index first_edge = 0;
@@ -130,6 +132,7 @@ class ResultWriter {
     faces_end_ = first_face;
   }
 
+  // Writes the corners of the faces that a bucket owns.
   void write_faces(const NumberedBucket& bucket) {
     const std::vector<std::uint64_t> rows = store_.vertex_rows(bucket.i, bucket.stored);
     bucket.faces.for_each_face(store_.faces(bucket.i, bucket.stored), [&](const auto& corners) {
@@ -138,6 +141,7 @@ class ResultWriter {
     });
   }
 
+  // Writes the neighbors of the faces that a bucket owns.
   void write_neighbors(const NumberedBucket& bucket) {
     const LargeVector<Triple> neighbors = store_.neighbors(bucket.i, bucket.stored);
     bucket.faces.for_each_neighbors(neighbors, [&](const auto& across) {
@@ -156,6 +160,7 @@ class ResultWriter {
     results_.ghost_faces->commit();
   }
 
+  // Adds the areas of the cells of a bucket's vertices.
   void write_areas(const NumberedBucket& bucket) {
     const std::vector<double> areas = areas_of(bucket);
     results_.areas->add(store_.vertex_rows(bucket.i, bucket.stored), areas);
@@ -190,6 +195,7 @@ io::ZarrHead areas_head(const std::string& /*type*/, std::uint64_t num_sites) {
   return io::zarr_areas(num_sites);
 }
 
+// Opens a Zarr group if the path is the name of one; otherwise returns null.
 std::unique_ptr<io::ZarrGroup> open_group(const std::string& path) {
   return io::is_zarr(path) ? std::make_unique<io::ZarrGroup>(path) : nullptr;
 }
@@ -209,6 +215,7 @@ void write_duplicates(const RunState& state, const BucketStore& store, RowFile& 
   });
 }
 
+// Adds up the counts of all buckets and of the faces between them.
 void count_results(const RunState& state, const Joined& joined, OutOfCoreReport& report) {
   for (std::size_t i = 0; i < state.num_buckets(); ++i) {
     report.num_vertices += state.done(i).num_vertices;

@@ -28,7 +28,9 @@ struct FileResults {
   // Areas are computed by way of a file in the scratch directory.
   FileResults(const OutOfCoreFiles& files, const std::string& area_scratch);
 
+  // Reserves disk space for the results of `num_sites` sites, whose first number is `first_number`.
   void reserve(std::uint64_t num_sites, std::uint64_t first_number);
+  // Gives all files their names.
   void commit();
 
   std::unique_ptr<io::ZarrGroup> group;  // if the results are one group

@@ -10,10 +10,12 @@
 namespace rondel::distributed {
 namespace {
 
+// Returns the rank in whose interval i lies; begin[r] is the first index of rank r.
 std::size_t rank_of(Index i, std::span<const Index> begin) {
   return static_cast<std::size_t>(std::ranges::upper_bound(begin, i) - begin.begin()) - 1;
 }
 
+// Sorts the values and removes repetitions.
 void sort_once(std::vector<Index>& values) {
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -31,6 +33,7 @@ class Renumbered {
 
   [[nodiscard]] Index size() const { return static_cast<Index>(others_.size()) + (end_ - begin_); }
   [[nodiscard]] Index first() const { return num_before_; }  // the first one of the interval
+  // Return the other indices below and above the interval.
   [[nodiscard]] std::span<const Index> before() const {
     return std::span(others_).first(num_before_);
   }
@@ -85,6 +88,7 @@ class PartOfRank {
     find_asked();
   }
 
+  // Appends the part to a message, in the order in which read_joined_part() reads it.
   void write(std::span<const std::uint64_t> indices, MessageWriter& writer) const {
     writer.add_value(sites_.first());
     writer.add_value(edges_.first());
@@ -128,6 +132,7 @@ class PartOfRank {
   [[nodiscard]] bool is_own_edge(Index e) const { return e >= edges_begin_ && e < edges_end_; }
   [[nodiscard]] bool is_own_face(Index f) const { return is_own_site(joined_.faces[f][0]); }
 
+  // Finds the faces and edges whose numbers the rank has to ask for.
   void find_asked() {
     for (const Index f : listed_) {
       if (!is_own_face(f)) {
@@ -149,6 +154,7 @@ class PartOfRank {
     sort_once(asked_edges_);
   }
 
+  // Writes the faces of the part, renumbered.
   void write_faces(MessageWriter& writer) const {
     std::vector<Triple> corners;
     std::vector<Triple> neighbors;
@@ -215,6 +221,7 @@ std::vector<T> read_around(MessageReader& reader, std::span<const T> own) {
 
 using NumberLists = std::map<std::size_t, NumberList>;  // by the other rank
 
+// Writes the lists of numbers that ranks tell each other.
 void write_lists(const NumberLists& lists, MessageWriter& writer) {
   writer.add_value<std::uint64_t>(lists.size());
   for (const auto& [rank, list] : lists) {

@@ -45,6 +45,7 @@ struct SiteArea {
   double area = 0;
 };
 
+// The faces between buckets that one rank needs.
 struct JoinedPart {
   bulk::JoinedFaces faces;  // neighbors may be faces outside of the part, of which only the number
                             // is known

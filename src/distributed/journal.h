@@ -33,6 +33,7 @@ class Journal {
   void clear();
 
  private:
+  // True if the file begins like a journal.
   [[nodiscard]] bool has_mark(std::uint64_t size) const;
 
   ScratchFile file_;

@@ -26,11 +26,13 @@ class RecordReader {
 
   [[nodiscard]] bool is_at_end() const { return at_ == buffer_.size(); }
   [[nodiscard]] const Record& front() const { return buffer_[at_]; }
+  // Goes to the next record.
   void next() {
     if (++at_ == buffer_.size()) fill();
   }
 
  private:
+  // Reads the next records into the buffer.
   void fill() {
     const std::uint64_t size = std::min<std::uint64_t>(buffer_size_, size_ - num_read_);
     buffer_.resize(size);

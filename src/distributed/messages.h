@@ -20,6 +20,7 @@ namespace rondel::distributed {
 
 using Bytes = Communicator::Bytes;
 
+// Builds a message.
 class MessageWriter {
  public:
   MessageWriter() : bytes_(1) {}
@@ -65,6 +66,7 @@ class MessageReader {
   [[nodiscard]] bool is_at_end() const { return rest_.empty(); }
 
   template <class T>
+  // Returns the next value.
   T value() {
     T value{};
     read_values(std::span(&value, 1));
@@ -81,6 +83,7 @@ class MessageReader {
   }
 
   template <class T>
+  // Returns the next array, which MessageWriter::add() wrote.
   std::vector<T> values() {
     std::vector<T> result(value<std::uint64_t>());
     read_values(std::span(result));

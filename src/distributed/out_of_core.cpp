@@ -23,6 +23,7 @@ namespace rondel {
 namespace distributed {
 namespace {
 
+// Returns the path of a scratch file.
 std::string path_in(const std::string& scratch, const char* name) {
   return (std::filesystem::path(scratch) / name).string();
 }
@@ -30,6 +31,7 @@ std::string path_in(const std::string& scratch, const char* name) {
 constexpr std::array<const char*, 5> scratch_names = {"sites", "faces", "borders", "areas",
                                                       "journal"};
 
+// Removes the scratch files and the directory, if it is empty then.
 void remove_scratch(const std::string& scratch) {
   std::error_code ignored;
   for (const char* name : scratch_names) std::filesystem::remove(path_in(scratch, name), ignored);
@@ -49,6 +51,7 @@ void require_own_scratch(const std::string& scratch) {
   }
 }
 
+// Throws FileError if an input or result is one of the scratch files.
 void require_outside_scratch(const std::string& scratch, const std::vector<std::string>& files) {
   for (const char* name : scratch_names) {
     for (const std::string& file : files) {
@@ -58,6 +61,7 @@ void require_outside_scratch(const std::string& scratch, const std::vector<std::
   }
 }
 
+// One run, step by step.
 class OutOfCoreRun {
  public:
   OutOfCoreRun(const io::NpyRows& rows, const OutOfCoreFiles& files,
@@ -131,6 +135,7 @@ class OutOfCoreRun {
             {"other options: the sphere", sphere_words.words()}};
   }
 
+  // True if input and options have not changed since the beginning of the run.
   [[nodiscard]] bool is_still_the_same() const {
     return std::ranges::equal(about(), about_, {}, &RunPart::words, &RunPart::words);
   }
@@ -160,6 +165,8 @@ class OutOfCoreRun {
     return num_done;
   }
 
+  // Deals and triangulates all buckets that are not done; tries again once if the slots were
+  // damaged.
   void do_buckets(Slots& slots, BucketStore& store) {
     deal(slots);
     if (!triangulate(slots, store)) {
@@ -169,6 +176,7 @@ class OutOfCoreRun {
     }
   }
 
+  // Deals the sites of all buckets that are neither done nor dealt.
   void deal(Slots& slots) {
     std::vector<bool> wanted(state_.num_buckets());
     for (std::size_t i = 0; i < wanted.size(); ++i)
@@ -192,6 +200,7 @@ class OutOfCoreRun {
     return are_all_done;
   }
 
+  // Triangulates and stores bucket i; returns false if its slot is damaged.
   bool triangulate(std::size_t i, const Slots& slots, BucketStore& store) {
     const bulk::BucketCut& cut = state_.counts().cuts[i];
     const BucketFiles files = {slots, store, i, cut.num_sites, state_.dealt(i)};
@@ -230,6 +239,7 @@ class OutOfCoreRun {
     return true;
   }
 
+  // Throws FileError if the open sites of all buckets are too many for the memory.
   void check_open_sites(const BucketStore& store) const {
     std::uint64_t num_open = 0;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i)

@@ -21,6 +21,8 @@
 
 namespace rondel::distributed {
 
+// Runs all steps and returns the counts. Throws FileError for bad or unreadable files, and
+// InvalidInput for options.
 OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const RunLimits& limits,
                     const system::Job& options);

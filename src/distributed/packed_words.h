@@ -19,6 +19,7 @@ using Words = std::vector<std::uint64_t>;
 
 constexpr std::size_t words_of_bytes(std::size_t num_bytes) { return (num_bytes + 7) / 8; }
 
+// Builds a sequence of words.
 class WordWriter {
  public:
   void add(std::uint64_t word) { words_.push_back(word); }

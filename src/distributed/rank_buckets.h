@@ -19,6 +19,7 @@
 
 namespace rondel::distributed {
 
+// The triangulated buckets of this rank.
 struct RankBuckets {
   std::vector<bulk::Bucket> buckets;    // without their orders
   std::vector<std::size_t> first_site;  // by bucket: its first element of `sites`; then the end

@@ -24,6 +24,7 @@
 
 namespace rondel::distributed {
 
+// Returns this rank's part of the triangulation. Throws the same exception on all ranks.
 std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(Communicator& ranks,
                                                                      std::span<const Point> mine,
                                                                      const RankLimits& limits,

@@ -39,6 +39,7 @@ inline std::size_t rank_of_site(std::uint64_t site, std::span<const std::uint64_
   return static_cast<std::size_t>(next - first_site.begin()) - 1;
 }
 
+// The result of counting, which is the same on each rank but for copies and keys.
 struct RankCounts {
   std::vector<std::uint64_t> first_site;  // by rank, from 0 on; then the number of all sites
   bulk::AllSites all;

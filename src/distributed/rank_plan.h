@@ -25,6 +25,7 @@
 
 namespace rondel::distributed {
 
+// The buckets of all ranks.
 struct RankPlan {
   std::vector<bulk::BucketCut> buckets;
   std::vector<std::size_t> first_bucket;  // by rank; then the number of buckets

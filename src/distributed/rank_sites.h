@@ -19,6 +19,7 @@
 
 namespace rondel::distributed {
 
+// The sites that this rank triangulates.
 class RankSites {
  public:
   // Sends and receives the sites. `mine` must outlive this object. The keys in `counts` are not
@@ -40,6 +41,7 @@ class RankSites {
     std::span<const std::byte> offsets;
   };
 
+  // Divides a received message into its buckets and appends it to the pieces.
   void add(Bytes message, std::size_t num_buckets, bool has_points,
            std::vector<DealtPiece>& pieces);
 

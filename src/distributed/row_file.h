@@ -23,6 +23,7 @@ constexpr bool are_narrow(std::uint64_t num_different) {
   return num_different <= std::uint64_t{1} << 32U;
 }
 
+// Writes numbers of sites or faces.
 class RowFile {
  public:
   explicit RowFile(std::unique_ptr<ResultArray> array) : array_(std::move(array)) {}
@@ -33,6 +34,7 @@ class RowFile {
   // `num_different`, and num_rows * num_columns numbers must follow.
   void begin(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
 
+  // Appends a number.
   void add(std::uint64_t number) {
     if (is_narrow_) {
       narrow_.push_back(static_cast<std::uint32_t>(number));

@@ -13,6 +13,7 @@
 
 namespace rondel::distributed {
 
+// The largest numbers of sites that are in memory at once.
 struct RunLimits {
   std::uint64_t most_bucket_sites = 0;  // in a bucket that can be divided
   std::uint64_t most_sites = 0;         // in a bucket of the smallest size, without duplicates

@@ -27,6 +27,7 @@ struct RunPart {
   Words words;             // the number of words is the same for every run
 };
 
+// The state of a run; each change is written to the journal.
 class RunState {
  public:
   // `about` identifies the run. Throws FileError if the journal belongs to another run, and says
@@ -41,14 +42,18 @@ class RunState {
   [[nodiscard]] bool is_dealt(std::size_t i) const { return dealt_[i].has_value(); }
   [[nodiscard]] bool is_done(std::size_t i) const { return done_[i].has_value(); }
 
+  // Records that the sites have been counted.
   void set_counts(SiteCounts counts);
+  // Records that the buckets that are `wanted` have been dealt, with their checksums.
   void set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted);
+  // Records that bucket i has been triangulated and stored.
   void set_done(std::size_t i, const StoredBucket& stored);
   // Forgets that a bucket was dealt or done, because the files do not contain it.
   void lose_dealt(std::size_t i) { dealt_[i].reset(); }
   void lose_done(std::size_t i) { done_[i].reset(); }
 
  private:
+  // Applies a record of the journal.
   void read(const Words& record);
 
   Journal journal_;

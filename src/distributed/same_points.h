@@ -23,6 +23,7 @@ namespace rondel::distributed {
 using PointBits = std::array<std::uint64_t, 3>;
 inline PointBits bits_of(const Point& p) { return std::bit_cast<PointBits>(p); }
 
+// A site that has the same coordinates as another one, bit by bit.
 struct PointCopy {
   std::uint64_t site = 0;
   std::uint64_t same = 0;  // the site with the same coordinates

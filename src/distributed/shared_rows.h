@@ -17,6 +17,7 @@
 
 namespace rondel::distributed {
 
+// The array that all ranks write, and the rows of this rank.
 struct SharedShape {
   std::uint64_t num_rows = 0;       // rows of all ranks
   std::uint64_t num_columns = 0;    // with 1 the array has one dimension
@@ -25,6 +26,7 @@ struct SharedShape {
   bool are_doubles = false;
 };
 
+// Writes the rows of this rank.
 class SharedRows {
  public:
   // All ranks call this together. Every function throws FileError if the operation fails.
@@ -34,6 +36,7 @@ class SharedRows {
   SharedRows(const SharedRows&) = delete;
   SharedRows& operator=(const SharedRows&) = delete;
 
+  // Appends a number, or a double if are_doubles.
   void add(std::uint64_t number) {
     if (is_narrow_) {
       narrow_.push_back(static_cast<std::uint32_t>(number));
@@ -57,8 +60,11 @@ class SharedRows {
 
   // Rank 0 creates the file and tells the others its name.
   void make(const std::string& header, std::uint64_t num_bytes);
+  // Returns the message with the temporary name, or with the reason for a failure.
   [[nodiscard]] Bytes name_message() const;
+  // Takes the temporary name out of rank 0's message and opens the file.
   void take_name(const Bytes& message);
+  // Returns the header of the .npy file.
   [[nodiscard]] std::string header_of(const SharedShape& shape) const;
   void write_buffer();
   void write(std::string_view bytes);

@@ -22,6 +22,7 @@ namespace rondel::distributed {
 // The number of sites that are read at a time: enough work for all threads, and little memory.
 inline constexpr std::size_t most_piece_sites = std::size_t{1} << 20;
 
+// What is known of all sites, and the buckets.
 struct SiteCounts {
   bulk::AllSites all;
   std::vector<bulk::BucketCut> cuts;

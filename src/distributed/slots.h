@@ -28,6 +28,7 @@ struct SlotChecksums {
   std::uint64_t rows = 0;
 };
 
+// A file with a slot for each bucket.
 class Slots {
  public:
   Slots(const std::string& path, std::span<const bulk::BucketCut> cuts);

@@ -23,6 +23,7 @@
 
 namespace rondel::distributed {
 
+// The communication of one rank with all others.
 class Supersteps {
  public:
   explicit Supersteps(Communicator& ranks) noexcept;
@@ -53,8 +54,11 @@ class Supersteps {
   std::vector<Bytes> exchange(std::vector<Bytes> messages);
 
  private:
+  // Allocates the memory that reporting a failure needs.
   void reserve_failure();
+  // Sends the exception that is being handled to all ranks.
   void tell_failure();
+  // Writes that exception into failure_.
   void describe_failure() noexcept;
   // Throws the failure that a message reports.
   void listen(const std::vector<Bytes>& received);

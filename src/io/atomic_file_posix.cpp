@@ -46,10 +46,12 @@ class Temporaries {
     return num_slots;
   }
 
+  // Frees a slot.
   void forget(std::size_t slot) noexcept {
     if (slot < num_slots) states_[slot].store(State::free);
   }
 
+  // Removes the files of all slots; signal handlers call it.
   void remove_all() const noexcept {
     for (std::size_t i = 0; i < num_slots; ++i) {
       if (states_[i].load() == State::in_use) ::unlink(names_[i].data());

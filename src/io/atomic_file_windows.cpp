@@ -22,12 +22,14 @@ namespace {
 
 using system::wide_path;
 
+// Returns the errno that corresponds to the last error of the system.
 int last_error() {
   const std::error_code code(static_cast<int>(::GetLastError()), std::system_category());
   const std::error_condition condition = code.default_error_condition();
   return condition.category() == std::generic_category() ? condition.value() : EIO;
 }
 
+// Sets or removes the mark; returns false if the system refuses.
 bool mark_to_delete(HANDLE file, bool is_to_delete) {
   FILE_DISPOSITION_INFO information{};
   information.DeleteFile = is_to_delete ? TRUE : FALSE;

@@ -56,6 +56,7 @@ void remove_known(const std::string& path, const FolderKind& kind) {
 // Returns the number that the system has for the error.
 int number_of(const std::error_code& error) { return error.default_error_condition().value(); }
 
+// Returns the path without slashes at its end.
 std::string without_slashes(std::string path) {
   while (path.size() > 1 && path.back() == '/') path.pop_back();
   return path;

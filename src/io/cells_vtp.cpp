@@ -6,6 +6,7 @@
 
 namespace rondel::io {
 
+// Empty cells have no polygon.
 void write_cells_vtp(AtomicFile& file, const CellsToWrite& to_write) {
   const Cells& cells = to_write.diagram.cells;
   const std::vector<double>& areas = to_write.diagram.areas;

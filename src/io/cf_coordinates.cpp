@@ -27,12 +27,14 @@ constexpr int rank_of_used = 4;
 constexpr int rank_of_standard_names = 2;
 constexpr int rank_of_uncrossed = 1;
 
+// The attributes by which CF marks longitudes, or latitudes.
 struct DirectionMarks {
   std::string_view standard_name;
   std::string_view axis_type;  // used by netCDF-Java
   std::vector<std::string_view> units;
 };
 
+// Returns the marks of longitudes or latitudes.
 const DirectionMarks& marks_of(CoordinateKind kind) {
   static const DirectionMarks east = {
       "longitude",
@@ -45,6 +47,7 @@ const DirectionMarks& marks_of(CoordinateKind kind) {
   return kind == CoordinateKind::lon ? east : north;
 }
 
+// True if the units are degrees in the direction of the marks.
 bool has_unit(const DirectionMarks& marks, const std::string& units) {
   const std::string lower = io::lower_case(io::without_blanks(units));
   return std::ranges::find(marks.units, lower) != marks.units.end();
@@ -57,11 +60,13 @@ std::vector<std::string> words_of_text(const std::string& text) {
   return words;
 }
 
+// True if both variables have the same dimensions, in any order.
 bool has_same_dimensions(const VariableHeader& a, const VariableHeader& b) {
   return a.dimensions.size() == b.dimensions.size() &&
          std::ranges::is_permutation(a.dimensions, b.dimensions);
 }
 
+// Searches the pairs of longitudes and latitudes among variables.
 class CoordinateSearch {
  public:
   CoordinateSearch(std::span<const VariableHeader> variables, const CoordinateQuery& query,
@@ -77,6 +82,7 @@ class CoordinateSearch {
     }
   }
 
+  // Returns all pairs, the best one first.
   [[nodiscard]] std::vector<CoordinatePair> pairs() const {
     std::vector<CoordinatePair> found;
     for (std::size_t lon = 0; lon < variables_.size(); ++lon) {
@@ -128,6 +134,7 @@ class CoordinateSearch {
     const auto at = std::ranges::find(variables_, name, &VariableHeader::name);
     return at == variables_.end() ? none : static_cast<std::size_t>(at - variables_.begin());
   }
+  // Returns the index of a variable that the user names. Throws InvalidInput if there is none.
   [[nodiscard]] std::size_t chosen(const std::string& name) const {
     if (name.empty()) return none;
     const std::size_t index = find(name);
@@ -135,28 +142,34 @@ class CoordinateSearch {
     return index;
   }
 
+  // Returns the evidence that a variable holds longitudes, or latitudes; a named one excludes all
+  // others.
   [[nodiscard]] int evidence_of(std::size_t index, CoordinateKind kind) const {
     const std::size_t asked = kind == CoordinateKind::lon ? chosen_lon_ : chosen_lat_;
     if (asked != none) return asked == index ? 2 : 0;
     return is_bounds(variables_[index].name) ? 0 : io::coordinate_evidence(variables_[index], kind);
   }
 
+  // True if a variable is the bounds of another one.
   [[nodiscard]] bool is_bounds(const std::string& name) const {
     return std::ranges::any_of(variables_, [&](const VariableHeader& other) {
       return other.text("bounds") == name || io::is_name_of_bounds(name, other.name);
     });
   }
 
+  // True if both variables are axes, along different dimensions.
   [[nodiscard]] bool are_axes(std::size_t lon, std::size_t lat) const {
     const VariableHeader& a = variables_[lon];
     const VariableHeader& b = variables_[lat];
     return a.dimensions.size() == 1 && b.dimensions.size() == 1 && a.dimensions != b.dimensions;
   }
 
+  // True if two variables form a pair, along the dimensions of the values if these are given.
   [[nodiscard]] bool belong_together(std::size_t lon, std::size_t lat) const {
     if (!are_axes(lon, lat) && !has_same_dimensions(variables_[lon], variables_[lat])) return false;
     return values_ == none || (is_along_values(lon) && is_along_values(lat));
   }
+  // True if all dimensions of a variable are dimensions of the values.
   [[nodiscard]] bool is_along_values(std::size_t index) const {
     const std::vector<std::string>& of_values = variables_[values_].dimensions;
     return std::ranges::all_of(variables_[index].dimensions, [&](const std::string& name) {
@@ -164,6 +177,7 @@ class CoordinateSearch {
     });
   }
 
+  // True if an attribute `coordinates` lists both variables.
   [[nodiscard]] bool is_listed(std::size_t lon, std::size_t lat) const {
     return std::ranges::any_of(lists_, [&](const std::vector<std::string>& words) {
       return std::ranges::count(words, variables_[lon].name) != 0 &&
@@ -171,6 +185,8 @@ class CoordinateSearch {
     });
   }
 
+  // Returns the bounds of a coordinate, by the attribute or by a usual name; `none` if there are
+  // none.
   [[nodiscard]] std::size_t bounds_of(std::size_t coordinate) const {
     const std::size_t named = find(variables_[coordinate].text("bounds"));
     if (named != none && variables_[named].is_number) return named;
@@ -186,6 +202,7 @@ class CoordinateSearch {
     return none;
   }
 
+  // Returns the pair with its bounds and its rank.
   [[nodiscard]] CoordinatePair pair_of(std::size_t lon, std::size_t lat, int known_by) const {
     CoordinatePair pair;
     pair.lon = lon;

@@ -20,11 +20,13 @@ namespace {
 // The distance by which rounding to single precision may have moved a bound, as a share of a cell's width.
 constexpr double rounding_share = 1e-3;
 
+// The sides of a cell along an axis, in degrees.
 struct CellSides {
   double low;
   double high;
 };
 
+// Throws InvalidInput for the first coordinate that is not finite or is beyond a million degrees.
 void require_finite_axis(std::span<const double> values, const std::string& what) {
   constexpr double most_degrees = 1e6;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -118,6 +120,7 @@ void close_circle(std::vector<double>& lines, double first, double last) {
   }
 }
 
+// Moves the first and the last line to a pole that is less than a cell away.
 void end_at_poles(std::vector<double>& lines) {
   const auto to_pole = [](double line, double width) {
     return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;

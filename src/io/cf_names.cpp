@@ -9,6 +9,7 @@
 namespace rondel::io {
 namespace {
 
+// A pair of names that models give to longitudes and latitudes.
 struct KnownNames {
   std::string_view lon;
   std::string_view lat;

@@ -55,6 +55,8 @@ void require_sphere(const NetcdfReader& file) {
 
 namespace {
 
+// Returns the degrees in a unit of the variable, by its own units, those of relatives, or the usual
+// ones.
 double degrees_per_unit_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
                            UsualUnits usual,
                            std::initializer_list<const NetcdfReader::Variable*> relatives) {
@@ -131,6 +133,7 @@ std::vector<double> in_order(const NetcdfReader::Variable& variable,
 
 namespace {
 
+// True if the first of several dimensions is one of time.
 bool has_time_first(const NetcdfReader& file, const NetcdfReader::Variable& variable) {
   return variable.shape.size() > 1 && variable.shape.front() > 1 &&
          is_name_of_time(file.dimensions()[variable.dimensions.front()].name);

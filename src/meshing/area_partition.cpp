@@ -45,6 +45,7 @@ constexpr double inner_tolerance = 1e-4;
 constexpr int most_inner_steps = 500;
 constexpr std::size_t poles_at_a_time = 1024;
 
+// Weighted sites with the areas of their cells, and how far these are from the wanted ones.
 struct Weighted {
   std::vector<Point> poles;
   Triangulation triangulation;
@@ -55,6 +56,7 @@ struct Weighted {
   Index worst = no_index;
 };
 
+// Sets the sum of squared errors, the largest relative error and the smallest area.
 void measure_errors(Weighted& now, const std::vector<double>& targets) {
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const double error = now.areas[i] - targets[i];
@@ -65,6 +67,7 @@ void measure_errors(Weighted& now, const std::vector<double>& targets) {
   }
 }
 
+// Computes Newton's steps for the logarithms of the weights.
 class Newton {
  public:
   Newton(std::vector<Point> sites, std::vector<double> targets, const Execution& execution)
@@ -120,6 +123,8 @@ class Newton {
   [[nodiscard]] double least_target() const { return least_target_; }
 
  private:
+  // Returns the graph whose Laplacian has the derivatives of the areas by the logarithms of the
+  // weights; an edge is a wall.
   [[nodiscard]] WeightedGraph graph_of(const Weighted& now) const {
     const Execution quiet{.threads = execution_.threads};
     const std::vector<Point> centers = circumcenters(now.triangulation, quiet);
@@ -179,6 +184,7 @@ void scale_to_one(FineWeights& weights) {
   }
 }
 
+// Returns the weights after `length` times a step, in twice double precision.
 FineWeights stepped(const FineWeights& weights, const std::vector<double>& step, double length) {
   FineWeights result(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -192,6 +198,8 @@ FineWeights stepped(const FineWeights& weights, const std::vector<double>& step,
   return result;
 }
 
+// Returns the sites as unit vectors. Throws InvalidInput for a site that is not finite or is the
+// center.
 std::vector<Point> unit_sites(std::span<const Point> sites) {
   std::vector<Point> result;
   result.reserve(sites.size());
@@ -205,6 +213,9 @@ std::vector<Point> unit_sites(std::span<const Point> sites) {
   return result;
 }
 
+// Returns the wanted areas in steradians with the sum 4 pi; equal ones if none are given. Throws
+// InvalidInput unless there is one positive area a site and their sum is 4 pi up to a relative
+// 1e-6.
 std::vector<double> scaled_targets(std::span<const double> targets, std::size_t num_sites) {
   constexpr double whole = 4 * std::numbers::pi;
   if (targets.empty()) {
@@ -229,6 +240,7 @@ std::vector<double> scaled_targets(std::span<const double> targets, std::size_t 
   return result;
 }
 
+// Throws InvalidInput if two sites are in one place.
 void require_distinct(std::span<const Point> sites, const Execution& execution) {
   const Triangulation projected =
       delaunay(Sites::view(sites), {}, Execution{.threads = execution.threads});
@@ -240,6 +252,7 @@ void require_distinct(std::span<const Point> sites, const Execution& execution) 
   }
 }
 
+// Moves weights, poles and areas into the result, and computes the radii of the circles.
 void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   for (const DoubleDouble& weight : weights) {
     result.weights.push_back(weight.hi);

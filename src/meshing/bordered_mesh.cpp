@@ -54,6 +54,8 @@ class BorderedMeshMaker {
     });
   }
 
+  // Sets midpoints, lengths, distances and angles of edges. At the border the second site is the
+  // reflected one.
   void set_edges() {
     const std::size_t size = arrays_.cells_on_edge.size();
     arrays_.edge_points.resize(size);
@@ -108,6 +110,8 @@ class BorderedMeshMaker {
     });
   }
 
+  // Throws BadValue if a corner has a site that is nearer than those of its cells by more than the
+  // tolerance.
   void require_nearest_sites() const {
     const std::vector<Index> nearest =
         from_.locator.nearest(arrays_.vertex_points, {.threads = threads_});

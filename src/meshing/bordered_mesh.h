@@ -26,6 +26,7 @@ namespace rondel::meshing {
 // the plane.
 inline constexpr double corner_tolerance = 1e-3;
 
+// The cells of a file with their sites and how they meet.
 struct RingsAndSites {
   const CellRings& cells;
   const RingSides& sides;

@@ -90,6 +90,7 @@ Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
   return shift - dot(shift, z) * z;
 }
 
+// Sets spacing, energy and offset of the center of mass, which follow from the moment of the cell.
 void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& shape) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);

@@ -18,6 +18,7 @@
 namespace rondel::meshing {
 namespace {
 
+// Throws InvalidInput for the first point that is not on the sphere.
 void require_points(const char* name, unsigned threads, const std::vector<Point>& points,
                     double radius) {
   constexpr std::size_t grain = 65536;
@@ -34,6 +35,7 @@ void require_points(const char* name, unsigned threads, const std::vector<Point>
 // Says whether an array may contain no_index, as at the border of a mesh.
 enum class None : std::uint8_t { refused, allowed };
 
+// Throws InvalidInput if an array has not the wanted size.
 void require_size(const char* name, std::size_t size, std::size_t wanted) {
   if (size == wanted) return;
   throw InvalidInput(

@@ -49,6 +49,8 @@ class Culler {
   }
 
  private:
+  // Sets the numbers of all cells, edges and vertices that stay to 0, those of the others to
+  // no_index.
   void mark() {
     culled_.cells.assign(from_.num_cells(), no_index);
     culled_.edges.assign(from_.num_edges(), no_index);
@@ -83,6 +85,7 @@ class Culler {
     return index == no_index ? no_index : numbers[index];
   }
 
+  // Copies what belongs to the cells that stay.
   void keep_cells() {
     keep_values(culled_.cells, num_cells_, from_.cell_points, to_.cell_points);
     keep_values(culled_.cells, num_cells_, from_.cell_areas, to_.cell_areas);
@@ -107,6 +110,7 @@ class Culler {
     });
   }
 
+  // Copies what belongs to the edges that stay. An edge that loses its first cell is turned around.
   void keep_edges() {
     keep_values(culled_.edges, num_edges_, from_.edge_points, to_.edge_points);
     keep_values(culled_.edges, num_edges_, from_.cell_distances, to_.cell_distances);
@@ -129,6 +133,7 @@ class Culler {
     });
   }
 
+  // Copies what belongs to the vertices that stay.
   void keep_vertices() {
     keep_values(culled_.vertices, num_vertices_, from_.vertex_points, to_.vertex_points);
     keep_values(culled_.vertices, num_vertices_, from_.kite_areas, to_.kite_areas);

@@ -28,6 +28,7 @@ struct CellSums {
   double energy;                  // of rho |x - z|^2; for constant density z.moment
 };
 
+// Many triangles with the sums over the nodes of each.
 class DensityNodes {
  public:
   static constexpr std::size_t lanes = 64;
@@ -43,6 +44,7 @@ class DensityNodes {
   }
   // Computes the integrals of all lanes; operator[] returns them.
   void integrate();
+  // Returns the integrals over the triangle of a lane. Precondition: integrate() has been called.
   [[nodiscard]] CellSums operator[](std::size_t lane) const {
     return {moments_[lane], masses_[lane], areas_[lane], energies_[lane]};
   }
@@ -63,9 +65,14 @@ class DensityNodes {
     }
   };
 
+  // Computes twice the areas of the plane triangles, times the height of the site, and clears the
+  // sums.
   void find_solids();
+  // Computes one node of each triangle and its square of the raster.
   void place_nodes(double of_first, double of_second);
+  // Loads the values of the raster at the corners of these squares.
   void read_raster();
+  // Adds the node with this weight to the sums.
   void add_nodes(double weight);
 
   const SizeFunction::Raster& raster_;

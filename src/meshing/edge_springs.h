@@ -53,6 +53,8 @@ class EdgeSprings {
     float x, y, z;  // sqrt(k) e
   };
 
+  // Takes one step of the Chebyshev recurrence: keep times the last step plus gain times the
+  // residual.
   void relax(double keep, double gain);
 
   unsigned threads_;

@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::size_t weights_grain = 4096;
 
+// Returns the kite of a vertex that belongs to a cell.
 double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
   const Triple& cells = arrays.cells_on_vertex[vertex];
   const std::size_t i = cells[0] == cell ? 0 : cells[1] == cell ? 1 : 2;

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t exodus_name_length = 33;
 constexpr std::size_t exodus_line_length = 81;
 
+// Adds the attributes by which the Exodus library recognizes the format.
 void define_exodus_attributes(io::NetcdfWriter& out) {
   out.add_attribute({"api_version", io::NetcdfType::float32, "", {8.0}});
   out.add_attribute({"version", io::NetcdfType::float32, "", {8.0}});

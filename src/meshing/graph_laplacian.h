@@ -31,6 +31,7 @@ struct WeightedGraph {
   [[nodiscard]] std::size_t size() const { return diagonal.size(); }
 };
 
+// Solves equations with one Laplacian; the coarser graphs are made once.
 class LaplacianSolver {
  public:
   LaplacianSolver(WeightedGraph graph, unsigned threads);
@@ -50,8 +51,12 @@ class LaplacianSolver {
     std::vector<double> rest;
   };
 
+  // Improves the solution on a level by smoothing, a correction from the coarser level, and
+  // smoothing.
   void cycle(std::size_t number);
+  // Takes one damped Jacobi step.
   void smooth(GraphLevel& level) const;
+  // Sets result = L x.
   void multiply(const WeightedGraph& graph, const std::vector<double>& x,
                 std::vector<double>& result) const;
 

@@ -123,6 +123,7 @@ class CellCorners {
       last = next;
     }
   }
+  // Returns the number of corners of a cell.
   [[nodiscard]] std::size_t count(std::size_t cell) const {
     std::size_t found = 0;
     visit(cell, [&](Index /*corner*/) { ++found; });
@@ -160,6 +161,7 @@ template <class Cells>
 bool is_at_border(const Cells& cells) {
   return std::ranges::find(cells, no_index) != cells.end();
 }
+// True if an edge of the mesh has only one cell.
 inline bool has_border(const mesh::MeshArrays& arrays) {
   return std::ranges::any_of(arrays.cells_on_edge,
                              [](const auto& cells) { return cells[1] == no_index; });

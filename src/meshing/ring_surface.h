@@ -37,10 +37,12 @@ class RingSides {
   [[nodiscard]] Index cell_of(Index side) const { return cell_of_[side]; }
   // Returns the corner at which the side ends.
   [[nodiscard]] Index corner(Index side) const { return cells_.corners[side]; }
+  // Returns the side that follows in the ring, counterclockwise.
   [[nodiscard]] Index next(Index side) const {
     const Index cell = cell_of_[side];
     return side + 1 < cells_.rings[cell + 1] ? side + 1 : static_cast<Index>(cells_.rings[cell]);
   }
+  // Returns the side that comes before in the ring.
   [[nodiscard]] Index previous(Index side) const {
     const Index cell = cell_of_[side];
     return side > cells_.rings[cell] ? side - 1 : static_cast<Index>(cells_.rings[cell + 1] - 1);
@@ -52,13 +54,18 @@ class RingSides {
   void set_lists(mesh::MeshArrays& arrays) const;
 
  private:
+  // Sets opposite_ for all sides.
   void find_opposites();
+  // Returns a side that runs the other way between the same corners, or no_index.
   [[nodiscard]] Index find_opposite(Index side) const;
   // The sides that end at a corner are ending_[begins_[corner]] ... ending_[begins_[corner + 1] -
   // 1].
   [[nodiscard]] Index degree(Index corner) const { return begins_[corner + 1] - begins_[corner]; }
+  // Adds the vertices of a corner: one for each connected part of the cells around it.
   void add_vertices(Index corner, mesh::MeshArrays& arrays) const;
+  // Adds a vertex whose `count` cells follow counterclockwise from the cell of side `first`.
   void add_vertex(Index first, std::size_t count, mesh::MeshArrays& arrays) const;
+  // Numbers the edges and sets the lists of cells and vertices of edges.
   void number_edges(mesh::MeshArrays& arrays) const;
 
   const CellRings& cells_;

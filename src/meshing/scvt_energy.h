@@ -40,12 +40,14 @@ struct EnergyReport {
       0;  // largest of these; a cell of area A has the spacing sqrt(2 A / sqrt 3), that of hexagons
 };
 
+// The gradient of the energy at a site, and integrals over its cell.
 struct SiteSums {
   TangentVector gradient;
   double mass;     // integral of rho over the cell
   double spacing;  // spacing of the cell
 };
 
+// Computes the energy of tessellations.
 class CentroidalEnergy {
  public:
   // The density is constant if `size` is null. `size` must outlive this object.

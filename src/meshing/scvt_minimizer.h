@@ -48,6 +48,8 @@ class Minimizer {
   Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads,
             std::vector<std::uint8_t> is_fixed = {});
 
+  // Takes steps until a limit is reached, `seen` returns false, or no step lowers the energy
+  // further.
   MinimizerEnd run(const MinimizerLimits& limits, const StepSeen& seen);
 
   [[nodiscard]] const std::vector<Point>& sites() const { return sites_; }
@@ -63,10 +65,16 @@ class Minimizer {
   [[nodiscard]] bool is_fixed(std::size_t site) const {
     return !is_fixed_.empty() && is_fixed_[site] != 0;
   }
+  // Turns direction_, which holds the gradient, into the step to the centroids.
   void scale_by_mass();
+  // Returns the derivative of the energy along direction_.
   [[nodiscard]] double slope() const;
+  // Returns the longest step of a site in units of its spacing.
   [[nodiscard]] double most_relative_step() const;
+  // Moves the sites along direction_ such that the energy falls enough; returns false if no length
+  // is found.
   bool search();
+  // Does the same along the step to the centroids.
   bool search_anew();
 
   const CentroidalEnergy& energy_;

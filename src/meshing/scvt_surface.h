@@ -33,6 +33,7 @@ using Vector = exact::Vector3<double>;
 inline Index next_of(Index corner) { return corner == 2 ? 0 : corner + 1; }
 inline Index previous_of(Index corner) { return corner == 0 ? 2 : corner - 1; }
 
+// A triangulation that follows its sites.
 class MovingSurface {
  public:
   explicit MovingSurface(unsigned threads) : threads_(threads) {}
@@ -66,12 +67,19 @@ class MovingSurface {
   // The result of checking a face: all edges are Delaunay, one is not, or the face has turned over.
   enum class Look : unsigned char { fine, broken, turned };
 
+  // Builds the triangulation from the beginning; returns false as follow() does.
   bool build(std::span<const Point> sites);
+  // Flips edges until all are Delaunay; returns false if it is better to build anew.
   bool mend(std::span<const Point> sites);
+  // Computes the center of a face and checks its edges.
   Look look_at(std::span<const Point> sites, Index face);
+  // True if the edge opposite to a corner is not Delaunay.
   [[nodiscard]] bool is_to_flip(std::span<const Point> sites, Index face, Index corner) const;
+  // Flips the edge opposite to a corner.
   void flip(Index face, Index corner);
+  // Rotates the corners of a face such that the lowest one is first.
   void begin_with_lowest(Index face);
+  // Replaces one neighbor of a face by another.
   void replace_neighbor(Index face, Index before, Index after);
 
   std::vector<Triple> faces_;

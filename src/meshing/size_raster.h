@@ -27,10 +27,12 @@ struct CubeRaster {
 
   [[nodiscard]] std::size_t side() const { return steps + 1; }
   [[nodiscard]] std::size_t num_nodes() const { return 6 * side() * side(); }
+  // Returns the index of a node in arrays.
   [[nodiscard]] std::size_t node(std::size_t face, std::size_t i, std::size_t j) const {
     return (face * side() + j) * side() + i;
   }
 
+  // Returns the coordinate on the cube of a node's row or column.
   [[nodiscard]] double coordinate(std::size_t i) const {
     return -1 + 2 * static_cast<double>(i) / static_cast<double>(steps);
   }

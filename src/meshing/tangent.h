@@ -25,6 +25,7 @@ struct TangentVector {
   double v;
 };
 
+// Two unit vectors that span the tangent plane of a site.
 struct TangentFrame {
   exact::Vector3<double> u;
   exact::Vector3<double> v;
