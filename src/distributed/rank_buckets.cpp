@@ -14,8 +14,8 @@ namespace {
 
 using OpenEnds = std::array<Index, 2>;
 
-template <class T>
 // Appends values[order[0]], values[order[1]], ...
+template <class T>
 void append_gathered(const LargeVector<T>& values, std::span<const Index> order,
                      LargeVector<T>& result) {
   constexpr std::size_t distance = system::prefetch_distance;

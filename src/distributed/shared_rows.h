@@ -60,9 +60,9 @@ class SharedRows {
 
   // Rank 0 creates the file and tells the others its name.
   void make(const std::string& header, std::uint64_t num_bytes);
-  // Returns the message with the temporary name, or with the reason for a failure.
+  // Returns the message with the temporary name.
   [[nodiscard]] Bytes name_message() const;
-  // Takes the temporary name out of rank 0's message and opens the file.
+  // Takes the temporary name out of rank 0's message.
   void take_name(const Bytes& message);
   // Returns the header of the .npy file.
   [[nodiscard]] std::string header_of(const SharedShape& shape) const;

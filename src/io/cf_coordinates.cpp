@@ -53,6 +53,7 @@ bool has_unit(const DirectionMarks& marks, const std::string& units) {
   return std::ranges::find(marks.units, lower) != marks.units.end();
 }
 
+// Returns the words of a text, which blanks separate.
 std::vector<std::string> words_of_text(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> words;

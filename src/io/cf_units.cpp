@@ -18,6 +18,7 @@ namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
+// A name of a unit, and the degrees in it.
 struct UnitName {
   std::string_view singular;
   std::string_view plural;
@@ -55,6 +56,7 @@ constexpr std::array unit_names = {
     UnitName{"grade", "grades", 0.9},
 };
 
+// A symbol of a unit, and the degrees in it.
 struct UnitSymbol {
   std::string_view symbol;
   double degrees;
@@ -99,6 +101,8 @@ std::optional<double> degrees_per_unit(std::string_view units) {
   return std::nullopt;
 }
 
+// Returns the degrees in a unit of the variable; without units, those of the first relative that
+// has some.
 double degrees_per_unit(const VariableHeader& variable,
                         std::span<const VariableHeader* const> relatives) {
   if (io::is_rotated_or_projected(variable)) {

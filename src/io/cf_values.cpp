@@ -36,6 +36,7 @@ bool is_unsigned_integer(NetcdfType type) {
          type == NetcdfType::uint64;
 }
 
+// Returns the number that a text is, or nothing.
 std::optional<double> number_of_text(const std::string& text) {
   try {
     return parse_number(text, "attribute");
@@ -65,11 +66,14 @@ std::vector<double> numbers_of_attribute(const NetcdfVariable& variable, std::st
   return numbers;
 }
 
+// True if an attribute is there and has this type.
 bool has_type(const NetcdfVariable& variable, std::string_view name, NetcdfType type) {
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   return attribute != nullptr && attribute->type == type;
 }
 
+// Returns scale_factor or add_offset, or `otherwise` if there is none. Throws BadValue if it is not
+// one number.
 double packing(const NetcdfVariable& variable, std::string_view name, double otherwise) {
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   if (attribute == nullptr) return otherwise;
@@ -249,6 +253,7 @@ void ValueRules::apply_to_unpacked(std::span<double> values) const {
 namespace rondel {
 namespace {
 
+// Returns the type that NumPy calls by this name. Throws InvalidInput for other names.
 io::NetcdfType type_of(std::string_view name) {
   constexpr std::pair<std::string_view, io::NetcdfType> types[] = {
       {"i1", io::NetcdfType::int8},    {"i2", io::NetcdfType::int16},

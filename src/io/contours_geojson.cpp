@@ -33,12 +33,14 @@
 namespace rondel::io {
 namespace {
 
+// The arguments of write_isolines().
 struct IsolinesToWrite {
   const Isolines& isolines;
   double tolerance;  // radians
   const Execution& execution;
 };
 
+// The arguments of write_bands().
 struct BandsToWrite {
   const Bands& bands;
   double tolerance;  // radians
@@ -65,6 +67,7 @@ std::vector<std::string> made_texts(
   return texts;
 }
 
+// Writes a feature, whose geometry is null if it has no coordinates.
 void write_feature(AtomicFile& file, bool is_first, const std::string& properties,
                    const char* geometry, const std::string& coordinates) {
   file.write(is_first ? "\n" : ",\n");
@@ -124,6 +127,7 @@ bool is_closed_surface(const Bands& bands) {
   });
 }
 
+// True if it is not known on which side of its lines the region is.
 bool is_unsure(const map::DrawnRegion& region) {
   return region.border != map::BorderKnowledge::is_known;
 }
@@ -144,6 +148,7 @@ void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
   chosen->loops.push_back(map::border_loop());
 }
 
+// Returns the rings of a band as unit vectors.
 std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const Point> points,
                                             std::size_t band) {
   std::vector<map::UnitVectors> rings;

@@ -36,6 +36,7 @@ std::string hint(const Header& header) {
   return {};
 }
 
+// Returns the names of the first columns, for messages.
 std::string found(const Header& header) {
   constexpr std::size_t most = 30;
   std::string text = "; found: ";
@@ -46,12 +47,14 @@ std::string found(const Header& header) {
   return (header.size() > most ? text + ", ..." : text) + hint(header);
 }
 
+// A coordinate and the names by which columns may hold it.
 struct Coordinate {
   std::string_view word;      // used in messages
   const std::string& chosen;  // the name in the options
   std::vector<std::string_view> usual;
 };
 
+// Returns the columns of exactly this name.
 std::vector<std::size_t> all_equal_to(const Header& header, std::string_view name) {
   std::vector<std::size_t> equal;
   for (std::size_t i = 0; i < header.size(); ++i) {
@@ -70,6 +73,7 @@ std::string with_positions(const Header& header, std::span<const std::size_t> co
   return text;
 }
 
+// Throws BadValue with the positions of columns that have one name.
 [[noreturn]] void refuse_equal(const Header& header, std::span<const std::size_t> columns) {
   throw BadValue("two columns have the same name: " + with_positions(header, columns.first(2)));
 }
@@ -102,6 +106,8 @@ std::optional<std::size_t> find(const Header& header, const Coordinate& coordina
   return fitting.empty() ? std::nullopt : std::optional(fitting.front());
 }
 
+// Returns the column of a coordinate. Throws BadValue with the columns that there are if it is
+// missing.
 std::size_t require(const Header& header, const Coordinate& coordinate) {
   if (const auto column = find(header, coordinate)) return *column;
   std::string names;

@@ -22,6 +22,7 @@ std::size_t most_sites(std::string_view text) {
   return std::min(lines, text.size() / 4 + 1);
 }
 
+// Throws BadValue if a record has another number of fields than the header.
 void require_width(const CsvRecords& records, std::size_t header) {
   const std::size_t found = records.fields().size();
   if (found == header) return;
@@ -35,6 +36,7 @@ void require_width(const CsvRecords& records, std::size_t header) {
                  " where the header has " + std::to_string(header) + hint);
 }
 
+// Returns for each column whether it has a name.
 std::vector<bool> named_columns(const std::vector<std::string_view>& header) {
   std::vector<bool> is_named;
   is_named.reserve(header.size());
@@ -52,6 +54,7 @@ void drop_empty_columns(const std::vector<bool>& is_named, SiteTable& table) {
   table.columns = std::move(kept);
 }
 
+// Reads all rows into the table.
 void read_rows(CsvRecords& records, std::string_view text, const ReadJob& options,
                SiteTable& table) {
   const std::vector<std::string> names = column_names(records.fields());
@@ -88,6 +91,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
   drop_empty_columns(is_named, table);
 }
 
+// Reads a table with this delimiter, or with that of the options.
 void read_delimited(std::string_view bytes, char usual_delimiter, const ReadJob& options,
                     SiteTable& table) {
   const char delimiter = options.delimiter != '\0' ? options.delimiter : usual_delimiter;

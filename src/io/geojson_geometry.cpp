@@ -48,6 +48,7 @@ void append_positions(std::string& out, std::span<const LonLat> positions) {
   out.back() = ']';
 }
 
+// Appends the coordinates of a polygon of one ring.
 void append_polygon(std::string& out, const map::LonLatPolygon& polygon) {
   out += '[';
   append_positions(out, polygon.ring);

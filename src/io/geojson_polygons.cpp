@@ -21,6 +21,7 @@ struct PolygonFormat {
 };
 constexpr std::array<PolygonFormat, 2> polygon_formats = {{{".geojson"}, {".json"}}};
 
+// Collects the rings and lines of features.
 class PolygonReader {
  public:
   PolygonReader(std::string_view bytes, FeatureKinds kinds, PolygonFeatures& features)

@@ -13,6 +13,7 @@
 namespace rondel::io {
 namespace {
 
+// Collects the Points of a document as sites.
 class GeoJsonReader {
  public:
   GeoJsonReader(std::string_view bytes, const ReadJob& options, SiteTable& table)

@@ -14,6 +14,7 @@ namespace {
 using BoxVariable = NetcdfReader::Variable;
 using BoxLengths = std::vector<std::size_t>;
 
+// Returns the number of values in a box.
 std::size_t num_values_of(const BoxLengths& count) {
   std::size_t product = 1;
   for (const std::size_t length : count) product *= length;

@@ -67,6 +67,7 @@ class HeaderFields {
   int version_;
 };
 
+// Returns the number of this type at an address, as a double.
 double number_at(const char* at, NetcdfType type) {
   constexpr auto big = std::endian::big;
   switch (type) {
@@ -95,6 +96,7 @@ double number_at(const char* at, NetcdfType type) {
   return load<std::uint8_t>(at, big);
 }
 
+// Reads a list of attributes.
 std::vector<NetcdfAttribute> attributes_of(HeaderFields& fields) {
   // A member has a name of at least no bytes, a type and a count.
   std::vector<NetcdfAttribute> attributes(fields.list(netcdf_attributes_tag, 12));
@@ -118,6 +120,7 @@ std::vector<NetcdfAttribute> attributes_of(HeaderFields& fields) {
   return attributes;
 }
 
+// Reads the name, dimensions, attributes, type and offset of a variable.
 void read_variable(HeaderFields& fields, std::size_t num_dimensions,
                    NetcdfReader::Variable& variable) {
   variable.name = fields.name();
@@ -136,6 +139,7 @@ void read_variable(HeaderFields& fields, std::size_t num_dimensions,
   variable.offset = fields.offset();
 }
 
+// Returns the number of the classic format: 1, 2 or 5. Throws BadValue for other files.
 int version_of(std::string_view bytes) {
   if (!bytes.starts_with("CDF")) throw BadValue("not a netCDF file");
   const int version = bytes.size() > 3 ? bytes[3] : 0;

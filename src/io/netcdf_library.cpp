@@ -19,6 +19,7 @@ namespace rondel {
 namespace io {
 namespace {
 
+// Returns the name that set_netcdf_library() has given, or an empty one.
 std::string& named_netcdf_library() {
   static std::string name;
   return name;
@@ -46,6 +47,7 @@ void* open_netcdf_library() {
   return nullptr;
 }
 
+// Loads functions of the library, and remembers whether one is missing.
 class NetcdfSymbols {
  public:
   explicit NetcdfSymbols(void* library) : library_(library) {}
@@ -63,6 +65,7 @@ class NetcdfSymbols {
   bool has_all_ = true;
 };
 
+// Loads all functions; returns false if one is missing.
 bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   NetcdfSymbols from(library);
   from.get(netcdf.error_text, "nc_strerror");

@@ -17,6 +17,7 @@
 namespace rondel::io {
 namespace {
 
+// Throws BadValue with the name of the variable.
 [[noreturn]] void refuse(const NetcdfReader::Variable& variable, const std::string& why) {
   throw BadValue("variable " + in_quotes(variable.name) + " " + why);
 }
@@ -35,6 +36,7 @@ std::uint64_t sum(const NetcdfReader::Variable& variable, std::uint64_t a, std::
 
 constexpr const char* not_numbers = "is a text where numbers are needed";
 
+// Throws BadValue for the first value that was 2^63 or more.
 void require_signed(const NetcdfReader::Variable& variable, std::span<const std::int64_t> values) {
   for (const std::int64_t value : values) {
     if (value < 0) refuse(variable, "has an integer beyond 2^63");

@@ -19,6 +19,7 @@
 namespace rondel::io {
 namespace {
 
+// Adds the rows of an array whose numbers have the type T.
 template <typename Number>
 void add_rows_of(const NpyTable& array, std::uint64_t first_row, SiteCollector& collector) {
   const bool is_lonlat = array.num_columns() == 2;

@@ -11,6 +11,7 @@
 namespace rondel::io {
 namespace {
 
+// Returns the array if it is one of sites and not too large.
 NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
   NpyTable array = site_table(bytes, file_size);
   require_indices(array.num_rows());

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> index_types = {"u4", "i4", "u8", "i8"};
 
+// Returns the rows of an array whose integers have the type T.
 template <typename Integer>
 std::vector<Triple> rows_of(const NpyTable& array) {
   std::vector<Triple> triangles;
@@ -22,6 +23,7 @@ std::vector<Triple> rows_of(const NpyTable& array) {
   return triangles;
 }
 
+// Returns the array if it has three columns of integers.
 NpyTable checked_triangles(std::string_view bytes, std::uint64_t file_size) {
   NpyTable array(bytes, file_size, index_types, "an integer of 32 or 64 bits");
   if (array.num_columns() != 3) {

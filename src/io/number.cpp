@@ -39,6 +39,7 @@ void require_finite(double value, std::string_view what) {
   }
 }
 
+// True if the text looks like a number with a comma in place of the point.
 bool has_decimal_comma(std::string_view digits) {
   const std::size_t comma = digits.find(',');
   if (comma == std::string_view::npos || comma + 1 == digits.size()) return false;

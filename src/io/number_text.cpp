@@ -31,6 +31,7 @@ using exact::Word;
 constexpr int least_exponent = -82;
 constexpr int greatest_exponent = -23;
 
+// The factor of numbers with one exponent, as above.
 struct Scale {
   Word power_of_5 = 1;    // 5^s
   int decimals = 0;       // s

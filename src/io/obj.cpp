@@ -18,6 +18,7 @@ Index read_corner(std::string_view word, std::int64_t num_vertices) {
   return checked_index(number > 0 ? number - 1 : num_vertices + number);
 }
 
+// Reads the triangles of all lines; other lines than v and f are skipped.
 std::vector<Triple> read_lines(TextLines& lines) {
   std::vector<Triple> triangles;
   std::int64_t num_vertices = 0;

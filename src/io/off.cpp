@@ -25,6 +25,7 @@ void require_line(TextLines& lines, std::uint64_t i, std::uint64_t n, std::strin
                  std::string(what));
 }
 
+// Reads a face, which must be a triangle.
 Triple read_face(const TextLines& lines) {
   const auto& words = lines.words();
   const std::int64_t size = parse_integer(words[0], "the number of corners");

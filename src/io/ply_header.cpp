@@ -39,6 +39,7 @@ PlyType type_of(std::string_view name) {
   throw BadValue("unknown type " + in_quotes(name) + " in the header");
 }
 
+// Returns the encoding of this name. Throws BadValue for other names.
 PlyEncoding encoding_of(std::string_view name) {
   if (name == "ascii") return PlyEncoding::ascii;
   if (name == "binary_little_endian") return PlyEncoding::little_endian;
@@ -46,6 +47,7 @@ PlyEncoding encoding_of(std::string_view name) {
   throw BadValue("unknown format " + in_quotes(name));
 }
 
+// Reads the line of a property.
 PlyProperty property_of(Words words) {
   PlyProperty property;
   property.is_list = words.size() == 5 && words[1] == "list";

@@ -79,11 +79,13 @@ class PlyNumbers {
   std::size_t word_ = 0;
 };
 
+// Skips a property of an element.
 void skip(PlyNumbers& numbers, const PlyProperty& property) {
   const std::int64_t size = property.is_list ? numbers.next_integer(property.size_type) : 1;
   for (std::int64_t i = 0; i < size; ++i) numbers.next(property.type);
 }
 
+// True if the property is the list of a face's corners.
 bool has_corners(const PlyProperty& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t grain = 512;
 
+// Appends the polygons of an owner to the flat arrays.
 void append(LonLatPolygons& all, const std::vector<map::LonLatPolygon>& polygons, Index owner) {
   for (const map::LonLatPolygon& polygon : polygons) {
     all.positions.insert(all.positions.end(), polygon.ring.begin(), polygon.ring.end());
@@ -23,6 +24,7 @@ void append(LonLatPolygons& all, const std::vector<map::LonLatPolygon>& polygons
   }
 }
 
+// Joins the flat arrays of pieces.
 LonLatPolygons joined(const std::vector<LonLatPolygons>& pieces) {
   std::size_t num_positions = 0;
   std::size_t num_rings = 0;

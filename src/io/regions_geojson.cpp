@@ -30,6 +30,7 @@
 namespace rondel::io {
 namespace {
 
+// The arguments of write_regions().
 struct RegionsToWrite {
   const CellRings& cells;
   std::span<const Column> columns;
@@ -100,10 +101,12 @@ std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
   return map::valid_regions(std::move(loops), job.execution.threads);
 }
 
+// True if the cell has rings or is the whole sphere.
 bool has_feature(const CellRings& cells, std::size_t cell) {
   return cells.cells[cell] != cells.cells[cell + 1] || cells.is_whole(cell);
 }
 
+// Returns the area of a cell in steradians.
 double area_of(const CellRings& cells, std::size_t cell) {
   return cells.is_whole(cell) ? 4 * std::numbers::pi : area_of(RingsOfCell(cells, cell).rings());
 }
@@ -144,6 +147,7 @@ bool is_complete(const Column& column, std::size_t num_rows) {
 constexpr std::array<Writer<RegionsToWrite>, 1> region_writers = {
     {{".geojson", &write_regions_geojson}}};
 
+// Throws InvalidInput if the arrays of the rings do not fit together.
 void require_rings(const CellRings& cells) {
   require_fit(
       !cells.rings.empty() && are_offsets(cells.cells, cells.rings.size() - 1) &&

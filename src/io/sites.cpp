@@ -17,6 +17,7 @@
 namespace rondel {
 namespace {
 
+// A format of sites: how it is read, and whether it can have columns.
 struct SiteReader {
   std::string_view ending;
   void (*read)(std::string_view, const io::ReadJob&, SiteTable&);
@@ -39,6 +40,7 @@ constexpr std::array<SiteWriter, 5> site_writers = {{{".csv", &io::write_csv},
                                                      {".txt", &io::write_xyz},
                                                      {".npy", &io::write_npy_sites}}};
 
+// Throws FileError if options name columns and the format has none.
 void require_columns(const SiteReader& reader, const ReadOptions& options, const SiteTable& table) {
   if (reader.has_columns) return;
   const bool names_a_column = !(options.lon.empty() && options.lat.empty() && options.x.empty() &&

@@ -20,6 +20,7 @@
 namespace rondel {
 namespace {
 
+// A format of triangles and how it is read.
 struct TriangleReader {
   std::string_view ending;
   std::vector<Triple> (*read)(std::string_view);
@@ -50,6 +51,7 @@ struct TriangleFolderWriter {
 constexpr std::array<TriangleFolderWriter, 2> triangle_folder_writers = {
     {{".pvtp", &io::write_pvtp}, {".zarr", &io::write_zarr_mesh}}};
 
+// Returns the writer of a format of several files, or null.
 const TriangleFolderWriter* find_folder_writer(const FileName& file) {
   return file.path == "-" ? nullptr
                           : io::find_format<TriangleFolderWriter>(triangle_folder_writers, file);

@@ -5,6 +5,7 @@
 namespace rondel::io {
 namespace {
 
+// Returns the text of an XML attribute.
 std::string attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + value + "\"";
 }

@@ -57,6 +57,7 @@ struct Integers {
   std::function<Index(std::size_t)> at;
 };
 
+// The arrays that are appended to the XML.
 class AppendedData {
  public:
   AppendedData(std::string_view bytes, std::string_view file_tag)
@@ -105,6 +106,7 @@ class AppendedData {
   bool has_long_header_;
 };
 
+// Returns the polygons, which must be triangles.
 std::vector<Triple> triangles_of(const Integers& connectivity, const Integers& offsets) {
   std::vector<Triple> triangles;
   triangles.reserve(offsets.size);

@@ -44,6 +44,7 @@ std::string element_type(std::size_t corners) { return "SHELL" + std::to_string(
 
 }  // namespace
 
+// Groups the cells by their number of corners with a counting sort.
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners) {
   std::vector<std::size_t> sizes(arrays.max_edges() + 1, 0);
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) ++sizes[corners.count(i)];

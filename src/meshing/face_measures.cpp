@@ -41,6 +41,8 @@ FaceCenter careful_center(const dual::SplitSites& sites, const Triple& corners) 
   return center;
 }
 
+// Returns the circumcenter of a face and its heights, computed in doubles from exact differences
+// where that is accurate, and by careful_center() otherwise.
 FaceCenter center_of(const dual::SplitSites& sites, const Triple& corners) {
   const auto b = sites.offset(corners[0], corners[1]);
   const auto c = sites.offset(corners[0], corners[2]);
@@ -64,6 +66,7 @@ FaceCenter center_of(const dual::SplitSites& sites, const Triple& corners) {
   return center;
 }
 
+// Returns the circumcenter, arcs and kites of a face, by the formulas of the header.
 FaceMeasures measures_of(const dual::SplitSites& sites, const Triple& corners) {
   const FaceCenter center = center_of(sites, corners);
   const double cosine = dot(dual::to_vector(sites[corners[0]].hi), center.normal);

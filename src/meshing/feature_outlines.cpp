@@ -28,6 +28,7 @@ using OutlinePoints = std::vector<Point>;
 
 bool is_on_antimeridian(const Point& p) { return p.y == 0 && p.x <= 0; }
 
+// A point of the antimeridian and its number.
 struct MeridianPlace {
   double number;
   Point point;
@@ -41,6 +42,7 @@ struct MeridianInterval {
 };
 using MeridianIntervals = std::vector<MeridianInterval>;
 
+// Returns the union of intervals as disjoint intervals in increasing order.
 MeridianIntervals united(MeridianIntervals all) {
   std::ranges::sort(all, {}, [](const MeridianInterval& one) { return one.low.number; });
   MeridianIntervals result;
@@ -54,6 +56,7 @@ MeridianIntervals united(MeridianIntervals all) {
   return result;
 }
 
+// Returns the intersection of two sets of disjoint intervals.
 MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b) {
   MeridianIntervals result;
   auto in_a = a.begin();
@@ -68,6 +71,7 @@ MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b)
   return result;
 }
 
+// The parts of the antimeridian along which polygons are cut.
 class AntimeridianCut {
  public:
   // Finds the cuts of closed lines, whose last point is their first one.

@@ -22,6 +22,7 @@ constexpr double damping = 0.6;
 constexpr double overcorrection = 1.6;
 constexpr int coarsest_sweeps = 60;
 
+// Returns the scalar product, summed in a fixed order.
 double dot_of(unsigned threads, const std::vector<double>& a, const std::vector<double>& b) {
   return sum_in_order(threads, a.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
@@ -30,6 +31,7 @@ double dot_of(unsigned threads, const std::vector<double>& a, const std::vector<
   });
 }
 
+// Subtracts the mean.
 void take_mean_off(std::vector<double>& x) {
   double sum = 0;
   for (const double value : x) sum += value;
@@ -70,6 +72,8 @@ std::vector<Index> groups_of(const WeightedGraph& graph, Index& num_groups) {
   return group;
 }
 
+// Returns the graph of the groups, whose weights are the sums of the weights between their
+// vertices.
 WeightedGraph coarse_graph(const WeightedGraph& fine, const std::vector<Index>& group,
                            std::size_t num_groups) {
   std::vector<std::uint64_t> starts(num_groups + 1, 0);

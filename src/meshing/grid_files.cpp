@@ -17,6 +17,7 @@ constexpr std::int32_t esmf_none = -1;
 constexpr MeshFile::Texts degrees = {{"units", "degrees"}};
 constexpr MeshFile::Texts square_radians = {{"units", "radians^2"}};
 
+// Returns the area of a cell on the unit sphere.
 double area_at_one(const mesh::MeshArrays& arrays, std::size_t cell) {
   return arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
 }
@@ -36,6 +37,7 @@ void define_corners(MeshFile& file, const char* name, std::vector<std::size_t> d
                });
 }
 
+// Defines a variable of longitudes and latitudes in degrees, a pair a row.
 void define_pairs_of_degrees(MeshFile& file, const char* name, std::vector<std::size_t> dimensions,
                              const std::vector<Point>& points) {
   file.numbers(name, std::move(dimensions), degrees, points.size(), 2,

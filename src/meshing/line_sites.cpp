@@ -42,12 +42,14 @@ constexpr double least_station_distance = 0.3;
 constexpr std::size_t fewest_stations = 6;
 constexpr int most_fits = 8;
 
+// Places along a line at which the dividers stand, and the spacings there.
 struct Stations {
   std::vector<Point> places;
   std::vector<double> spacings;
   double steps = 0;  // length of the whole line in steps, the last one counted in part
 };
 
+// Walks along a line with a pair of dividers.
 class LineWalk {
  public:
   LineWalk(const std::vector<Point>& line, const SizeFunction& size) : line_(line), size_(size) {}
@@ -142,6 +144,7 @@ Stations fitted_stations(const LineWalk& line, double step, std::size_t multiple
   return best;
 }
 
+// Sites for one line, before those that are too close to others are left out.
 struct LineCandidates {
   std::vector<Point> stations;  // places from which rows keep away; empty for sites on lines
   std::vector<Point> sites;
@@ -149,6 +152,7 @@ struct LineCandidates {
   std::size_t num_certain = 0;  // the first candidates, which are taken wherever they are
 };
 
+// Adds two rows of sites, in turn to the left and to the right of the stations.
 void add_rows(const Stations& stations, bool closed, LineCandidates& candidates) {
   const std::size_t n = stations.places.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -203,6 +207,8 @@ LineSites sites_apart(const LineCandidates& candidates, const Execution& executi
   return result;
 }
 
+// Throws InvalidInput for the first point that is not finite or is the center, and for opposite
+// neighbors.
 void require_line(const std::vector<Point>& line, std::size_t index) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     const Point& p = line[k];
@@ -228,6 +234,7 @@ std::vector<Point> line_of_units(const std::vector<Point>& line, std::size_t ind
   return units;
 }
 
+// The stations of a line, and whether it is closed.
 struct WalkedLine {
   Stations stations;
   bool closed;

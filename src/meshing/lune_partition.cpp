@@ -30,6 +30,7 @@ constexpr double opposite_tolerance = 1e-12;
 constexpr int most_bisections = 200;
 constexpr int searched_places = 4096;
 
+// A site in the plane of the circle.
 struct PlanePlace {
   double x;
   double y;
@@ -62,6 +63,7 @@ class LongProduct {
   long exponent_ = 1;
 };
 
+// Finds the lengths of the weighted sites.
 class Lunes {
  public:
   Lunes(std::span<const Point> units, std::span<const double> areas)

@@ -36,6 +36,7 @@ constexpr std::size_t mesh_grain = 4096;
 // have errors of 4u and sums of arcs less.
 constexpr double least_certain_arc = 0x1p-48;
 
+// Makes the arrays, each in parallel.
 class MeshMaker {
  public:
   MeshMaker(const Triangulation& triangulation, const MeshOptions& options,
@@ -246,6 +247,7 @@ class MeshMaker {
   MeshArrays arrays_;
 };
 
+// Throws InvalidInput for a triangulation that has no mesh.
 void require_mesh(const Triangulation& triangulation, const MeshOptions& options) {
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("a mesh is made of sites without weights, as its models suppose");

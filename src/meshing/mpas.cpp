@@ -77,6 +77,7 @@ void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
                });
 }
 
+// Defines a variable with rows of indices that count from 1.
 template <class Row>
 void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dimensions,
                  const std::vector<Row>& rows) {
@@ -86,6 +87,7 @@ void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dime
                });
 }
 
+// Defines the variables of cells.
 void define_cells(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
@@ -117,6 +119,7 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
                [distances](std::size_t i) { return distances(i)[2]; });
 }
 
+// Defines the variables of edges.
 void define_edges(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_edges();
@@ -146,6 +149,7 @@ void define_edges(MeshFile& file, const MpasSizes& sizes) {
 
 using Corners = std::array<Point, 3>;
 
+// Returns the sites of the triangle of a vertex.
 Corners corners_of(const MeshArrays& arrays, std::size_t v) {
   Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -189,6 +193,7 @@ bool is_obtuse(const Corners& corners) {
   return found;
 }
 
+// Defines the variables of vertices.
 void define_vertices(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();

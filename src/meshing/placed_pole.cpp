@@ -82,6 +82,7 @@ BitSteps rounded_steps(double missing, const LastBits& bits, double turn_cost, i
   return steps;
 }
 
+// Returns the steps with the least cost; tries combinations for the two smaller coordinates.
 BitSteps best_steps(double missing, const LastBits& bits, double turn_cost) {
   const auto is_tried = [&](std::size_t k) {
     return bits.lengths[k] >= fine_part * bits.lengths[0];

@@ -17,6 +17,7 @@
 namespace rondel::mesh {
 namespace {
 
+// Throws InvalidInput unless the value is in [least, most].
 void require_between(std::size_t value, std::size_t least, std::size_t most, const char* what) {
   if (value >= least && value <= most) return;
   throw InvalidInput(std::string(what) + " is from " + std::to_string(least) + " to " +

@@ -31,6 +31,7 @@ namespace {
 using exact::to_point;
 using exact::to_vector;
 
+// The accepted points, in bins.
 class Bins {
  public:
   // Rounding of points and of the squared chord changes it by less than a relative 2^-48.
@@ -107,6 +108,7 @@ class Bins {
   std::vector<Point> points_;
 };
 
+// Returns a uniform direction.
 Point random_direction(SeededRandom& random) {
   const double z = 2 * random() - 1;
   const double r = std::sqrt((1 - z) * (1 + z));

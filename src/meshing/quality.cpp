@@ -24,9 +24,11 @@ constexpr std::size_t quality_grain = 4096;
 constexpr std::size_t histogram_steps = 80;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+// Keeps the smallest value and where it is; of equals the first.
 void keep_least(Worst& worst, double value, std::size_t where) {
   if (value < worst.value) worst = {value, static_cast<Index>(where)};
 }
+// Keeps the largest value and where it is; of equals the first.
 void keep_most(Worst& worst, double value, std::size_t where) {
   if (value > worst.value) worst = {value, static_cast<Index>(where)};
 }
@@ -34,6 +36,7 @@ void keep_most(Worst& worst, double value, std::size_t where) {
 Histogram histogram(double high) {
   return {0, high, std::vector<std::uint64_t>(histogram_steps, 0)};
 }
+// Counts a value in its step; values beyond the ends are counted in the first or last step.
 void count_in(Histogram& histogram, double value) {
   const double step = (value - histogram.low) / (histogram.high - histogram.low) *
                       static_cast<double>(histogram.counts.size());
@@ -63,6 +66,7 @@ struct PieceQuality {
   double cells = 0;
 };
 
+// Adds the report of the next piece to that of all before.
 void join(PieceQuality& all, const PieceQuality& next) {
   Quality& a = all.found;
   const Quality& b = next.found;
@@ -92,6 +96,7 @@ void join(PieceQuality& all, const PieceQuality& next) {
   all.cells += next.cells;
 }
 
+// Computes the report of a mesh.
 class QualityFinder {
  public:
   QualityFinder(const MeshArrays& arrays, const Execution& execution)

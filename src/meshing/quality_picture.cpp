@@ -25,6 +25,7 @@ constexpr double map_top = 280;
 constexpr double map_width = 900;
 constexpr double map_height = map_width / 2;
 
+// Returns the number with two decimals.
 std::string fixed(double value) {
   std::array<char, 32> digits;
   std::snprintf(digits.data(), digits.size(), "%.2f", value);
@@ -35,6 +36,7 @@ std::string text_at(double x, double y, const std::string& text) {
   return "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\">" + text + "</text>\n";
 }
 
+// Returns the bars of a histogram with its title.
 std::string bars(const Histogram& histogram, double left, const std::string& title) {
   const double width = (picture_width - 4 * margin) / 3;
   const double step = width / static_cast<double>(histogram.counts.size());
@@ -70,6 +72,7 @@ std::vector<Index> largest(const std::vector<double>& values, std::size_t count,
   return cells;
 }
 
+// Returns a dot for each cell on the map, in the plane of longitude and latitude.
 std::string dots(const MeshArrays& arrays, const std::vector<Index>& cells, const char* color,
                  double radius) {
   constexpr double turn = 2 * std::numbers::pi;
@@ -85,6 +88,7 @@ std::string dots(const MeshArrays& arrays, const std::vector<Index>& cells, cons
   return svg + "</g>\n";
 }
 
+// Returns meridians and parallels of the map, 30 degrees apart.
 std::string map_lines() {
   std::string path;
   for (int i = 0; i <= 12; ++i) {

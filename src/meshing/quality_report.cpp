@@ -69,6 +69,7 @@ constexpr std::array entries = {
     ReportEntry{"max_kite_error", "kites against their cell or triangle", nullptr,
                 number<&Quality::max_kite_error>}};
 
+// Returns the number as JSON has it, null if it is not finite.
 std::string number_of(double value) {
   return std::isfinite(value) ? system::shortest_text(value) : "null";
 }

@@ -32,6 +32,7 @@
 namespace rondel::mesh {
 namespace {
 
+// True if a cell has a corner within that distance.
 bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
                 double square_distance) {
   for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
@@ -42,6 +43,7 @@ bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
   return false;
 }
 
+// Throws BadValue for the first cell that is not a single ring.
 void require_rings(const CellTable& table) {
   for (std::size_t i = 0; i < table.cells.num_cells(); ++i) {
     if (table.cells.cells[i + 1] - table.cells.cells[i] == 1) continue;
@@ -49,6 +51,7 @@ void require_rings(const CellTable& table) {
   }
 }
 
+// Throws BadValue for the first cell of the file whose corners are not those of the mesh.
 void require_cells(const MeshArrays& arrays, const CellTable& table) {
   const CellRings& cells = table.cells;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -62,6 +65,7 @@ void require_cells(const MeshArrays& arrays, const CellTable& table) {
   }
 }
 
+// Returns the Voronoi mesh of the centers, without a border.
 MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation,
                       const MeshOptions& options, const Execution& execution) {
   MeshArrays result = arrays(triangulation, options, execution);
@@ -99,6 +103,7 @@ std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulati
   }
 }
 
+// Returns the mesh of cells with centers: with a border, or of the whole sphere.
 MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
                            const Execution& execution) {
   if (table.grid) throw FileError(table.name + ": a grid of longitudes and latitudes is no mesh");

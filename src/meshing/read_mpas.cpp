@@ -30,6 +30,7 @@ constexpr std::size_t read_grain = 4096;
 using io::BadValue;
 using Variable = io::NetcdfReader::Variable;
 
+// Reads the arrays and derives the lists that are not read.
 class MpasReader {
  public:
   MpasReader(const io::NetcdfReader& file, const Execution& execution)

@@ -34,6 +34,7 @@
 namespace rondel::mesh {
 namespace {
 
+// An edge of a region, which is to its left.
 struct RegionEdge {
   Point from;
   Point to;
@@ -63,6 +64,7 @@ bool is_on_edge(const RegionEdge& edge, const Point& q, const Point& p) {
   return orientation(p, edge.from, q) == whole && orientation(p, q, edge.to) == whole;
 }
 
+// Returns how the edge changes the depth along the arc from q to p, by exact signs.
 ArcCrossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) {
   const Sign from = orientation(q, p, edge.from);
   const Sign to = orientation(q, p, edge.to);
@@ -79,6 +81,7 @@ ArcCrossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) 
   return side_of_q == Sign::positive ? ArcCrossing::leaves_left : ArcCrossing::enters_left;
 }
 
+// The edges of regions in bins of azimuths, which tell the depth of points.
 class RegionSites {
  public:
   explicit RegionSites(const CellRings& regions) : frame_(frame_around(poles[0])) {

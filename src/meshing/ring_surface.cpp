@@ -13,6 +13,7 @@
 namespace rondel::meshing {
 namespace {
 
+// Throws BadValue with the cell and what is wrong with its corner.
 [[noreturn]] void refuse_corner(Index cell, const char* what) {
   throw io::BadValue("cell " + std::to_string(cell) + " has a corner " + what +
                      ", which no vertex of a mesh has");

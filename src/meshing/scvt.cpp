@@ -46,6 +46,7 @@ constexpr ScvtEnd end_of(MinimizerEnd end) {
   return ScvtEnd::stuck;
 }
 
+// Solves the levels one after the other and reports the progress.
 class Levels {
  public:
   Levels(const ScvtOptions& options, const Execution& execution)
@@ -207,6 +208,7 @@ class Levels {
   bool is_given_ = false;
 };
 
+// Throws InvalidInput if a fixed place is not valid, or there are more of them than sites.
 void require_fixed(std::span<const Point> fixed, std::size_t count) {
   require_places(fixed, "a fixed place");
   if (fixed.size() <= count) return;

@@ -50,6 +50,7 @@ CellSums uniform_cell(const MovingSurface& surface, const Vector& z, std::span<c
   return {moment, mass, mass, mass};
 }
 
+// Adds up the cells [begin, begin + cells.size()) with a constant density.
 void add_uniform_cells(const MovingSurface& surface, std::span<const Point> sites,
                        std::size_t begin, std::span<CellSums> cells) {
   std::vector<Index> ring;
@@ -94,6 +95,7 @@ void add_cells(const MovingSurface& surface, std::span<const Point> sites, std::
   add_lanes();
 }
 
+// The sums over a piece of the sites.
 struct PieceSums {
   std::size_t num_fixed = 0;
   DoubleDouble energy{0, 0};

@@ -38,6 +38,7 @@ struct Bound {
   double aim;
 };
 
+// A cotangent and its gradients by the sites.
 struct Cotangent {
   double value;
   Vector by_a;  // its gradients; that by the corner is -by_a - by_b
@@ -55,6 +56,7 @@ Cotangent cotangent(const Vector& u, const Vector& v) {
 
 bool is_odd(int degree) { return degree < 5 || degree > 7; }
 
+// Repairs a tessellation.
 class Repair {
  public:
   Repair(std::vector<Point>& sites, std::span<const std::uint8_t> is_fixed, unsigned threads)

@@ -25,6 +25,7 @@
 namespace rondel::mesh {
 namespace {
 
+// Spacings, or densities, at places.
 struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
@@ -58,6 +59,7 @@ struct NetcdfFields {
   bool is_mesh = false;  // cells whose coordinates no attribute of a field may name
 };
 
+// Finds the fields of that name, or all fields without one.
 NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
   io::FileBytes bytes(file.path, true);
   return io::in_file(bytes.name(), [&] {
@@ -124,6 +126,7 @@ Spacings spacings_of_field(const FileName& file, const std::string& name,
   return result;
 }
 
+// Reads spacings from a netCDF file: of a field with coordinates, or of the cells of a mesh.
 Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
   const NetcdfFields known = netcdf_fields(file, name);
   const std::vector<Point> cells =
@@ -142,6 +145,7 @@ Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
                   "latitudes of points, of a grid, or the cells of a mesh");
 }
 
+// Reads spacings from netCDF or from a table of sites with a column of that name.
 Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
   if (is_netcdf_file(file)) {
     return spacings_of_netcdf(file, name);

@@ -24,6 +24,7 @@ namespace {
 
 bool is_spacing(double value) { return value > 0 && value < std::numbers::pi; }
 
+// Throws InvalidInput unless the steps are a power of two from 1 to 4096.
 void require_steps(std::size_t steps) {
   if (steps < 1 || steps > 4096 || !std::has_single_bit(steps)) {
     throw InvalidInput("the steps of a raster are a power of two from 1 to 4096, not " +
@@ -31,6 +32,7 @@ void require_steps(std::size_t steps) {
   }
 }
 
+// Throws InvalidInput unless the slope is positive and finite.
 void require_slope(double slope) {
   if (!(slope >= 0) || !std::isfinite(slope)) {
     throw InvalidInput("a spacing grows by 0 or more for each radian");
