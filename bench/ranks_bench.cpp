@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// ranks_bench KIND N RANKS [--seed S]: what each phase of a build by ranks costs each rank, in processor
-// time and in bytes sent to others. Ranks are simulated, one runs at a time with one thread, so the
-// figures do not depend on how many cores there are. Beside them the processor time of the build in
-// memory, with one thread, of the same sites. JSON, for scripts/bench --scale-model.
+// ranks_bench KIND N RANKS [--seed S]: measures what each phase of a build by ranks costs each
+// rank, in processor time and in bytes sent to others. Ranks are simulated: one runs at a time with
+// one thread, so the figures do not depend on the number of cores. For comparison it measures the
+// build of the same sites in memory with one thread. Prints JSON for scripts/bench --scale-model.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// seam_bench KIND N [--seed S]: the parts of a build in memory, in processor time of one thread, and
-// each square of the tree that fills the seam: what many threads can share, and what they wait for.
-// JSON, for scripts/bench --scale-model. Uses the library's own headers.
+// seam_bench KIND N [--seed S]: measures the parts of a build in memory and each square of the tree
+// that fills the seam, in processor time of one thread. The figures show which parts threads can
+// share and which they wait for. Prints JSON for scripts/bench --scale-model. Uses the library's own
+// headers.
 
 #include <cstdint>
 #include <cstdio>

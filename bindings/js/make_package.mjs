@@ -31,6 +31,6 @@ writeFileSync(
   `${banner}\n/** rondel.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
 );
 
-// What the module holds besides Rondel.
+// Lists the libraries that the module contains besides Rondel.
 const parts = execFileSync(join(source, "scripts", "tools", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);
 writeFileSync(join(folder, "THIRD_PARTY.md"), parts);

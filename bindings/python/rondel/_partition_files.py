@@ -142,10 +142,11 @@ class FileCells:
         Parameters
         ----------
         geometries : GeoDataFrame, GeoSeries, sequence or mapping
-            Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
-            has `__geo_interface__`; arrays and tables of GeoArrow. A projected
-            `crs` is undone, with sides that stay straight in it. Or a box: west, south, east, north
-            in degrees.
+            The polygons, one a cell: a GeoDataFrame or GeoSeries; a sequence of geometries of
+            shapely; a mapping of GeoJSON, or any object with `__geo_interface__`; arrays or tables
+            of GeoArrow; or a box of west, south, east and north in degrees. Projected coordinates
+            are converted to longitudes and latitudes by their `crs`; sides that are straight in the
+            projection get corners in between, which follow them to about 1e-4 degrees.
         edges, overlap
             As in `read`.
         threads : int, optional

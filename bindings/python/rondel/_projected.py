@@ -15,18 +15,25 @@ MOST_PIECES = 4096
 
 
 def with_divided_sides(geometries: Any, crs: Any, target: Any) -> Any:
-    """The same with corners on sides that bend on their way from `crs` to `target`.
+    """Adds corners to sides that are straight in `crs` and bend when converted to `target`.
 
-    Pieces lie within 1e-4 degrees of straight lines in longitude and latitude, but for those next
-    to poles: a side has 4096 at most. A side is divided alike from both directions, so that
-    neighbors still share it.
+    Each piece of a side lies within 1e-4 degrees of a straight line in longitude and latitude,
+    unless the side already has 4096 pieces, as may happen next to a pole. A side is divided alike
+    from both directions, so that neighbors still share it.
 
     Parameters
     ----------
     geometries : geopandas.GeoSeries or geopandas.GeoDataFrame
-        With the CRS `crs`.
-    crs, target : pyproj.CRS
-        Planar coordinates, and degrees.
+        Geometries with coordinates in `crs`.
+    crs : pyproj.CRS
+        The projection, with planar coordinates.
+    target : pyproj.CRS or int
+        The system to convert to later, in degrees; an int is its EPSG code.
+
+    Returns
+    -------
+    geopandas.GeoSeries or geopandas.GeoDataFrame
+        Geometries still in `crs`, with the additional corners.
 
     """
     from pyproj import Transformer
