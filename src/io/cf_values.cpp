@@ -136,7 +136,7 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
     const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
     const std::vector<double> values = numbers_of_attribute(variable, name);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // Of integers that are no doubles the reader has told which are missing.
+      // The reader has marked those missing integers that are no doubles.
       const bool is_exact = attribute->type != type_ || attribute->integers.size() <= i ||
                             is_double(attribute->integers[i], type_);
       if (is_exact) missing_.push_back(as_type(values[i]));

@@ -77,7 +77,7 @@ class RONDEL_API NetcdfReader {
   // All values as doubles. Throws BadValue if they are a text.
   // Integers of 64 bits that are no doubles are NaN if they are missing, as wide_integers.h says; otherwise BadValue is thrown.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
-  // The same, but those that are no doubles are rounded. Sets `is_rounded` if there are some.
+  // numbers() with integers that are no doubles rounded. Sets `is_rounded` if there are some.
   [[nodiscard]] std::vector<double> rounded_numbers(const Variable& variable,
                                                     bool& is_rounded) const;
   // Throws BadValue if the variable is a text, or has more values than the file can have: before there is room for them.
@@ -102,7 +102,7 @@ class RONDEL_API NetcdfReader {
   void parse(std::string_view head);
   static void require_numbers(const Variable& variable);
   [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
-  // Those of 64 bits, uint64 as bits.
+  // Reads integers of 64 bits, uint64 as bits.
   void read_wide(const Variable& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
