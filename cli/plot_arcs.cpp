@@ -24,7 +24,7 @@ std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Poin
     const ArcEnds ends{ring[i], ring[(i + 1) % ring.size()]};
     const double length = angle_between(directions[ends[0]], directions[ends[1]]);
     sum += length;
-    // Of equal arcs the last one is taken, so that the first arc between two sites stays.
+    // The last one of equal arcs is taken, so that the first arc between two sites stays.
     if (length >= longest) {
       longest = length;
       gap = i;

@@ -169,7 +169,7 @@ void draw_front(Canvas& canvas, const Figure& figure, const Widths& width) {
   if (figure.style.show_sites) draw_sites(canvas, figure.sites, width.dot_radius);
 }
 
-// The same layers painted as pixels, in some rows of the picture.
+// Paints layers as pixels, in some rows of the picture.
 class PixelLayer {
  public:
   PixelLayer(int size, double radius, int first_row, int past_row)

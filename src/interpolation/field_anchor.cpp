@@ -85,8 +85,8 @@ void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const
   name_wanted_places();
   other_pairs_.clear();
   if (!anchor_) {
-    anchor_.emplace();
-    anchor_->places.assign(wanted_.positions.begin(), wanted_.positions.end());
+    anchor_ = {CoordinatePair::none, CoordinatePair::none, std::string(),
+               std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end())};
   }
 }
 
@@ -126,7 +126,7 @@ std::string FieldDimensionFinder::text_of_choice(const std::vector<PossiblePlace
 std::string FieldDimensionFinder::remark_on_grids() const {
   std::vector<std::string> others = other_pairs_;
   std::ranges::sort(others);
-  others.erase(std::ranges::unique(others).begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
   if (others.empty() || names_of_places().empty()) return {};
   std::string text;
   constexpr std::size_t most = 3;

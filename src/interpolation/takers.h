@@ -43,7 +43,7 @@ class FieldSums {
   }
 
  private:
-  // The same sum, times scale_of_large, of values that are multiplied by it first.
+  // Returns the sum of values that are multiplied by scale_of_large first.
   [[nodiscard]] double small_sum(std::size_t f, const Row& row) const {
     double sum = 0;
     for (const auto& [vertex, weight] : row) sum += weight * (scale_of_large * values_(f, vertex));

@@ -83,9 +83,9 @@ double inner_bound(Integer bound, bool is_lower) {
   if (is_double_of(bound)) return rounded;
   constexpr double end = std::is_signed_v<Integer> ? 0x1p63 : 0x1p64;
   const bool is_above = rounded >= end || static_cast<Integer>(rounded) > bound;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (is_lower) return is_above ? rounded : std::nextafter(rounded, infinity);
-  return is_above ? std::nextafter(rounded, -infinity) : rounded;
+  constexpr double no_bound = std::numeric_limits<double>::infinity();
+  if (is_lower) return is_above ? rounded : std::nextafter(rounded, no_bound);
+  return is_above ? std::nextafter(rounded, -no_bound) : rounded;
 }
 
 }  // namespace

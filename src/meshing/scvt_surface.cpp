@@ -20,7 +20,7 @@ constexpr std::size_t faces_at_a_time = 4096;
 // the projections; the rounding of differences, cross and dot product adds 10u of a product of
 // three lengths, none above 2: (3 * 6 + 2 * 10) u m, and second-order terms.
 constexpr double plane_error = 64 * 0x1p-53;
-// The same bound for the height of a plane over the center times 2 |area|.
+// The bound of the error of the height of a plane over the center times 2 |area|.
 constexpr double turn_error = 64 * 0x1p-53;
 
 double larger(double a, double b) { return a > b ? a : b; }

@@ -72,7 +72,7 @@ AxisPart between(std::span<const double> axis, double x) {
   return {next - 1, next, (x - axis[next - 1]) / (axis[next] - axis[next - 1])};
 }
 
-// The same around the circle, where the first longitude follows the last one.
+// Returns the part of a closed axis of longitudes, where the first longitude follows the last one.
 AxisPart between_longitudes(std::span<const double> axis, double lon) {
   double x = lon - 360 * std::floor((lon - axis.front()) / 360);
   if (x < axis.front()) x = axis.front();

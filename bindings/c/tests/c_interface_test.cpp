@@ -355,7 +355,7 @@ TEST(c_interface, every_failure_is_a_status_with_a_message) {
   EXPECT_EQ(rondel_error_index(), 7);
   EXPECT_NE(std::strstr(rondel_error_message(), "7"), nullptr) << rondel_error_message();
 
-  // Of this thread alone.
+  // The message is that of this thread alone.
   std::string elsewhere = "none";
   std::thread([&] { elsewhere = rondel_error_message(); }).join();
   EXPECT_EQ(elsewhere, "");
