@@ -30,7 +30,7 @@ bool is_known_name(std::string_view name, CoordinateKind kind);
 // units, 3 its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
 // Whether the standard_name says that these are coordinates of a rotated pole or of a map projection, whatever their units are (CF 5.6).
-RONDEL_API bool is_rotated_or_projected(const VariableHeader& variable);
+bool is_rotated_or_projected(const VariableHeader& variable);
 // Says so in a sentence without a full stop.
 std::string remark_on_rotation(const VariableHeader& variable);
 // Whether the names differ only in that one is of longitudes and the other one of latitudes: ULONG and ULAT, glamu and gphiu.

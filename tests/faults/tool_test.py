@@ -103,10 +103,10 @@ class Faults(unittest.TestCase):
         digits = b"9" * LONG
         self.write("long.csv", b"lon,lat\n0,0\n1," + digits + b"\n")
         self.expect_failure(["delaunay", "long.csv", "-o", "out.npy"],
-                            f'long.csv:3: latitude "{shown}" is not finite')
+                            f'long.csv:3: latitude "{shown}" is beyond the largest number')
         self.write("long.xyz", b"1 0 0\n" + digits + b" 0 0\n")
         self.expect_failure(["delaunay", "long.xyz", "-o", "out.npy"],
-                            f'long.xyz:2: x "{shown}" is not finite')
+                            f'long.xyz:2: x "{shown}" is beyond the largest number')
         self.write("long.csv", digits + b",lat\n0,0\n")
         self.expect_failure(["delaunay", "long.csv", "-o", "out.npy"],
                             "long.csv:1: no column for the longitude (lon, lng, long, longitude); "

@@ -123,7 +123,7 @@ TEST(mesh_spacing_files, variables_without_values_are_no_fields) {
   MeshWriter file;
   file.add("lon", {{"place", lon.size()}}, lon, eastward);
   file.add("lat", {{"place", lon.size()}}, lat, northward);
-  file.add("empty", {{"none", 0}}, {});
+  file.add("empty", {{"time", 0}}, {});
   file.add("record", {{"time", 0}, {"place", lon.size()}}, {});
   file.add("h", {{"place", lon.size()}}, spacings);
   file.write(path_of("empty.nc"));

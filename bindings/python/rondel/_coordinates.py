@@ -45,8 +45,8 @@ class Coordinates:
 
     def __init__(self, data: Any, lon: Hashable | None, lat: Hashable | None) -> None:
         headers = _headers(data)
-        texts = [(str(key), text) for key, text in data.attrs.items() if isinstance(text, str)]
-        if lon is None and lat is None and _core.is_planar(texts):
+        attributes = [(str(key), text) for key, text in data.attrs.items() if isinstance(text, str)]
+        if lon is None and lat is None and _core.is_planar(attributes):
             raise ValueError(
                 "the mesh is in the plane: on_a_sphere is NO; lon=NAME and lat=NAME name true "
                 "longitudes and latitudes, if there are any"
