@@ -60,8 +60,8 @@ void require_separate_files(const std::vector<NamedFile>& inputs,
     for (const NamedFile& input : inputs) {
       for (const std::string& file : readings(input.path)) {
         if (!are_one_file(file, output.path)) continue;
-        const std::string option = input.option;
-        throw UsageError(what + (option == "INPUT" ? "input" : "file of " + option));
+        if (std::string_view(input.option) == "INPUT") throw UsageError(what + "input");
+        throw UsageError(what + "file of " + input.option);
       }
     }
     for (std::size_t other = 0; other < k; ++other) {

@@ -123,15 +123,24 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
     if (!has_type(variable, name, NetcdfType::text)) continue;
     add_remark(variable, name, "is a text and taken for the number that it has");
   }
+  read_signedness(variable);
+  read_missing(variable);
+  read_range(variable);
+}
+
+void ValueRules::read_signedness(const NetcdfVariable& variable) {
   const std::string unsignedness = lower_case(netcdf_text(variable.attributes, "_Unsigned"));
   const bool is_known = unsignedness == "true" || unsignedness == "false";
   if (find_attribute(variable.attributes, "_Unsigned") != nullptr && !is_known) {
-    add_remark(variable, "_Unsigned", "is not heeded: it is neither \"true\" nor \"false\"");
+    add_remark(variable, "_Unsigned", R"(is not heeded: it is neither "true" nor "false")");
   }
   becomes_unsigned_ = unsignedness == "true" && is_signed_integer(type_);
   if (becomes_unsigned_ || (unsignedness == "false" && is_unsigned_integer(type_))) {
     wrapped_ = std::ldexp(1, static_cast<int>(8 * size_of(type_)));
   }
+}
+
+void ValueRules::read_missing(const NetcdfVariable& variable) {
   for (const char* name : {"_FillValue", "missing_value"}) {
     const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
     const std::vector<double> values = numbers_of_attribute(variable, name);
@@ -147,6 +156,9 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
     // That of 64-bit integers is no double, which the reader knows.
     (is_wide(type_) ? rounded_missing_ : missing_).push_back(as_type(default_fill(type_)));
   }
+}
+
+void ValueRules::read_range(const NetcdfVariable& variable) {
   const std::vector<double> range = numbers_of_attribute(variable, "valid_range");
   const std::vector<double> least = numbers_of_attribute(variable, "valid_min");
   const std::vector<double> most = numbers_of_attribute(variable, "valid_max");

@@ -43,6 +43,9 @@ class RONDEL_API ValueRules {
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
+  void read_signedness(const NetcdfVariable& variable);
+  void read_missing(const NetcdfVariable& variable);
+  void read_range(const NetcdfVariable& variable);
   void add_remark(const NetcdfVariable& variable, std::string_view attribute,
                   const std::string& what);
   [[nodiscard]] double as_type(double value) const;
