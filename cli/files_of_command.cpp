@@ -4,6 +4,7 @@
 #include "files_of_command.h"
 
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "command.h"
