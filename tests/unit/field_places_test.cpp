@@ -91,17 +91,19 @@ std::vector<std::string> names_of(const FieldSet& fields) {
 
 class FieldPlaces : public testing::Test {
  protected:
-  std::string path() const { return directory_.file("f.nc"); }
+  [[nodiscard]] std::string path() const { return directory_.file("f.nc"); }
 
-  FieldSet read(const std::vector<std::string>& names, std::uint64_t num_points = 0) const {
+  [[nodiscard]] FieldSet read(const std::vector<std::string>& names,
+                              std::uint64_t num_points = 0) const {
     return read_fields({path(), {}}, names, num_points);
   }
-  FieldSet read_at(const std::vector<std::string>& names, const std::vector<LonLat>& places) const {
+  [[nodiscard]] FieldSet read_at(const std::vector<std::string>& names,
+                                 const std::vector<LonLat>& places) const {
     return FieldFile({path(), {}}, names, places.size(), {}, {}, {places, 1e-9}).fields();
   }
   // What is said; empty if it is read.
   template <typename Read>
-  std::string refusal(const Read& read) const {
+  [[nodiscard]] std::string refusal(const Read& read) const {
     try {
       read();
     } catch (const FileError& error) {
