@@ -46,6 +46,8 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say them
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+# Sections "Attributes" of a class name what its properties document, too.
+napoleon_use_ivar = True
 napoleon_use_admonition_for_examples = False
 
 # Everything that a page needs lies beside it, and works from file://.
