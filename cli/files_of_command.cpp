@@ -14,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What is written to a device or a pipe replaces nothing.
+// Returns true if an output of this name replaces a file: standard output, devices and pipes do not.
 bool is_file_name(const std::string& path) {
   std::error_code error;
   return !path.empty() && path != "-" && !fs::is_other(path, error);
 }
 
-// Where the links of a path lead to, also where no file is there yet.
+// Follows the links of a path, also where no file is there yet.
 fs::path resolved(fs::path path) {
   constexpr int most_links = 40;  // as many as Linux follows
   std::error_code error;
@@ -37,7 +37,7 @@ bool are_one_file(const std::string& a, const std::string& b) {
   return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
 }
 
-// The files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a file of the whole name.
+// Returns the files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a file of the whole name.
 std::vector<std::string> readings(const std::string& input) {
   std::error_code error;
   if (!is_file_name(input)) return {};

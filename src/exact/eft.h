@@ -32,7 +32,7 @@ inline DoubleDouble fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-// A sum and its error so far take a term more: of many terms that cancel, as it were in twice the precision.
+// Adds a term to a sum and its error so far. A sum of many terms that cancel is as good as one in twice the precision.
 inline void add_term(double term, DoubleDouble& sum) {
   const DoubleDouble next = two_sum(sum.hi, term);
   sum = {next.hi, sum.lo + next.lo};
