@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "mesh.h"
+#include "report.h"
 #include "rondel/fields.h"
 #include "validate.h"
 #include "words.h"
@@ -76,6 +77,7 @@ void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool 
                       std::vector<std::uint8_t>& is_removed) {
   if (file.empty()) return;
   const PolygonTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
+  tell(table.name, table.remarks);
   std::vector<std::uint8_t> found;
   try {
     found = mesh::inside(arrays.cell_points, table.cells, execution);

@@ -49,6 +49,7 @@ CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& optio
                     {.edges = options.edges,
                      .overlap = is_refused ? PolygonOverlap::error : PolygonOverlap::keep},
                     job.execution());
+  tell(table.name, table.remarks);
   try {
     Partition partition(table.cells, job.execution());
     WeightSide side;

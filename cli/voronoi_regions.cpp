@@ -162,6 +162,7 @@ Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
     };
   }
   const PolygonTable polygons = read_polygons({options.clip, {}}, rules, execution);
+  tell(polygons.name, polygons.remarks);
   Groups values;
   if (!options.clip_value.empty()) {
     values =
@@ -287,6 +288,7 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
     const Execution execution = job.execution();
     table = read_features(options.common.source(),
                           {.edges = options.edges, .overlap = options.overlap}, execution);
+    tell(table.name, table.remarks);
     Groups groups;
     if (!options.group.empty()) {
       groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));

@@ -89,6 +89,7 @@ struct FeatureTable {
   FeatureLines lines;           ///< lines and points; a polygon has none here
   CellRings polygons;           ///< a cell for each feature, without rings where it has no polygon
   std::vector<Column> columns;  ///< the properties of the features
+  std::vector<std::string> remarks;  ///< as those of a PolygonTable
 };
 
 /// Reads a .geojson or .json file as read_polygons() does, with points, lines and collections of

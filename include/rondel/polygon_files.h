@@ -54,6 +54,8 @@ struct PolygonTable {
   std::string name;  ///< the file, for messages
   CellRings cells;
   std::vector<Column> columns;  ///< the properties of the features
+  std::vector<std::string>
+      remarks;  ///< sentences: which features rounding has left without an area
 };
 
 /// Reads polygons from .geojson or .json: Polygon, MultiPolygon, and collections of them, in

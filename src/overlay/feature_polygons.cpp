@@ -82,6 +82,7 @@ class FeatureCells {
   CellRings operator()() {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
     CellRings cells = is_geodesic ? geodesic_cells(features_, quiet()) : plane_cells();
+    look_for_vanished(cells);
     if (options_.overlap == PolygonOverlap::keep && !is_geodesic) {
       require_parts_apart(cells);
       return cells;
@@ -99,8 +100,24 @@ class FeatureCells {
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
+  // Returns a sentence on the features that have rings but no cell; empty if there are none.
+  [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
+  void look_for_vanished(const CellRings& cells) {
+    std::size_t num_vanished = 0;
+    std::size_t first = 0;
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
+      if (features_.rings[f].empty() || has_cell) continue;
+      if (num_vanished++ == 0) first = f;
+    }
+    if (num_vanished == 0) return;
+    remark_ = "feature " + feature_name(features_.columns, first);
+    if (num_vanished > 1) remark_ += " and " + std::to_string(num_vanished - 1) + " more";
+    remark_ += num_vanished > 1 ? " are" : " is";
+    remark_ += " no wider than rounding of the corners (some 2e-13 degrees), so nothing is left";
+  }
   [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
     refuse_feature(features_, feature, what);
   }
@@ -253,13 +270,17 @@ class FeatureCells {
   io::PolygonFeatures& features_;
   const PolygonOptions& options_;
   const Execution& execution_;
+  std::string remark_;
 };
 
 }  // namespace
 
 CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
-                            const Execution& execution) {
-  return FeatureCells(features, options, execution)();
+                            std::vector<std::string>& remarks, const Execution& execution) {
+  FeatureCells make(features, options, execution);
+  CellRings cells = make();
+  if (!make.remark().empty()) remarks.push_back(make.remark());
+  return cells;
 }
 
 }  // namespace rondel::overlay

@@ -8,15 +8,19 @@
 // index features
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "io/geojson_polygons.h"
 #include "rondel/cell_rings.h"
 #include "rondel/polygon_files.h"
 
 namespace rondel::overlay {
 
-// Returns the cells of all features. Throws FileError for polygons that bound no region, with the
-// feature, the ring and a place.
+// Returns the cells of all features, and adds a remark on features that rounding of their corners
+// has left without an area. Throws FileError for polygons that bound no region, with the feature,
+// the ring and a place.
 CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
-                            const Execution& execution);
+                            std::vector<std::string>& remarks, const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -71,8 +71,10 @@ PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
                            const Execution& execution) {
   const system::Call call(execution);
   io::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
-  CellRings cells = overlay::cells_of_features(features, options, execution);
-  return {std::move(features.name), std::move(cells), std::move(features.columns)};
+  std::vector<std::string> remarks;
+  CellRings cells = overlay::cells_of_features(features, options, remarks, execution);
+  return {std::move(features.name), std::move(cells), std::move(features.columns),
+          std::move(remarks)};
 }
 
 FeatureTable read_features(const FileName& file, const PolygonOptions& options,
@@ -80,9 +82,10 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
   const system::Call call(execution);
   io::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
   FeatureLines lines = lines_of_features(features, options);
-  CellRings polygons = overlay::cells_of_features(features, options, execution);
+  std::vector<std::string> remarks;
+  CellRings polygons = overlay::cells_of_features(features, options, remarks, execution);
   return {std::move(features.name), std::move(lines), std::move(polygons),
-          std::move(features.columns)};
+          std::move(features.columns), std::move(remarks)};
 }
 
 }  // namespace rondel

@@ -4,7 +4,6 @@
 #include "overlay/sound_cells.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -45,7 +44,8 @@ std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& 
     const std::vector<OwnedSide> sides = sides_of_cell(cells, cell, cell);
     if (Snaps(cells.points, sides).is_empty()) continue;
     const Subdivision one(rings_of(known, std::span(&place, 1)), false, 1);
-    if (!has_plain_sides(one, execution)) all.insert(all.end(), sides.begin(), sides.end());
+    if (has_plain_sides(one, execution) || has_balanced_crossing(cells, cell)) continue;
+    all.insert(all.end(), sides.begin(), sides.end());
   }
   return all;
 }
@@ -67,12 +67,13 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
         arcs.push_back({owner, cells.points[from], cells.points[to]});
       }
       const double before = areas(one).front();
-      one = rings_around(arcs, 1, 1);
-      // A rest that is narrower than rounding may be clockwise.
-      if (std::abs(areas(one).front() - before) > half_of_sphere) {
-        one = CellRings{};
-        one.cells.push_back(0);
+      CellRings rest = rings_around(arcs, 1, 1);
+      const Turn turn = turn_of({one, 0, before}, {rest, 0, areas(rest).front()});
+      if (turn == Turn::of_rounding) {
+        rest = CellRings{};
+        rest.cells.push_back(0);
       }
+      if (turn != Turn::of_wide_rings) one = std::move(rest);
       if (before > half_of_sphere && !has_any(one)) one.whole = {0};
     }
     append(one, result);

@@ -13,6 +13,7 @@
 
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
+#include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "overlay/snapped_sides.h"
 #include "overlay/sure_crossing.h"
@@ -79,10 +80,24 @@ bool has_wide_loop(std::span<const Point> ring) {
   return !rings_around(arcs, 1, 1).corners.empty();
 }
 
+double length_of(std::span<const Point> ring) {
+  double length = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    length += rough_length(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);
+  }
+  return length;
+}
+
+// True if a ring is wider than rounding of corners along a border of this length can make it.
+bool is_surely_wide(std::span<const Point> ring, double length) {
+  constexpr double surely = 64;
+  return std::abs(area_of_ring(ring).area) > surely * area_of_rounding(length);
+}
+
 // True if a ring has no area although it is wider than rounding, such as a bow tie with two equal
 // loops.
 bool is_balanced_crossing(std::span<const Point> ring) {
-  if (!area_of_ring(ring).is_nothing()) return false;
+  if (is_surely_wide(ring, length_of(ring)) && !area_of_ring(ring).is_nothing()) return false;
   std::vector<BorderArc> sides;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     sides.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]});
@@ -90,18 +105,22 @@ bool is_balanced_crossing(std::span<const Point> ring) {
   return has_sure_crossing(sides) || has_wide_loop(ring);
 }
 
-// Returns the arcs of a cell with turns removed, or nothing for a cell that crosses itself; whoever
-// overlays the cell reports it.
+std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
+  std::vector<Point> points;
+  points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
+  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
+    points.push_back(cells.points[cells.corners[k]]);
+  }
+  return points;
+}
+
+// Returns the arcs of a cell with turns removed, or nothing for a cell with a balanced crossing;
+// whoever overlays the cell reports it.
 std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::size_t cell,
                                                   Index key) {
   std::vector<KeyedArc> arcs;
-  std::vector<Point> ring;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-    ring.clear();
-    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-      ring.push_back(cells.points[cells.corners[k]]);
-    }
-    const std::vector<Point> kept = without_turns(ring);
+    const std::vector<Point> kept = without_turns(points_of_ring(cells, r));
     if (!kept.empty() && is_balanced_crossing(kept)) return std::nullopt;
     for (std::size_t k = 0; k < kept.size(); ++k) {
       arcs.push_back({key, kept[k], kept[k + 1 < kept.size() ? k + 1 : 0]});
@@ -115,25 +134,13 @@ std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::s
 // that share their border).
 void require_nothing(const CellRings& cells, std::size_t cell, std::span<const KeyedArc> arcs) {
   if (!is_nothing(arcs)) return;
-  std::vector<Point> ring;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-    ring.clear();
-    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-      ring.push_back(cells.points[cells.corners[k]]);
-    }
-    if (area_of_ring(ring).is_nothing()) continue;
+    if (area_of_ring(points_of_ring(cells, r)).is_nothing()) continue;
     throw InvalidInput("cell " + std::to_string(cell) +
                            " has all of its sides in both directions: it is nothing, or the whole "
                            "sphere, which has no rings",
                        cell);
   }
-}
-
-// True if a region was replaced by its complement, as happens if less than rounding is left of
-// either.
-bool is_turned(double before, double after) {
-  constexpr double half_of_sphere = 2 * std::numbers::pi;
-  return std::abs(after - before) > half_of_sphere;
 }
 
 std::size_t num_corners_of(const CellRings& cells, std::size_t cell) {
@@ -167,6 +174,29 @@ class NamesOfCorners {
 
 }  // namespace
 
+Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
+  constexpr double half_of_sphere = 2 * std::numbers::pi;
+  if (std::abs(after.area - before.area) < half_of_sphere) return Turn::none;
+  double length = 0;
+  for (std::uint64_t r = before.cells.cells[before.cell]; r < before.cells.cells[before.cell + 1];
+       ++r) {
+    length += length_of(points_of_ring(before.cells, r));
+  }
+  for (std::uint64_t r = after.cells.cells[after.cell]; r < after.cells.cells[after.cell + 1];
+       ++r) {
+    if (is_surely_wide(points_of_ring(after.cells, r), length)) return Turn::of_wide_rings;
+  }
+  return Turn::of_rounding;
+}
+
+bool has_balanced_crossing(const CellRings& cells, std::size_t cell) {
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    const std::vector<Point> kept = without_turns(points_of_ring(cells, r));
+    if (!kept.empty() && is_balanced_crossing(kept)) return true;
+  }
+  return false;
+}
+
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known) {
   if (known.areas_of_others.empty()) return std::nullopt;
   std::vector<Index> keys(cells.num_cells(), no_index);
@@ -185,9 +215,14 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   }
   const CellRings left = rings_around(arcs, num_keys, 1);
   const std::vector<double> areas_after = areas(left);
+  const auto turned = [&](std::size_t cell) {
+    const Index key = keys[cell];
+    return turn_of({cells, cell, areas_before[key]}, {left, key, areas_after[key]});
+  };
   const auto has_changed = [&](std::size_t cell) {
     return keys[cell] != no_index &&
-           num_corners_of(left, keys[cell]) != num_corners_of(cells, cell);
+           num_corners_of(left, keys[cell]) != num_corners_of(cells, cell) &&
+           turned(cell) != Turn::of_wide_rings;
   };
   CellRings result;
   bool has_any = false;
@@ -209,7 +244,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
       if (left.cells[key] == left.cells[key + std::size_t{1}]) {
         require_nothing(cells, i, std::span(arcs).subspan(begins[key], end - begins[key]));
       }
-      if (is_turned(areas_before[key], areas_after[key])) {
+      if (turned(i) == Turn::of_rounding) {
         if (areas_after[key] < areas_before[key]) result.whole.push_back(static_cast<Index>(i));
         result.cells.push_back(result.rings.size() - 1);
         continue;

@@ -4,6 +4,8 @@
 // Removes the parts of rings that have no inside.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "overlay/subdivision.h"
@@ -16,5 +18,21 @@ namespace rondel::overlay {
 // `cells`. Returns nothing if no cell changes. Throws InvalidInput for a cell of which nothing is
 // left although a ring of it is wider than rounding.
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known);
+
+// Whether tidying has made a region its complement: its area was less than half of the sphere, and
+// is more, or the other way. That happens where rounding is all that is left of one of the two; if
+// wide rings are left, the region crosses itself.
+enum class Turn : std::uint8_t { none, of_rounding, of_wide_rings };
+
+// A cell, and its area.
+struct MeasuredCell {
+  const CellRings& cells;
+  std::size_t cell;
+  double area;
+};
+Turn turn_of(const MeasuredCell& before, const MeasuredCell& after);
+
+// True if a ring of the cell crosses itself and has no area, such as a bow tie with two equal loops.
+bool has_balanced_crossing(const CellRings& cells, std::size_t cell);
 
 }  // namespace rondel::overlay

@@ -151,6 +151,19 @@ TEST(overlay_thin, a_thin_part_is_not_lost_where_a_side_has_many_corners) {
 }
 
 // Features west and east of a sliver, and the sliver.
+TEST(overlay_thin, what_rounding_leaves_nothing_of_is_told) {
+  const auto box = [](double width) {
+    return planar_polygon({{{10, 10}, {10 + width, 10}, {10 + width, 11}, {10, 11}}});
+  };
+  EXPECT_TRUE(planar_table({{box(1e-12)}}).remarks.empty());
+  const PolygonTable table = planar_table({{box(1)}, {box(2e-14)}, {box(1e-12)}, {box(1e-14)}});
+  ASSERT_EQ(table.remarks.size(), 1U);
+  EXPECT_EQ(table.remarks[0],
+            "feature 1 (f1) and 1 more are no wider than rounding of the corners (some 2e-13 "
+            "degrees), so nothing is left");
+  EXPECT_EQ(areas(table.cells)[1], 0);
+}
+
 TEST(overlay_thin, a_sliver_between_neighbors_is_a_cell_like_others) {
   const double width = 4e-11;
   const RingInPlane west = {{-30, -50}, {11, -50}, {-20 - width, 40}, {-30, 40}};

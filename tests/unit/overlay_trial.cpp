@@ -134,7 +134,7 @@ bool Trial::is_questionable() const {
 bool Trial::is_taken_for_nothing(double found) const {
   constexpr double half = 2 * std::numbers::pi;
   return found < half && oracle_.area(false).area > 2 * half - 1e-6 &&
-         oracle_.missing() < rounding_of(oracle_.length(), 0);
+         oracle_.missing() < 4 * rounding_of(oracle_.length(), 0);
 }
 
 void Trial::expect_areas() const {

@@ -82,10 +82,10 @@ std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
 
 // Returns the partition and the properties of its cells; polygons whose group is below 0 are left
 // out.
-std::tuple<Partition, CellColumns> read_polygon_partition(const std::string& path, bool is_geodesic,
-                                                          unsigned overlap,
-                                                          const std::optional<IndicesIn>& groups,
-                                                          unsigned threads) {
+// Returns the cells, the properties and the remarks of the reader.
+std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partition(
+    const std::string& path, bool is_geodesic, unsigned overlap,
+    const std::optional<IndicesIn>& groups, unsigned threads) {
   PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
                          .overlap = static_cast<PolygonOverlap>(overlap)};
   if (groups) {
@@ -96,7 +96,7 @@ std::tuple<Partition, CellColumns> read_polygon_partition(const std::string& pat
   return unlocked([&] {
     PolygonTable table = read_polygons(path, options, {.threads = threads});
     return std::tuple(Partition(table.cells, {.threads = threads}),
-                      CellColumns{std::move(table.columns)});
+                      CellColumns{std::move(table.columns)}, std::move(table.remarks));
   });
 }
 

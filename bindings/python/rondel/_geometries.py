@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
 
@@ -34,7 +35,12 @@ def read_polygons(
 ) -> Polygons:
     """The polygons of a file of GeoJSON; those with a group below 0 are left out."""
     rules = _is_geodesic(edges), _number_of(overlap), groups
-    return _read(name, lambda file: _core.read_polygon_partition(file, *rules, threads))
+    partition, columns, remarks = _read(
+        name, lambda file: _core.read_polygon_partition(file, *rules, threads)
+    )
+    for remark in remarks:
+        warnings.warn(remark, UserWarning, stacklevel=3)
+    return partition, columns
 
 
 def polygons_of(
