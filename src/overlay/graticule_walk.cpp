@@ -67,6 +67,13 @@ bool is_south_of(const SphereHeight& height, const Graticule::Parallel& parallel
   return is_polar(low, height) ? above < -of_gap * low.gap : above < 0;
 }
 
+// True if a place differs from a parallel by no more than rounding.
+bool is_about_on(const SphereHeight& height, const Graticule::Parallel& parallel) {
+  constexpr double of_sine = 8 * predicates::unit_roundoff;
+  const SphereHeight low = parallel.height();
+  return std::abs(rise(low, height)) <= of_sine * (is_polar(low, height) ? low.gap : 1);
+}
+
 // Sets the point of a place, and what follows from it except for the column.
 void set_point(GraticulePlace& place, const Point& point) {
   place.point = point;
@@ -197,9 +204,14 @@ bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace
   const SphereHeight south = (is_rising ? from : to).height();
   const SphereHeight north = (is_rising ? to : from).height();
   const Index row = row_of(extreme.height());
-  // An arc from the north that ends on a parallel has met that parallel before.
-  const bool is_met_twice = row > row_of(south) && rise(grid_.parallel(row).height(), north) == 0;
-  if (row >= row_of(south) && row <= row_of(north) && !is_met_twice) return false;
+  const Index southern = row_of(south);
+  const Index northern = row_of(north);
+  // An arc that comes back to a parallel from beyond it, and ends there, has met it before.
+  const bool comes_back = row == northern ? is_about_on(north, grid_.parallel(row))
+                                          : is_about_on(south, grid_.parallel(row + 1));
+  const bool is_met_twice =
+      southern < northern && (row == northern || row == southern) && comes_back;
+  if (row >= southern && row <= northern && !is_met_twice) return false;
   const auto east_of = [&](const GraticulePlace& place) {
     const double turned = turn(place) - turn(from);
     return turned < -1 ? turned + 2 * pi : turned;
@@ -220,6 +232,11 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
   if (!is_wrapped && to.column < from.column) return;  // the arc has no width except for rounding
   Index steps = to.column - from.column + (is_wrapped ? num_columns : 0);
   GraticulePlace last = from;
+  Index row = row_of(from.height());
+  const Index last_row = row_of(to.height());
+  // The arc is in the rows of its ends and between them, but its points on meridians are rounded.
+  const Index southern = std::min(row, last_row);
+  const Index northern = std::max(row, last_row);
   for (; steps > 0; --steps) {
     const Point& border = grid_.eastern_meridian(last.column);
     const double east = std::max(side(border, to.point), 0.0);
@@ -234,20 +251,20 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
       next.gap = to.gap;
     }
     next.offset = grid_.columns()[last.column].width;
-    append_rows(last, next, out);
+    const Index next_row = std::clamp(row_of(next.height()), southern, northern);
+    append_rows(last, row, next, next_row, out);
     last = next;
+    row = next_row;
     last.column = last.column + 1 < num_columns ? last.column + 1 : 0;
     last.offset = 0;
   }
-  append_rows(last, to, out);
+  append_rows(last, row, to, last_row, out);
 }
 
 // Appends the strips of an arc in one column, row by row.
-void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace& to,
-                                const Out& out) const {
+void GraticuleWalk::append_rows(const GraticulePlace& from, Index row, const GraticulePlace& to,
+                                Index last_row, const Out& out) const {
   if (!(from.offset < to.offset)) return;
-  Index row = row_of(from.height());
-  const Index last_row = row_of(to.height());
   GraticulePlace last = from;
   while (row != last_row) {
     const bool is_north = last_row > row;

@@ -76,7 +76,8 @@ class GraticuleWalk {
                                            bool is_north) const;
   // Appends the strips of an arc that leads from west to east.
   void append_columns(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
-  void append_rows(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
+  void append_rows(const GraticulePlace& from, Index row, const GraticulePlace& to, Index last_row,
+                   const Out& out) const;
   void append_strip(const GraticulePlace& from, const GraticulePlace& to, Index row,
                     const Out& out) const;
 

@@ -268,6 +268,85 @@ TEST(overlay_grid, sides_over_the_pole) {
   }
 }
 
+// Cells between great circles through the corners of a grid, each coordinate of which is off by up to `noise`.
+CellRings cells_of_corners_of(const LonLatGrid& grid, double noise, Random& random) {
+  const std::size_t columns = grid.lon_deg.size() - 1;
+  const std::size_t rows = grid.lat_deg.size() - 1;
+  const auto off = [&] { return noise * (2 * random.unit() - 1); };
+  CellRings cells;
+  for (std::size_t r = 0; r <= rows; ++r) {
+    const bool is_pole = std::abs(grid.lat_deg[r]) == 90;
+    for (std::size_t c = 0; c < columns; ++c) {
+      const Point p = unit_vector(LonLat{is_pole ? 0 : grid.lon_deg[c], grid.lat_deg[r]});
+      cells.points.push_back(
+          is_pole || noise == 0 ? p : normalized(Point{p.x + off(), p.y + off(), p.z + off()}));
+    }
+  }
+  const auto corner = [&](std::size_t r, std::size_t c) {
+    const bool is_pole = std::abs(grid.lat_deg[r]) == 90;
+    return static_cast<Index>(r * columns + (is_pole ? 0 : c % columns));
+  };
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      std::vector<Index> ring = {corner(r, c), corner(r, c + 1), corner(r + 1, c + 1),
+                                 corner(r + 1, c)};
+      ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+      cells.corners.insert(cells.corners.end(), ring.begin(), ring.end());
+      cells.rings.push_back(cells.corners.size());
+      cells.cells.push_back(cells.rings.size() - 1);
+    }
+  }
+  return cells;
+}
+
+// The area between a parallel and the arc of a great circle over so many degrees of longitude, which is poleward.
+double area_of_arc(double lat_deg, double width_deg) {
+  constexpr long double degree = half_turn / 180;
+  const long double sine = std::sin(std::abs(lat_deg) * degree);
+  const long double half = width_deg * degree / 2;
+  return static_cast<double>(2 * (std::atan(sine * std::tan(half)) - sine * half));
+}
+
+// Cells of a mesh have the lines of the grid but for rounding, and arcs between corners instead of parallels: each has its
+// box but for the bulges of its sides.
+TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
+  Random random(5);
+  for (const double step : {4.0, 5.0, 6.0, 12.0, 15.0, 20.0}) {
+    const auto columns = static_cast<std::size_t>(360 / step);
+    const std::size_t rows = columns / 2;
+    const LonLatGrid grid = regular_grid(columns, rows);
+    const Partition boxes = Partition::lonlat_grid(grid);
+    for (const double noise : {0.0, 1e-16, 2e-16, 1e-15}) {
+      SCOPED_TRACE(std::to_string(step) + ' ' + std::to_string(noise));
+      const Partition mesh(cells_of_corners_of(grid, noise, random));
+      const bool is_source = random.below(2) == 0;
+      const Remap remap = is_source ? rondel::remap(mesh, boxes) : rondel::remap(boxes, mesh);
+      for (std::size_t r = 0; r < rows; ++r) {
+        const double south = grid.lat_deg[r];
+        const double north = grid.lat_deg[r + 1];
+        const double above = north > 0 && north < 90 ? area_of_arc(north, step) : 0;
+        const double below = south < 0 && south > -90 ? area_of_arc(south, step) : 0;
+        const double of_box = boxes.areas()[r * columns];
+        const double inside = of_box - (south > 0 ? area_of_arc(south, step) : 0) -
+                              (north < 0 ? area_of_arc(north, step) : 0);
+        for (std::size_t c = 0; c < columns; ++c) {
+          const std::size_t cell = r * columns + c;
+          const auto piece = [&](std::size_t box) {
+            return is_source ? piece_of(remap, cell, box) : piece_of(remap, box, cell);
+          };
+          EXPECT_NEAR(piece(cell), inside, 16 * (ulp + noise)) << cell;
+          if (above > 0) {
+            EXPECT_NEAR(piece(cell + columns), above, 16 * (ulp + noise)) << cell;
+          }
+          if (below > 0) {
+            EXPECT_NEAR(piece(cell - columns), below, 16 * (ulp + noise)) << cell;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(overlay_grid, of_few_cells) {
   for (const std::size_t n : {1U, 2U, 3U, 4U}) {
     const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 15));
