@@ -199,10 +199,14 @@ Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& trian
     return cut;
   }
   Regions regions = regions_of(options, execution);
-  if (options.clip_value.empty()) {
-    cut.cells = clip(all, regions.partition, execution);
-  } else {
-    cut.pieces = intersection(all, regions.partition, execution);
+  try {
+    if (options.clip_value.empty()) {
+      cut.cells = clip(all, regions.partition, execution);
+    } else {
+      cut.pieces = intersection(all, regions.partition, execution);
+    }
+  } catch (const InvalidInput& error) {
+    throw FileError(options.clip + ": " + error.what());
   }
   cut.values = std::move(regions.values);
   return cut;

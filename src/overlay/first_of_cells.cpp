@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "overlay/overlaps.h"
+#include "overlay/partition_data.h"
 #include "overlay/same_nodes.h"
 #include "rondel/partition.h"
 
@@ -21,12 +23,20 @@ namespace {
 
 constexpr std::size_t no_layer = static_cast<std::size_t>(-1);
 
-// Returns the layer of each cell that overlaps another one, or no_layer.
-std::vector<std::size_t> layers_of(std::size_t num_cells, std::span<const CrossingCells> overlaps) {
+// Returns the layer of each cell that overlaps another one, or no_layer. Cells of one layer are
+// apart: where they overlapped by less than rounding, the border of their union could cross itself.
+std::vector<std::size_t> layers_of(const CellRings& cells, std::span<const CrossingCells> overlaps,
+                                   const Execution& execution) {
+  const std::size_t num_cells = cells.num_cells();
   std::vector<std::size_t> layers(num_cells, no_layer);
-  std::vector<std::vector<Index>> earlier(num_cells);
   for (const CrossingCells& pair : overlaps) layers[pair.first] = layers[pair.second] = 0;
+  const Partition partition(cells, execution);
+  std::vector<std::vector<Index>> earlier(num_cells);
   for (const CrossingCells& pair : overlaps) earlier[pair.second].push_back(pair.first);
+  for (const auto& [a, b] :
+       near_cells(PartitionData::of(partition).subdivision(), execution.threads)) {
+    if (layers[a] != no_layer && layers[b] != no_layer) earlier[b].push_back(a);
+  }
   std::vector<std::size_t> taken;
   for (std::size_t c = 0; c < num_cells; ++c) {
     if (layers[c] == no_layer) continue;
@@ -85,7 +95,7 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
                          const Execution& execution) {
   if (overlaps.empty()) return cells;
   const std::size_t n = cells.num_cells();
-  const std::vector<std::size_t> layers = layers_of(n, overlaps);
+  const std::vector<std::size_t> layers = layers_of(cells, overlaps, execution);
   std::size_t num_layers = 1;
   for (const std::size_t layer : layers) {
     if (layer != no_layer) num_layers = std::max(num_layers, layer + 1);
@@ -93,8 +103,8 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
   CellRings all = with_outside(cells_of_layer(cells, layers, 0), execution);
   for (std::size_t layer = 1; layer < num_layers; ++layer) {
     const CellRings next = with_outside(cells_of_layer(cells, layers, layer), execution);
-    const RegionPieces pieces =
-        intersection(Partition(all, execution), Partition(next, execution), execution);
+    const RegionPieces pieces = intersection(PartitionData::of_apart(all, execution),
+                                             PartitionData::of_apart(next, execution), execution);
     std::vector<Index> owners(pieces.num_pieces());
     for (std::size_t k = 0; k < owners.size(); ++k) {
       owners[k] = std::min(pieces.cells[k], pieces.regions[k]);

@@ -312,6 +312,15 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
   return found;
 }
 
+std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (const auto& [filled, other] : candidates_of(cells, threads)) {
+    pairs.push_back(std::minmax(cells.names[filled], cells.names[other]));
+  }
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
 std::string message_of(const CrossingCells& overlap) {
   std::array<char, 64> at{};
   const LonLat position = map::lonlat_of(overlap.place, true);

@@ -10,6 +10,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "overlay/subdivision.h"
@@ -23,6 +24,10 @@ namespace rondel::overlay {
 // indices of cells that are the whole sphere.
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
+
+// Returns the pairs of cells that may overlap, also by less than rounding, with the lower index of
+// the input first. Others are certainly apart.
+std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads);
 
 // Returns "cells 3 and 17 overlap at 12.5000 40.2500", or a text that says that a cell crosses or
 // overlaps itself.

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -32,6 +33,11 @@ class PartitionData {
 
   [[nodiscard]] static const PartitionData& of(const Partition& partition) {
     return *partition.data_;
+  }
+  // Returns cells that are known not to overlap each other or themselves, as they are.
+  [[nodiscard]] static Partition of_apart(const CellRings& cells, const Execution& execution) {
+    return Partition(std::make_shared<const PartitionData>(
+        Subdivision(cells, false, execution.threads), cells.whole, execution.threads, true));
   }
 
   // Returns the grid, or null if the cells are not between meridians and parallels.

@@ -94,15 +94,17 @@ bool is_surely_wide(std::span<const Point> ring, double length) {
   return std::abs(area_of_ring(ring).area) > surely * area_of_rounding(length);
 }
 
-// True if a ring has no area although it is wider than rounding, such as a bow tie with two equal
-// loops.
-bool is_balanced_crossing(std::span<const Point> ring) {
-  if (is_surely_wide(ring, length_of(ring)) && !area_of_ring(ring).is_nothing()) return false;
+// True if a ring has no area, but for rounding, as one with two equal loops.
+bool is_balanced(std::span<const Point> ring) {
+  return !is_surely_wide(ring, length_of(ring)) || area_of_ring(ring).is_nothing();
+}
+
+bool crosses_surely(std::span<const Point> ring) {
   std::vector<BorderArc> sides;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     sides.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]});
   }
-  return has_sure_crossing(sides) || has_wide_loop(ring);
+  return has_sure_crossing(sides);
 }
 
 std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
@@ -121,7 +123,9 @@ std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::s
   std::vector<KeyedArc> arcs;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
     const std::vector<Point> kept = without_turns(points_of_ring(cells, r));
-    if (!kept.empty() && is_balanced_crossing(kept)) return std::nullopt;
+    if (!kept.empty() && is_balanced(kept) && (crosses_surely(kept) || has_wide_loop(kept))) {
+      return std::nullopt;
+    }
     for (std::size_t k = 0; k < kept.size(); ++k) {
       arcs.push_back({key, kept[k], kept[k + 1 < kept.size() ? k + 1 : 0]});
     }
@@ -192,7 +196,7 @@ Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell) {
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
     const std::vector<Point> kept = without_turns(points_of_ring(cells, r));
-    if (!kept.empty() && is_balanced_crossing(kept)) return true;
+    if (!kept.empty() && is_balanced(kept) && crosses_surely(kept)) return true;
   }
   return false;
 }

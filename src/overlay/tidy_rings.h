@@ -32,7 +32,8 @@ struct MeasuredCell {
 };
 Turn turn_of(const MeasuredCell& before, const MeasuredCell& after);
 
-// True if a ring of the cell crosses itself and has no area, such as a bow tie with two equal loops.
+// True if a ring of the cell crosses itself by more than rounding and has no area, such as a bow tie
+// with two equal loops.
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell);
 
 }  // namespace rondel::overlay

@@ -236,5 +236,41 @@ TEST(overlay_overlaps, places_of_several_cells_of_both_sides_are_shared) {
   }
 }
 
+// Borders that were written twice and do not quite agree: boxes whose corners are off, each by itself.
+TEST(overlay_overlaps, the_first_of_features_whose_borders_nearly_agree) {
+  Random random(11);
+  constexpr double size = 4;
+  constexpr int num_columns = 3;
+  for (std::size_t i = 0, n = scaled(60); i < n; ++i) {
+    const double noise = std::pow(10.0, -14 + 12 * random.unit());
+    SCOPED_TRACE(std::to_string(i) + ' ' + std::to_string(noise));
+    const auto off = [&](double lon, double lat) {
+      return LonLat{lon + noise * (2 * random.unit() - 1), lat + noise * (2 * random.unit() - 1)};
+    };
+    std::vector<std::vector<std::string>> features;
+    const double shear = random.unit();
+    for (int k = 0; k < num_columns * num_columns; ++k) {
+      const double west = size * (k % num_columns);
+      const double south = 20 + size * (k / num_columns);
+      const double bottom = west + shear * (south - 20);
+      const double top = bottom + shear * size;
+      features.push_back(
+          {planar_polygon({{off(bottom, south), off(bottom + size, south),
+                            off(top + size, south + size), off(top, south + size)}})});
+    }
+    const PolygonTable kept = planar_table(features);
+    const PolygonTable first = planar_table(features, {.overlap = PolygonOverlap::first});
+    EXPECT_TRUE(overlapping_cells(first.cells).empty());
+    const std::vector<double> before = areas(kept.cells);
+    const std::vector<double> after = areas(first.cells);
+    const double of_border = 4 * size * noise * 3 * std::pow(std::numbers::pi / 180, 2);
+    for (std::size_t f = 0; f < before.size(); ++f) {
+      EXPECT_NEAR(after[f], before[f], of_border + 1e-13) << f;
+      EXPECT_LE(after[f], before[f] + 1e-13) << f;
+    }
+    EXPECT_NEAR(after[0], before[0], 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test
