@@ -150,7 +150,8 @@ def compiler_arguments(build, layer):
 
 def refused(message, layer, spans):
     """The numbers of the changes that a compiler refuses: those on the lines of its errors, or else, as an error may be
-    reported where a template is used, on all lines that it mentions; `spans` has (file, first line, last line) by number."""
+    reported where a template is used, on all lines that it mentions, or else, as a constant is computed elsewhere, in the
+    files of its errors; `spans` has (file, first line, last line) by number."""
     for pattern in (r"error:", r""):
         lines = {(file, int(line)) for file, line in
                  re.findall(rf"\b(src/{layer}/[\w.]+):(\d+):[^\n]*{pattern}", message)}
@@ -158,4 +159,5 @@ def refused(message, layer, spans):
                    if any(f == file and first <= line <= last for f, line in lines)}
         if numbers:
             return numbers
-    return set()
+    files = set(re.findall(rf"\b(src/{layer}/[\w.]+):\d+:[^\n]*error:", message))
+    return {number for number, (file, _, _) in spans.items() if file in files}
