@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -110,7 +111,49 @@ struct AppliedCounts {
   std::size_t missing = 0;
 };
 
-// Applies the weights slice by slice, so that fields may be larger than memory.
+// Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so that
+// fields may be larger than memory. Values that are missing are NaN.
+template <typename Function>
+void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
+                    const FieldFile& in, Function take) {
+  const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
+  const std::size_t of_slice = std::max<std::size_t>(most_values / largest, 1);
+  ApplyOptions unfilled = options.apply;
+  unfilled.fill = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values;
+  std::vector<double> applied;
+  for (std::size_t a = 0; a < in.fields().arrays.size(); ++a) {
+    const std::size_t num_fields = in.fields().arrays[a].num_fields();
+    for (std::size_t first = 0; first < num_fields; first += of_slice) {
+      const std::size_t count = std::min(of_slice, num_fields - first);
+      values.resize(count * weights.num_columns);
+      applied.resize(count * weights.num_rows());
+      in.read(a, first, values);
+      job.time(Stage::query,
+               [&] { apply(weights, values, applied, count, unfilled, job.execution()); });
+      take(std::span<double>(applied));
+    }
+  }
+}
+
+// Whether a value that is not missing is the number that --fill gives to those that are. Then
+// `_FillValue` in a file of netCDF would make it missing. This applies the weights once more.
+bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const Weights& weights,
+                           const FieldFile& in) {
+  const double fill = options.apply.fill;
+  if (std::isnan(fill) || !is_netcdf_file(options.common.target())) return false;
+  bool is_found = false;
+  for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
+    is_found = is_found || std::ranges::count(applied, fill) != 0;
+  });
+  if (is_found) {
+    tell(options.common.output,
+         {"values that are not missing are the number of --fill, too: the file has no _FillValue, "
+          "and does not tell which values were missing"});
+  }
+  return is_found;
+}
+
 AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                         const FieldFile& in) {
   const Weights& weights = file.weights;
@@ -119,27 +162,18 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   out.arrays = in.fields().arrays;
   out.axes = in.fields().axes;
   out.fill = options.apply.fill;
+  out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
   FieldWriter writer(options.common.target(), out, file.target, options.netcdf);
   AppliedCounts counts;
-  const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
-  const std::size_t of_slice = std::max<std::size_t>(most_values / largest, 1);
-  std::vector<double> values;
-  std::vector<double> applied;
-  for (std::size_t a = 0; a < out.arrays.size(); ++a) {
-    const std::size_t num_fields = out.arrays[a].num_fields();
-    for (std::size_t first = 0; first < num_fields; first += of_slice) {
-      const std::size_t count = std::min(of_slice, num_fields - first);
-      values.resize(count * weights.num_columns);
-      applied.resize(count * weights.num_rows());
-      in.read(a, first, values);
-      job.time(Stage::query,
-               [&] { apply(weights, values, applied, count, options.apply, job.execution()); });
-      job.time(Stage::write, [&] { writer.write(applied); });
-      counts.missing += static_cast<std::size_t>(std::ranges::count_if(
-          applied, [&](double value) { return value != value || value == out.fill; }));
+  for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
+    for (double& value : applied) {
+      if (!std::isnan(value)) continue;
+      value = out.fill;
+      ++counts.missing;
     }
-    counts.fields += num_fields;
-  }
+    job.time(Stage::write, [&] { writer.write(applied); });
+  });
+  for (const FieldArray& array : out.arrays) counts.fields += array.num_fields();
   job.time(Stage::write, [&] { writer.finish(); });
   return counts;
 }

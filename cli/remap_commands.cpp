@@ -79,7 +79,8 @@ Command add_apply_command(CLI::App& tool) {
              "it as 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15; may be repeated");
   parser
       ->add_option("--fill", options->apply.fill,
-                   "The value of targets that have none (default: nan)")
+                   "The value of targets that have none (default: nan); in netCDF also the\n"
+                   "attribute _FillValue, unless other targets have this value")
       ->type_name("VALUE");
   parser
       ->add_option("--most-missing", options->apply.most_missing,

@@ -56,6 +56,9 @@ struct FieldSet {
   /// The number that stands for missing values in a file that is written (`_FillValue`). Values
   /// that were read have NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();
+  /// Whether variables of netCDF that are written have the attribute `_FillValue`. Without it no
+  /// value of theirs is missing, so they must have no NaN.
+  bool is_fill_marked = true;
   /// Sentences that say which variables of netCDF were left out, and why.
   std::vector<std::string> remarks;
   /// A sentence about other grids of the file, if neither a name nor places say which one is meant;

@@ -138,7 +138,9 @@ class NetcdfSink : public FieldSink {
       std::vector<std::size_t> dimensions = leading[a];
       dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
       std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
-      attributes.push_back({"_FillValue", NetcdfType::float64, {}, {fields.fill}});
+      if (fields.is_fill_marked) {
+        attributes.push_back({"_FillValue", NetcdfType::float64, {}, {fields.fill}});
+      }
       if (points_.needs_coordinates()) {
         attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
       }
