@@ -7,7 +7,9 @@
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
+#include "io/cf_names.h"
 #include "io/cf_reader.h"
+#include "io/number.h"
 #include "system/shortest_text.h"
 
 namespace rondel::interpolation {
@@ -31,10 +33,27 @@ std::string known_method(const std::string& method) {
                                   : "Distance weighted avg of nearest neighbors";
 }
 
+// Reads what the weights are, in upper or lower case, as programs write both.
+void require_normalization(WeightFile& content) {
+  if (content.normalization.empty()) {
+    content.remarks.emplace_back(
+        "there is no attribute normalization: the weights are taken for those of means");
+    return;
+  }
+  const std::string word = io::lower_case(io::without_blanks(content.normalization));
+  if (word != "none" && word != "destarea" && word != "fracarea") {
+    throw io::BadValue("the attribute normalization is " + io::in_quotes(content.normalization) +
+                       " where \"none\", \"destarea\" or \"fracarea\" says what the weights are");
+  }
+  content.normalization = word;
+}
+
 // SCRIP's weights of the normalization "none" are the areas of the pieces (Jones, SCRIP Users' Guide 1.5, sections 2.2.3 and 3).
 void divide_by_areas(const io::NetcdfReader& file, WeightFile& content) {
-  const bool is_conservative = content.method.find("onserv") != std::string::npos;
-  if (!is_conservative || content.normalization != "none" || has_own_method(file)) return;
+  const bool is_conservative = io::lower_case(content.method).find("conserv") != std::string::npos;
+  if (!is_conservative || has_own_method(file)) return;
+  require_normalization(content);
+  if (content.normalization != "none") return;
   const std::string area = names_of("dst").area;
   const std::vector<double>& areas = content.target.areas;
   Weights& weights = content.weights;

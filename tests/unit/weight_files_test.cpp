@@ -317,15 +317,30 @@ TEST(weight_files, of_scrip_that_are_areas_are_divided_by_those_of_targets) {
   ASSERT_EQ(divided.remarks.size(), 1U);
   EXPECT_NE(divided.remarks[0].find("dst_grid_area"), std::string::npos);
   EXPECT_TRUE(check_weights(divided).faults.empty());
-  // What is a mean already stays: other normalizations and methods, and none at all.
+  // Programs write the word in upper and lower case.
+  for (const char* word : {"None", "NONE"}) {
+    EXPECT_EQ(read_areas(directory, {.normalization = word}).weights.values,
+              divided.weights.values);
+  }
+  // What is a mean already stays: other normalizations and methods.
   for (const ScripAreas& other :
        {ScripAreas{.normalization = "destarea"}, ScripAreas{.normalization = "fracarea"},
-        ScripAreas{.normalization = ""}, ScripAreas{.method = "Bilinear remapping"}}) {
+        ScripAreas{.method = "Bilinear remapping"}}) {
     const WeightFile read = read_areas(directory, other);
     EXPECT_EQ(read.weights.values, as_written) << other.normalization << other.method;
     EXPECT_EQ(read.normalization, other.normalization);
     EXPECT_TRUE(read.remarks.empty());
   }
+  EXPECT_EQ(read_areas(directory, {.normalization = "DestArea"}).normalization, "destarea");
+  // Nothing says what the weights are, or nothing that is known.
+  const WeightFile unsaid = read_areas(directory, {.normalization = ""});
+  EXPECT_EQ(unsaid.weights.values, as_written);
+  ASSERT_EQ(unsaid.remarks.size(), 1U);
+  EXPECT_NE(unsaid.remarks[0].find("no attribute normalization"), std::string::npos);
+  EXPECT_NE(message_of([&] {
+              (void)read_areas(directory, {.normalization = "srcarea"});
+            }).find("the attribute normalization is \"srcarea\""),
+            std::string::npos);
   // A target without entries needs no area.
   EXPECT_EQ(read_areas(directory, {.areas = {0.5, 0.25, 0}}).weights.values[2], 0.5);
   EXPECT_NE(message_of([&] {
