@@ -82,6 +82,21 @@ CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& 
   return side_of_sites(file, options, job);
 }
 
+// Errors name the file that has the cell.
+Remap remapped(const RemapCommandOptions& options, const CellSide& source, const CellSide& target,
+               const RemapOptions& remap_options, const Job& job) {
+  try {
+    return rondel::remap(source.partition, target.partition, remap_options, job.execution());
+  } catch (const InvalidInput& error) {
+    const std::string text = error.what();
+    const std::string& input = options.common.input;
+    const std::string file = text.starts_with("source")   ? input
+                             : text.starts_with("target") ? options.target
+                                                          : input + " to " + options.target;
+    throw FileError(file + ": " + text);
+  }
+}
+
 void report(Job& job, const WeightFile& file, const std::string& output) {
   std::size_t empty = 0;
   const Weights& weights = file.weights;
@@ -127,8 +142,7 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   remap_options.target_mask = target->side.mask;
   WeightFile file;
   job.time(Stage::query, [&] {
-    Remap remap =
-        rondel::remap(source->partition, target->partition, remap_options, job.execution());
+    Remap remap = remapped(options, *source, *target, remap_options, job);
     file.weights = std::move(remap.weights);
     file.source = std::move(source->side);
     file.target = std::move(target->side);

@@ -89,8 +89,9 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
     std::vector<std::string>* remarks = nullptr);
 
 /// Finds the pairs of coordinates that one variable may be at, the best first: the pairs that it is
-/// a part of itself; or else those that its own attribute `coordinates` lists; or else all pairs
-/// whose dimensions it has.
+/// a part of itself; or else those that its own attribute `coordinates` lists, or by UGRID its
+/// `mesh` for its `location`; or else all pairs whose dimensions it has. Here vertices and edges of
+/// MPAS and ICON count, too: `lonVertex`, `latEdge`, `vlon`, `elat` ...
 /// \param variable  the index of the variable
 /// \throws InvalidInput if there is no such variable
 RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHeader> variables,
@@ -152,8 +153,8 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 /// \throws InvalidInput for less than two values without bounds, a number that is not finite, is out
 ///         of order or repeats the one before it (its index), another number of bounds, cells with a
 ///         gap between them or that overlap (the index of the second one), longitudes that go around
-///         the globe more than once, and a coordinate that is farther from the middle of its cell
-///         than three halves of the cell's width (its index)
+///         the globe more than once, a coordinate that is farther from the middle of its cell
+///         than three halves of the cell's width, and a latitude or bound beyond a pole (its index)
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);
 

@@ -82,7 +82,7 @@ RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution
 ///    order of the first of their two vertices.
 /// 3. Such files do not contain the radius and the density; `options` do.
 /// \param remarks  gets the remarks of the file's cells (CellTable): how many are masked, which of
-///                 several meshes is read
+///                 several meshes is read; and which variables of the file are no part of the mesh
 /// \throws FileError also if the file has no centers, or if a corner of a cell is farther than a
 ///         thousandth of the spacing from that of the Voronoi cell; with a border, if more than
 ///         three cells, or three and the border, meet in a corner.

@@ -9,6 +9,7 @@
 #include <functional>
 
 #include "io/bad_value.h"
+#include "io/netcdf_groups.h"
 #include "io/number.h"
 
 namespace rondel::interpolation {
@@ -62,7 +63,8 @@ std::vector<const ChosenVariable*> meant_variables(const io::NetcdfReader& file,
 std::vector<const ChosenVariable*> variables_to_read(const io::NetcdfReader& file,
                                                      std::span<const std::string> names) {
   std::vector<const ChosenVariable*> variables;
-  for (const std::string& name : names) {
+  for (const std::string& given : names) {
+    const std::string name = io::full_name(file.variables(), given);
     const std::vector<const ChosenVariable*> meant = meant_variables(file, name);
     if (!meant.empty()) variables.push_back(meant.front());
   }

@@ -220,4 +220,20 @@ bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
       headers_, [&](const VariableHeader& other) { return other.text("bounds") == header.name; });
 }
 
+bool FieldDimensionFinder::is_lost(const LayoutVariable& variable) const {
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  const VariableHeader& header = headers_[index];
+  if (!header.is_number || parts_of_grids_[index]) return false;
+  if (header.shape.empty()) {
+    // Mappings and topologies are numbers without a meaning.
+    return header.text("grid_mapping_name").empty() && header.text("cf_role").empty() &&
+           header.text("standard_name") != "mesh_topology";
+  }
+  return std::ranges::any_of(headers_, [&](const VariableHeader& other) {
+    return other.text("bounds") == header.name &&
+           io::coordinate_evidence(other, io::CoordinateKind::lon) == 0 &&
+           io::coordinate_evidence(other, io::CoordinateKind::lat) == 0;
+  });
+}
+
 }  // namespace rondel::interpolation

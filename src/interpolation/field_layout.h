@@ -11,7 +11,8 @@
 //    multiply to that. Not so where the file has longitudes and latitudes of as many points: then the variable is no field at them.
 //    All fields have the same dimensions; where several fit, nothing says which, and that is an error.
 // 4. Where the lengths of the points' grid are known and those of the dimensions are the same in reverse, the order is reversed; where
-//    they are others, the variable is no field at the points.
+//    they are others, the variable is no field at the points. Where both lengths are equal, names of dimensions and single axes decide
+//    (field_orientation.cpp), and where these say nothing, that is told.
 #pragma once
 
 #include <cstddef>
@@ -25,6 +26,7 @@
 
 #include "interpolation/field_formats.h"
 #include "io/bad_value.h"
+#include "io/cf_names.h"
 #include "io/netcdf_reader.h"
 #include "rondel/conventions.h"
 #include "rondel/types.h"
@@ -75,6 +77,8 @@ class FieldDimensionFinder {
   [[nodiscard]] std::string remark_on_grids() const;
   // Whether the variable is a coordinate, bounds, or a part of a mesh or grid: no field, unless it is named.
   [[nodiscard]] bool is_auxiliary(const FileVariable& variable) const;
+  // Whether the variable is a number without dimensions, or the bounds of another axis than the points': these are not carried.
+  [[nodiscard]] bool is_lost(const FileVariable& variable) const;
 
  private:
   struct KnownPlaces {
@@ -128,6 +132,19 @@ class FieldDimensionFinder {
                                          std::span<const std::size_t> points);
   [[nodiscard]] std::vector<std::size_t> run_of_points(const FileVariable& variable) const;
   [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
+
+  // What is known of a dimension: the coordinate that it has, and its axis.
+  struct NamedDirection {
+    std::optional<io::CoordinateKind> kind;
+    const FileVariable* axis = nullptr;
+  };
+  struct PlacesAlong;
+  [[nodiscard]] bool changes_along(const PlacesAlong& line, io::CoordinateKind kind) const;
+  [[nodiscard]] NamedDirection direction_of(std::size_t dimension) const;
+  [[nodiscard]] bool fits_line(const NamedDirection& direction, const PlacesAlong& line) const;
+  // Puts the dimensions of a grid into the order of the points where names or axes say it. False if an axis of the file has other
+  // coordinates than the points.
+  [[nodiscard]] bool orient(const FileVariable& variable, FieldDimensions& layout);
 
   const io::NetcdfReader& file_;
   std::uint64_t num_points_;

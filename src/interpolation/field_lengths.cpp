@@ -82,6 +82,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(const VariableOf
   if (!may_be_of_places(variable, layout.points)) return std::nullopt;
   if (!has_same_dimensions(variable, layout.points)) return std::nullopt;
   layout.is_reversed = layout.points != before;
+  if (!orient(variable, layout)) return std::nullopt;
   take_other_dimensions(variable, layout);
   return layout;
 }

@@ -13,6 +13,7 @@
 #include "io/bad_value.h"
 #include "io/cf_names.h"
 #include "io/cf_reader.h"
+#include "io/netcdf_groups.h"
 #include "io/number.h"
 #include "rondel/delaunay.h"
 #include "system/shortest_text.h"
@@ -91,7 +92,8 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
       most_of_block_(most_of_block),
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
-  for (const std::string& name : wanted.names) {
+  for (const std::string& given : wanted.names) {
+    const std::string name = io::full_name(file.variables(), given);
     const SlicedNetcdf* const variable = file.find(name);
     if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
     const SlicedNetcdf& named = file.require(name);
@@ -187,6 +189,7 @@ void FieldSlices::add_all() {
   NameList elsewhere;
   std::vector<std::string> refused;
   for (const SlicedNetcdf& variable : file_.variables()) {
+    if (layouts_.is_lost(variable)) without_points.add(variable.name);
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
       if (add(variable)) continue;
@@ -204,6 +207,12 @@ void FieldSlices::add_all() {
   }
   for (const std::string& why : refused) {
     fields_.remarks.push_back(why + (fields_.arrays.empty() ? "" : "; it is left out"));
+  }
+  if (!file_.passed_over().empty()) {
+    NameList unread;
+    for (const std::string& name : file_.passed_over()) unread.add(name);
+    fields_.remarks.push_back("left out, as their types are those that the file defines itself: " +
+                              unread.text());
   }
   if (!without_points.text().empty()) {
     fields_.remarks.push_back("left out, as they have no values at the points: " +

@@ -81,6 +81,7 @@ class CoordinateSearch {
       std::vector<std::string> words = words_of_text(variable.text("coordinates"));
       if (is_asked && words.size() > 1) lists_.push_back(std::move(words));
     }
+    if (values_ != none && lists_.empty()) add_list_of_mesh();
   }
 
   // Returns all pairs, the best one first.
@@ -115,6 +116,14 @@ class CoordinateSearch {
   }
 
  private:
+  // Adds the coordinates of the nodes, edges or faces that the variable is on, by UGRID.
+  void add_list_of_mesh() {
+    const std::size_t topology = find(variables_[values_].text("mesh"));
+    if (topology == none) return;
+    const std::string attribute = variables_[values_].text("location") + "_coordinates";
+    lists_.push_back(words_of_text(variables_[topology].text(attribute)));
+  }
+
   [[nodiscard]] bool are_partners(const CoordinatePair& pair) const {
     return io::are_partners(variables_[pair.lon].name, variables_[pair.lat].name);
   }
@@ -148,7 +157,13 @@ class CoordinateSearch {
   [[nodiscard]] int evidence_of(std::size_t index, CoordinateKind kind) const {
     const std::size_t asked = kind == CoordinateKind::lon ? chosen_lon_ : chosen_lat_;
     if (asked != none) return asked == index ? 2 : 0;
-    return is_bounds(variables_[index].name) ? 0 : io::coordinate_evidence(variables_[index], kind);
+    if (is_bounds(variables_[index].name)) return 0;
+    const int evidence = io::coordinate_evidence(variables_[index], kind);
+    // Names of corners and edges say where one variable is, and not what the cells of a file are.
+    const bool is_of_part = values_ != none && evidence == 0 && variables_[index].is_number &&
+                            !variables_[index].shape.empty() &&
+                            io::is_name_of_part(variables_[index].name, kind);
+    return is_of_part ? 1 : evidence;
   }
 
   // True if a variable is the bounds of another one.

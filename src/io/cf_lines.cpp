@@ -231,6 +231,15 @@ void end_before_poles(std::vector<double>& lines) {
   }
 }
 
+// Throws InvalidInput for a latitude beyond a pole, up to rounding.
+void require_latitudes(std::span<const double> values, const std::string& name) {
+  constexpr double rounding = 1e-5;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) <= 90 + rounding) continue;
+    throw InvalidInput(name + " " + system::shortest_text(values[i]) + " is beyond a pole", i);
+  }
+}
+
 }  // namespace
 
 void io::require_order(std::span<const double> values, bool is_longitude, const std::string& name) {
@@ -276,7 +285,11 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
     lines = halves(unrolled);
     if (!is_longitude) end_at_poles(lines);
   }
-  if (!is_longitude) end_before_poles(lines);
+  if (!is_longitude) {
+    require_latitudes(values, name);
+    require_latitudes(lines, bounds.empty() ? "side of cells at latitude" : "bound of latitudes");
+    end_before_poles(lines);
+  }
   if (is_longitude && lines.size() > 2) close_circle(lines, unrolled.front(), unrolled.back());
   if (is_longitude && !bounds.empty()) require_one_turn_of_bounds(bounds, lines);
   return lines;

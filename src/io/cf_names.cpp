@@ -51,6 +51,15 @@ bool is_known_name(std::string_view name, CoordinateKind kind) {
   });
 }
 
+bool is_name_of_part(std::string_view name, CoordinateKind kind) {
+  constexpr std::array names = {KnownNames{"lonVertex", "latVertex"},
+                                KnownNames{"lonEdge", "latEdge"}, KnownNames{"vlon", "vlat"},
+                                KnownNames{"elon", "elat"}};
+  return std::ranges::any_of(names, [&](const KnownNames& pair) {
+    return name == (kind == CoordinateKind::lon ? pair.lon : pair.lat);
+  });
+}
+
 bool is_in_radians(std::string_view name) {
   return std::ranges::find(names_in_radians, name) != names_in_radians.end();
 }

@@ -25,7 +25,9 @@ enum class CoordinateKind { lon, lat };
 
 // True if models give this name to longitudes, or latitudes, of places. It decides if no attribute
 // does.
-bool is_known_name(std::string_view name, CoordinateKind kind);
+RONDEL_API bool is_known_name(std::string_view name, CoordinateKind kind);
+// True if MPAS or ICON give this name to longitudes, or latitudes, of vertices or edges.
+bool is_name_of_part(std::string_view name, CoordinateKind kind);
 // Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its
 // units, 3 its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);

@@ -9,6 +9,7 @@
 #include "io/bad_value.h"
 #include "io/cf_names.h"
 #include "io/cf_values.h"
+#include "io/mpas_places.h"
 #include "io/number.h"
 #include "rondel/error.h"
 
@@ -165,6 +166,9 @@ NetcdfReader::Variable at_first_place(NetcdfReader::Variable variable) {
 
 PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
                       const NetcdfReader::Variable& lat, UsualUnits usual) {
+  for (const std::string kind : {"Cell", "Edge", "Vertex"}) {
+    if (lon.name == "lon" + kind && lat.name == "lat" + kind) require_one_place(file, kind);
+  }
   // Places that are repeated at many times need not be in memory together.
   const bool has_room = lon.num_values <= file.most_values();  // otherwise reading them below is an
                                                                // error

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/bad_value.h"
+#include "io/netcdf_groups.h"
 #include "io/netcdf_slabs.h"
 #include "io/number.h"
 
@@ -215,7 +216,9 @@ NetcdfHeader Netcdf4File::header() const {
   const NetcdfLock lock(netcdf_library_lock());
   Netcdf4Header reader(library_);
   reader.add_group(number_, {});
-  return reader.take();
+  NetcdfHeader header = reader.take();
+  resolve_names(header);
+  return header;
 }
 
 void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,

@@ -36,7 +36,8 @@ struct NetcdfBox {
 RONDEL_API bool is_netcdf(std::string_view head);
 
 // A file of netCDF-4 has what the classic formats have, and more:
-// 1. Variables of a group are called "group/name", and come after those of the file itself, as do dimensions.
+// 1. Variables of a group are called "group/name", and come after those of the file itself, as do dimensions. Attributes that name
+//    variables have these names, too (netcdf_groups.h).
 // 2. A variable of strings is of the type text. Its values are not read.
 // 3. An attribute of several strings is a text with spaces between them.
 // 4. Variables and attributes of types that the file defines itself are left out; require() tells so of such a variable.
@@ -69,6 +70,8 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
+  // Returns the names of variables of types that the file defines itself.
+  [[nodiscard]] std::span<const std::string> passed_over() const { return passed_over_; }
   // Returns null if there is no variable of this name.
   [[nodiscard]] const Variable* find(std::string_view name) const;
   // Throws BadValue if there is none, or none of a type that is read.

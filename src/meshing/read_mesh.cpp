@@ -8,20 +8,26 @@
 #include "meshing/read_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "exact/vector.h"
+#include "interpolation/field_choice.h"
 #include "io/bad_value.h"
+#include "io/cf_names.h"
+#include "io/cf_reader.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "meshing/bordered_mesh.h"
 #include "meshing/ring_surface.h"
 #include "overlay/mesh_formats.h"
+#include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
@@ -103,6 +109,31 @@ std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulati
   }
 }
 
+// Areas, lengths and measures of quality that the writers of meshes compute again.
+constexpr std::array<std::string_view, 13> measures = {
+    "areaCell",       "meshDensity", "cellQuality",  "gridSpacing",     "dcEdge",
+    "dvEdge",         "angleEdge",   "areaTriangle", "triangleQuality", "triangleAngleQuality",
+    "obtuseTriangle", "grid_area",   "elementArea"};
+
+// Returns a sentence on the variables of a file that are no part of its mesh; empty if there are none.
+std::string remark_on_fields(const io::NetcdfReader& file) {
+  const std::vector<VariableHeader> headers = io::headers_of(file);
+  const std::vector<bool> parts = parts_of_grids(headers);
+  interpolation::NameList names;
+  for (std::size_t v = 0; v < headers.size(); ++v) {
+    const VariableHeader& header = headers[v];
+    const bool is_axis = header.dimensions.size() == 1 && header.dimensions[0] == header.name;
+    if (parts[v] || header.shape.empty() || !header.is_number || is_axis ||
+        std::ranges::count(measures, header.name) != 0 ||
+        io::coordinate_evidence(header, io::CoordinateKind::lon) > 0 ||
+        io::coordinate_evidence(header, io::CoordinateKind::lat) > 0) {
+      continue;
+    }
+    names.add(header.name);
+  }
+  return names.text().empty() ? "" : "left out, as they are no part of the mesh: " + names.text();
+}
+
 // Returns the mesh of cells with centers: with a border, or of the whole sphere.
 MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
                            const Execution& execution) {
@@ -131,6 +162,7 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
                      std::vector<std::string>* remarks) {
   const system::Call call(execution);
   CellTable table;
+  std::string remark;
   {
     io::FileBytes bytes(file.path, true);
     if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
@@ -139,15 +171,17 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
     std::optional<MeshArrays> arrays;
     io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
+      remark = remark_on_fields(reader);
       if (reader.find("cellsOnEdge") != nullptr && reader.find("verticesOnEdge") != nullptr) {
         arrays = meshing::read_mpas(reader, execution);
       } else {
         table = overlay::cells_in(reader, bytes.name(), {});
       }
     });
+    if (!remark.empty()) table.remarks.push_back(std::move(remark));
+    if (remarks != nullptr) *remarks = table.remarks;
     if (arrays) return std::move(*arrays);
   }
-  if (remarks != nullptr) *remarks = table.remarks;
   return mesh_of_centers(table, options, execution);
 }
 

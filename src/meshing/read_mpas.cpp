@@ -14,6 +14,7 @@
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
+#include "io/mpas_places.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
 #include "meshing/mesh_file.h"
@@ -42,6 +43,7 @@ class MpasReader {
     read_points({"xEdge", "yEdge", "zEdge"}, arrays_.edge_points);
     read_points({"xVertex", "yVertex", "zVertex"}, arrays_.vertex_points);
     if (arrays_.num_cells() == 0) throw BadValue("there are no cells");
+    for (const char* kind : {"Cell", "Edge", "Vertex"}) io::require_one_place(file_, kind);
     read_numbers("areaCell", arrays_.num_cells(), arrays_.cell_areas);
     read_density();
     read_numbers("dcEdge", arrays_.num_edges(), arrays_.cell_distances);
@@ -77,6 +79,10 @@ class MpasReader {
       throw BadValue("the mesh is not on a sphere");
     }
     const auto* const radius = io::find_attribute(file_.attributes(), "sphere_radius");
+    if (radius != nullptr && !radius->text.empty()) {
+      throw BadValue("the attribute sphere_radius is the text " + io::in_quotes(radius->text) +
+                     ", where a number is needed");
+    }
     if (radius == nullptr || radius->numbers.empty()) return;
     arrays_.radius = radius->numbers[0];
     if (arrays_.radius > 0 && arrays_.radius < 1e30) return;

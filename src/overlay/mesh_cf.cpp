@@ -190,6 +190,29 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
   return {};
 }
 
+// Adds a remark if coordinates are outside of their own cells, as with the bounds of others.
+void tell_of_outside(const MeshVariable& axis, const MeshVariable* bounds,
+                     std::span<const double> values, std::span<const double> lines,
+                     std::vector<std::string>& remarks) {
+  if (bounds == nullptr) return;
+  constexpr double rounding = 1e-4;  // degrees, of single precision
+  std::size_t first = values.size();
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double middle = (lines[i] + lines[i + 1]) / 2;
+    const double half = std::abs(lines[i + 1] - lines[i]) / 2;
+    if (std::abs(std::remainder(values[i] - middle, 360)) <= half + rounding) continue;
+    first = std::min(first, i);
+    ++number;
+  }
+  if (number == 0) return;
+  remarks.push_back(
+      std::to_string(number) + " of " + std::to_string(values.size()) + " coordinates of " +
+      io::in_quotes(axis.name) + " are outside of their cells in " + io::in_quotes(bounds->name) +
+      ", the first one " + system::shortest_text(values[first]) + " beside " +
+      system::shortest_text(lines[first]) + " to " + system::shortest_text(lines[first + 1]));
+}
+
 // Throws BadValue unless bounds are the same wherever the places are the same, as at all times: the
 // cells of a grid that moves are not those of its first time.
 void require_repeated(const MeshVariable& bounds, std::span<const double> values,
@@ -315,6 +338,8 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
   const std::vector<double> lats =
       io::degrees_of(file, lat, UsualUnits::of_name, {lat_bounds, &lon});
   const std::string name = io::in_quotes(lat.name);
+  tell_of_outside(lon, lon_bounds, lons, mesh.grid->lon_deg, mesh.remarks);
+  tell_of_outside(lat, lat_bounds, lats, mesh.grid->lat_deg, mesh.remarks);
   for (std::size_t j = 0; j < lats.size(); ++j) {
     for (const double at : lons) mesh.centers.push_back(require_position(name, j, {at, lats[j]}));
   }
@@ -337,7 +362,7 @@ std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::str
       remark += ", so cells end half way between the coordinates";
     }
   }
-  mesh.remarks = std::move(remarks);
+  mesh.remarks.insert(mesh.remarks.begin(), remarks.begin(), remarks.end());
   return mesh;
 }
 

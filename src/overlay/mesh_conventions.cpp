@@ -18,6 +18,7 @@
 
 #include "io/bad_value.h"
 #include "io/cf_names.h"
+#include "io/mpas_places.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
 
@@ -107,12 +108,27 @@ const MeshVariable* topology_of(const NetcdfReader& file, const std::string& nam
   return found;
 }
 
+// Throws BadValue for a variable on nodes or edges of the mesh.
+void require_on_faces(const NetcdfReader& file, const MeshVariable& topology,
+                      const std::string& name) {
+  const MeshVariable* const named = file.find(name);
+  const MeshVariable* const faces =
+      file.find(io::netcdf_text(topology.attributes, "face_node_connectivity"));
+  if (named == nullptr || faces == nullptr || named->shape.empty() || is_meant(file, name, *faces))
+    return;
+  const std::string location = io::netcdf_text(named->attributes, "location");
+  throw BadValue("variable " + io::in_quotes(name) + " is at the " +
+                 (location.empty() ? "nodes or edge" : location) + "s of mesh " +
+                 io::in_quotes(topology.name) + ", which are no cells");
+}
+
 }  // namespace
 
 std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::string& name) {
   MeshContent mesh;
   const MeshVariable* const topology = topology_of(file, name, mesh);
   if (topology == nullptr) return std::nullopt;
+  require_on_faces(file, *topology, name);
   const MeshCoordinates nodes = coordinates_of(file, *topology, "node_coordinates");
   const MeshCoordinates centers = coordinates_of(file, *topology, "face_coordinates");
   if (nodes.lon == nullptr) {
@@ -212,6 +228,7 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   io::require_sphere(file);
   MeshContent mesh;
   mesh.convention = "MPAS";
+  for (const char* kind : {"Cell", "Vertex"}) io::require_one_place(file, kind);
   const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};
   const MeshCoordinates centers = {file.find("lonCell"), file.find("latCell")};
   take_nodes(file, nodes, centers, UsualUnits::radians, mesh);

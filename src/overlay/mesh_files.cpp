@@ -15,6 +15,7 @@
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/file_part.h"
+#include "io/netcdf_groups.h"
 #include "io/number.h"
 #include "map/ring_area.h"
 #include "overlay/mesh_formats.h"
@@ -178,7 +179,7 @@ bool can_read_cells(const FileName& file) { return is_netcdf_file(io::split_part
 
 CellTable overlay::cells_in(const io::NetcdfReader& file, const std::string& file_name,
                             const std::string& part) {
-  overlay::MeshContent mesh = read_mesh(file, part);
+  overlay::MeshContent mesh = read_mesh(file, io::full_name(file.variables(), part));
   CellTable table;
   table.name = file_name;
   if (!mesh.grid) table.cells = cells_of(mesh);

@@ -9,6 +9,7 @@
 
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
+#include "io/netcdf_groups.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
 #include "rondel/delaunay.h"
@@ -47,8 +48,9 @@ NamedVariable named_variable(const FileName& file, std::span<const std::string> 
   io::FileBytes bytes(file.path, true);
   return io::in_file(bytes.name(), [&]() -> NamedVariable {
     const io::NetcdfReader reader(bytes);
-    const std::string name = variable_of(reader, names.front());
-    return {name, name != names.front()};
+    const std::string wanted = io::full_name(reader.variables(), names.front());
+    const std::string name = variable_of(reader, wanted);
+    return {name, name != wanted};
   });
 }
 

@@ -454,7 +454,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, 2}, {80, 99});
             }),
-            "value 1 of \"lat\", 1 and 99 degrees, is no place");
+            "variable \"lat\": latitude 99 is beyond a pole");
   const auto ugrid = [](const Doubles& lat, const Doubles& nodes) {
     MeshWriter file;
     file.add_whole("mesh", {}, {0},

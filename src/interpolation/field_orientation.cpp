@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Decides which dimension of a grid has the longitudes where a file lacks the coordinates of its
+// points. The lengths do not say it if they are equal; names of dimensions and single axes do.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "interpolation/field_layout.h"
+#include "io/bad_value.h"
+#include "io/cf_names.h"
+#include "io/cf_reader.h"
+#include "io/number.h"
+
+namespace rondel::interpolation {
+namespace {
+
+using OrientedVariable = io::NetcdfReader::Variable;
+using io::CoordinateKind;
+
+double coordinate_of(const LonLat& place, CoordinateKind kind) {
+  return kind == CoordinateKind::lon ? place.lon_deg : place.lat_deg;
+}
+
+// Missing numbers fit all others.
+bool is_near_deg(double a, double b, CoordinateKind kind, double most_apart_deg) {
+  const double away = kind == CoordinateKind::lon ? std::remainder(a - b, 360) : a - b;
+  return !(std::abs(away) > most_apart_deg);
+}
+
+}  // namespace
+
+// The places of a grid along one of its two dimensions: index i has place i * step, and those that follow it in steps of `across`.
+struct FieldDimensionFinder::PlacesAlong {
+  std::size_t length;
+  std::size_t step;
+  std::size_t across;
+  std::size_t num_across;
+};
+
+// Whether the coordinate depends on the index along the line alone.
+bool FieldDimensionFinder::changes_along(const PlacesAlong& line, CoordinateKind kind) const {
+  for (std::size_t i = 0; i < line.length; ++i) {
+    const double first = coordinate_of(wanted_.positions[i * line.step], kind);
+    for (std::size_t k = 1; k < line.num_across; ++k) {
+      const LonLat& place = wanted_.positions[i * line.step + k * line.across];
+      if (!is_near_deg(coordinate_of(place, kind), first, kind, wanted_.most_apart_deg)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// The axis along the dimension, and which coordinate it is; without an axis its name may say it.
+FieldDimensionFinder::NamedDirection FieldDimensionFinder::direction_of(
+    std::size_t dimension) const {
+  const std::string& name = file_.dimensions()[dimension].name;
+  for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
+    for (std::size_t v = 0; v < headers_.size(); ++v) {
+      const VariableHeader& header = headers_[v];
+      if (header.dimensions.size() == 1 && header.dimensions[0] == name &&
+          io::coordinate_evidence(header, kind) > 0) {
+        return {kind, &file_.variables()[v]};
+      }
+    }
+  }
+  for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
+    const std::size_t slash = name.rfind('/');
+    const std::string own = slash == std::string::npos ? name : name.substr(slash + 1);
+    if (io::is_known_name(own, kind)) return {kind, nullptr};
+  }
+  return {};
+}
+
+// Whether the axis has the coordinates of the wanted places along the line.
+bool FieldDimensionFinder::fits_line(const NamedDirection& direction,
+                                     const PlacesAlong& line) const {
+  if (direction.axis == nullptr || direction.axis->num_values != line.length) return true;
+  std::vector<double> degrees;
+  try {
+    degrees = io::degrees_of(file_, *direction.axis);
+  } catch (const io::BadValue&) {
+    return true;  // no coordinates
+  }
+  for (std::size_t i = 0; i < line.length; ++i) {
+    const double wanted = coordinate_of(wanted_.positions[i * line.step], *direction.kind);
+    if (!is_near_deg(degrees[i], wanted, *direction.kind, wanted_.most_apart_deg)) return false;
+  }
+  return true;
+}
+
+bool FieldDimensionFinder::orient(const OrientedVariable& variable, FieldDimensions& layout) {
+  std::vector<std::size_t> places;
+  for (const std::size_t d : layout.points) {
+    if (variable.shape[d] > 1) places.push_back(d);
+  }
+  if (places.size() != 2) return true;
+  const std::uint64_t rows = variable.shape[places[0]];
+  const std::uint64_t columns = variable.shape[places[1]];
+  const bool are_known = wanted_.positions.size() == rows * columns;
+  const PlacesAlong down{rows, columns, 1, columns};
+  const PlacesAlong right{columns, 1, columns, rows};
+  // Where nothing is known of the places, their longitudes change fastest, as in every format.
+  CoordinateKind of_rows = CoordinateKind::lat;
+  bool is_grid = !are_known;
+  for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
+    const CoordinateKind other =
+        kind == CoordinateKind::lat ? CoordinateKind::lon : CoordinateKind::lat;
+    if (!are_known || !changes_along(down, kind) || !changes_along(right, other)) continue;
+    of_rows = kind;
+    is_grid = true;
+  }
+  NamedDirection first = direction_of(variable.dimensions[places[0]]);
+  NamedDirection second = direction_of(variable.dimensions[places[1]]);
+  const bool are_named = first.kind != second.kind;  // one of them, or both and differently
+  const bool is_turned =
+      are_named && (first.kind ? *first.kind != of_rows : *second.kind == of_rows);
+  const bool is_square = rows == columns && shape_.size() > 1;
+  if (is_square && is_grid && is_turned) {
+    std::ranges::reverse(layout.points);
+    std::swap(first, second);
+  } else if (is_square && !(is_grid && are_named)) {
+    const std::string names =
+        io::in_quotes(file_.dimensions()[variable.dimensions[places[0]]].name) + " and " +
+        io::in_quotes(file_.dimensions()[variable.dimensions[places[1]]].name);
+    layout.remark = "variable " + io::in_quotes(variable.name) + ": the dimensions " + names +
+                    " have the same length, and nothing says which of them has the longitudes: "
+                    "they are taken in this order";
+  }
+  if (!is_grid || !are_known || (is_turned && !is_square)) return true;
+  for (const auto& [direction, line] : {std::pair(first, down), std::pair(second, right)}) {
+    if (fits_line(direction, line)) continue;
+    why_not_ = "has " + io::in_quotes(direction.axis->name) +
+               ", which is not the axis of the places that are wanted";
+    return false;
+  }
+  return true;
+}
+
+}  // namespace rondel::interpolation

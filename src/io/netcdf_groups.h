@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Names in files with groups: CF 1.11, section 2.7.1.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "io/netcdf_header.h"
+#include "io/netcdf_reader.h"
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+// Replaces the names in attributes such as `bounds` and `coordinates` by those that the reader has,
+// "group/name". A name with a slash at its front begins at the root, "../" leads to the group
+// above, and other names are searched in the group of the variable and then in those above it.
+// Names of no variable stay as they are.
+void resolve_names(NetcdfHeader& header);
+
+// Returns the variable's name in the reader for one that a user wrote: "/group/name", or the name
+// alone if only one group has it. An index in brackets may follow. Other names are returned as they
+// are.
+RONDEL_API std::string full_name(std::span<const NetcdfReader::Variable> variables,
+                                 const std::string& name);
+
+}  // namespace rondel::io
