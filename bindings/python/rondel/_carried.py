@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._coordinates import lies_elsewhere, missing_marker, parts_of_grids
+from ._coordinates import lies_elsewhere, missing_marker, parts_of_grids, unpacked
 from ._errors import warn_caller
 from ._places import Places
 from ._weights import Weights
@@ -29,6 +29,7 @@ def carried(
     keep_attrs: bool = True,
 ) -> Any:
     """A Dataset or DataArray at other places."""
+    data = unpacked(data)
     source.require_same(data)
 
     def applied(values: Any, marker: Any) -> Any:

@@ -149,6 +149,16 @@ def parts_of_grids(data: xarray.Dataset) -> set[str]:
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
 
 
+def pairs_of_values(data: xarray.DataArray) -> list[tuple[str, str]]:
+    """The names of the longitudes and latitudes at which values may be."""
+    headers = _headers(data)
+    names = [header[0] for header in headers]
+    values = str(_VALUES if data.name is None else data.name)
+    return [
+        (names[lon], names[lat]) for lon, lat in _core.coordinates_of(headers, names.index(values))
+    ]
+
+
 def is_away(data: xarray.Dataset, name: str, found: Coordinates) -> bool:
     """Whether the variable, by its dimensions and its attribute `coordinates`, is elsewhere."""
     headers = _headers(data)
@@ -192,6 +202,38 @@ def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashab
         "no longitudes and latitudes have the same dimensions, or one dimension each: "
         "say lon=NAME and lat=NAME"
     )
+
+
+def unpacked(data: Any) -> Any:
+    """The Dataset or DataArray with integers unpacked whose attributes say that they are packed or
+    of the other sign, as after ``open_dataset(mask_and_scale=False)``.
+    """
+    is_array = isinstance(data, xarray.DataArray)
+    variables = data.coords.variables if is_array else data.variables
+    packed = {name: item for name, item in variables.items() if _is_packed(item)}
+    own = [data.variable] if is_array and _is_packed(data) else []
+    if not packed and not own:
+        return data
+    parts = {f"packed_{k}": part for k, part in enumerate((*packed.values(), *own))}
+    found = list(
+        xarray.decode_cf(
+            xarray.Dataset(parts), decode_times=False, decode_coords=False, concat_characters=False
+        ).variables.values()
+    )
+    if own:
+        data = data.copy(data=found[-1].data)
+        data.attrs, data.encoding = found[-1].attrs, found[-1].encoding
+    taken = {name: found[k] for k, name in enumerate(packed)}
+    coords = {name: taken.pop(name) for name in list(taken) if name in data.coords}
+    data = data.assign_coords(coords) if coords else data
+    return data.assign(taken) if taken else data
+
+
+def _is_packed(item: Any) -> bool:
+    """Whether numbers of a file are integers that xarray can unpack and has not."""
+    factors = [np.asarray(item.attrs[name]) for name in _PACKING if name in item.attrs]
+    are_numbers = all(f.size == 1 and f.dtype.kind in "iuf" and np.isfinite(f) for f in factors)
+    return item.dtype.kind in "iu" and are_numbers and (bool(factors) or "_Unsigned" in item.attrs)
 
 
 _OF_VALUES = ("_FillValue", "missing_value", "valid_min", "valid_max", "valid_range", "_Unsigned")

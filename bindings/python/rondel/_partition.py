@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
-from ._errors import InvalidInput
+from ._errors import InvalidInput, warn_caller
 from ._partition_files import FileCells, Sides, are_arcs
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
@@ -362,9 +362,15 @@ def axis_lines(
     """The lines between the cells along an axis; errors begin with its name."""
     sides = np.zeros(0) if bounds is None else np.ascontiguousarray(bounds).reshape(-1)
     try:
-        return _core.axis_lines(np.ascontiguousarray(axis, np.float64), sides, is_longitude)
+        lines = _core.axis_lines(np.ascontiguousarray(axis, np.float64), sides, is_longitude)
     except InvalidInput as error:
         raise InvalidInput(f"{name!r}: {error}", error.index) from None
+    away = np.asarray(axis, np.float64) - (lines[:-1] + lines[1:]) / 2
+    away -= 360 * np.round(away / 360)
+    outside = int(np.count_nonzero(np.abs(away) > np.abs(np.diff(lines)) / 2 + 1e-4))
+    if bounds is not None and outside:
+        warn_caller(f"{outside} of {len(axis)} coordinates of {name!r} are outside of their cells")
+    return lines
 
 
 def _as_lines(values: ArrayLike, name: str) -> FloatArray:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 
 from ._arrays import as_mask, in_words, lonlat, point_set_hash, unit_vectors, unmasked
-from ._coordinates import MARKS, Coordinates, is_away
+from ._coordinates import MARKS, Coordinates, is_away, pairs_of_values, unpacked
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
@@ -58,6 +58,7 @@ class Places:
             )
         if data is not given:
             lon, lat = "lon", "lat"
+        data = unpacked(data)
         self._data = data
         self._found = Coordinates(data, lon, lat)
         lons, lats = self._found.lon, self._found.lat
@@ -92,6 +93,36 @@ class Places:
                     f"the coordinate {name!r} of the data is not that of the source, or in another "
                     "order"
                 )
+
+    def require_places_of(self, data: xarray.DataArray) -> None:
+        """Refuses data whose own longitudes and latitudes are others, whatever their names are."""
+        elsewhere = ""
+        for lon, lat in pairs_of_values(data):
+            try:
+                found = Coordinates(data, lon, lat)
+            except ValueError:
+                continue  # no longitudes and latitudes
+            south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+            if set(south.dims) != set(self.dims):
+                continue
+            south, west = south.transpose(*self.dims), west.transpose(*self.dims)
+            if south.shape != self.shape or self._are_here(west.values, south.values):
+                return
+            elsewhere = elsewhere or f"{lon} and {lat}"
+        if elsewhere:
+            name = "the data" if data.name is None else repr(data.name)
+            raise ValueError(
+                f"{name} are at {elsewhere}, which are not the places of the source "
+                f"({self._found.lon_name} and {self._found.lat_name})"
+            )
+
+    def _are_here(self, lon: Any, lat: Any) -> bool:
+        east = np.asarray(lon, np.float64) - np.asarray(self.lon, np.float64)
+        east -= 360 * np.round(east / 360)
+        north = np.asarray(lat, np.float64) - np.asarray(self.lat, np.float64)
+        is_pole = np.abs(np.asarray(self.lat, np.float64)) >= 90 - MOST_APART
+        far = (np.abs(north) > MOST_APART) | ((np.abs(east) > MOST_APART) & ~is_pole)
+        return not bool(np.any(far))
 
     def is_away(self, data: xarray.Dataset, name: Hashable) -> bool:
         """Whether a variable with the dimensions of the places has others."""

@@ -208,7 +208,8 @@ class Regridder(Described):
         Parameters
         ----------
         data : array_like, DataArray or Dataset
-            Fields on the source grid. The last axes of an array have the shape `shape_in`; a
+            Fields on the source grid; integers that their attributes call packed are unpacked. The
+            last axes of an array have the shape `shape_in`; a
             DataArray has the dimensions of the source, or last dimensions of that shape.
         keep_attrs : bool, optional
             Whether to keep attributes; by default False.
@@ -229,13 +230,16 @@ class Regridder(Described):
         Raises
         ------
         ValueError
-            If the data have another shape, or share a dimension with the target, such as the time
-            of a track; then rename the target's dimension.
+            If the data have another shape, their own longitudes and latitudes are not those of
+            the source, whatever their names are, or square data without coordinates have
+            dimensions of names in the other order (lon, lat); or if they share a dimension with
+            the target, such as the time of a track; then rename the target's dimension.
 
         """
         import xarray
 
         from ._carried import carried
+        from ._coordinates import unpacked
 
         options: Any = {"skipna": skipna, "most_missing": na_thres, "fill": self._fill}
         dims = self._source.dims
@@ -253,7 +257,12 @@ class Regridder(Described):
                 leading = tuple(f"axis_{k}" for k in range(data.ndim - len(dims)))
                 data = _labeled(data, (*leading, *dims))
             else:
+                self._require_order(data)
                 data = data.rename(dict(zip(data.dims[-len(dims) :], dims, strict=True)))
+        if is_labeled:
+            data = unpacked(data)
+            self._source.require_same(data)
+            self._source.require_places_of(data)
         found = carried(
             data, self.weights, self._source, self._target, keep_attrs=keep_attrs, **options
         )
@@ -266,6 +275,17 @@ class Regridder(Described):
             shape = tuple(data.sizes[name] for name in dims)
         if shape != wanted:
             raise ValueError(f"data must have shape (..., {str(wanted)[1:]}, not {data.shape}")
+
+    def _require_order(self, data: Any) -> None:
+        """Refuses a square field whose dimensions have names of the other order."""
+        last = [str(dim).lower() for dim in data.dims[-2:]]
+        is_turned = last[0] in ("lon", "longitude", "x") or last[-1] in ("lat", "latitude", "y")
+        if self._source.are_axes and is_turned:
+            raise ValueError(
+                f"the last dimensions of the data are {data.dims[-2]} and {data.dims[-1]}, those "
+                f"of the source are {' and '.join(map(str, self._source.dims))}: rename "
+                "or transpose them"
+            )
 
     def to_netcdf(self, path: Path | None = None) -> None:
         """Writes the weights in the format of ESMF, which `weights` and other programs read.

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Regridder and the accessor with data at other places and with packed numbers."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import rondel
+
+xarray = pytest.importorskip("xarray")
+import rondel.xarray  # noqa: E402
+
+EAST, NORTH = {"units": "degrees_east"}, {"units": "degrees_north"}
+TARGET = {"lon": np.arange(12.5, 48, 5), "lat": np.arange(-17.5, 18, 5)}
+
+
+def height(lon, lat):
+    """Linear interpolation of this has an error below 0.05 on a grid of 4 degrees."""
+    return np.cos(np.radians(lon)) + 3 * np.sin(np.radians(lat))
+
+
+def staggered(shift=2.0):
+    """Two fields on one pair of dimensions, each at its own places."""
+    lon, lat = np.meshgrid(np.arange(0.0, 61, 4), np.arange(-32.0, 33, 4))
+    coords = {}
+    for letter, moved in (("T", 0.0), ("U", shift)):
+        coords[letter + "LONG"] = (("y", "x"), lon + moved, EAST)
+        coords[letter + "LAT"] = (("y", "x"), lat + moved, NORTH)
+    made = xarray.Dataset(coords=coords)
+    for name, letter, moved in (("heat", "T", 0.0), ("wind", "U", shift)):
+        made[name] = (("y", "x"), height(lon + moved, lat + moved))
+        made[name].encoding["coordinates"] = f"{letter}LONG {letter}LAT"
+    return made
+
+
+def test_data_at_other_places_are_refused():
+    ds = staggered()
+    regridder = rondel.Regridder(ds, TARGET, "linear", lon="TLONG", lat="TLAT")
+    right = height(TARGET["lon"], TARGET["lat"][:, None])
+    assert np.abs(regridder(ds.heat) - right).max() < 0.05
+    at = "'wind' are at ULONG and ULAT, which are not the places of the source .TLONG and TLAT."
+    for data in (ds.wind, ds.wind.expand_dims(time=3), ds.wind.transpose("x", "y")):
+        with pytest.raises(ValueError, match=at):
+            regridder(data)
+    other = rondel.Regridder(ds, TARGET, "linear", lon="ULONG", lat="ULAT")
+    assert np.abs(other(ds.wind) - right).max() < 0.05
+    # Nothing says where values without coordinates are.
+    bare = xarray.DataArray(ds.wind.values, dims=("y", "x"))
+    assert regridder(bare).shape == regridder(ds.wind.values).shape == right.shape
+    with pytest.warns(UserWarning, match="not those of the source: wind"):
+        assert list(regridder(ds)) == ["heat"]
+
+
+def test_the_same_places_by_other_names_are_taken():
+    ds = staggered(shift=0.0)
+    regridder = rondel.Regridder(ds, TARGET, "linear", lon="TLONG", lat="TLAT")
+    turned = ds.assign_coords(ULONG=ds.ULONG - 360)
+    turned.wind.encoding["coordinates"] = "ULONG ULAT"
+    np.testing.assert_array_equal(regridder(turned.wind), regridder(ds.heat))
+    # A grid of axes, and the same grid with coordinates of two dimensions.
+    lon, lat = np.arange(0.0, 61, 4), np.arange(-32.0, 33, 4)
+    axes = rondel.Regridder({"lon": lon, "lat": lat}, TARGET, "linear")
+    assert axes(ds.heat).shape == (8, 8)
+    with pytest.raises(ValueError, match="'wind' are at ULONG and ULAT"):
+        axes(staggered().wind.drop_vars(["TLONG", "TLAT"]))
+
+
+def test_a_square_of_other_names_is_not_turned():
+    lon, lat = np.arange(0.0, 60, 10), np.arange(-25.0, 30, 10)
+    source = xarray.Dataset(coords={"longitude": ("longitude", lon), "latitude": ("latitude", lat)})
+    source.longitude.attrs, source.latitude.attrs = EAST, NORTH
+    regridder = rondel.Regridder(source, TARGET, "bilinear")
+    values = height(lon, lat[:, None])
+    right = regridder(values)
+    for dims in (("lat", "lon"), ("y", "x"), ("a", "b")):
+        found = regridder(xarray.DataArray(values, dims=dims))
+        np.testing.assert_array_equal(found, right)
+    for dims in (("lon", "lat"), ("x", "y")):
+        with pytest.raises(ValueError, match=f"are {dims[0]} and {dims[1]}, those of the source"):
+            regridder(xarray.DataArray(values.T, dims=dims))
+    named = xarray.DataArray(values.T, dims=("longitude", "latitude"))
+    np.testing.assert_array_equal(regridder(named), right)
+
+
+PACKED = {
+    "short": ("i2", {"scale_factor": 0.01, "add_offset": 273.15, "_FillValue": -32768}),
+    "range": ("i2", {"scale_factor": 0.5, "valid_range": np.array([-200, 200], "i2")}),
+    "unsigned": ("i1", {"_Unsigned": "true", "scale_factor": 0.5}),
+    "only_unsigned": ("i1", {"_Unsigned": "true"}),
+    "offset": ("i4", {"add_offset": 7, "missing_value": 100}),
+}
+
+
+@pytest.mark.parametrize("name", PACKED)
+def test_numbers_that_xarray_left_packed_are_unpacked(name, tmp_path):
+    netcdf = pytest.importorskip("netCDF4")
+    kind, attributes = PACKED[name]
+    lon, lat = np.arange(0.0, 360, 45), np.arange(-60.0, 61, 20)
+    packed = np.arange(-100, 124, 4)[: lat.size * lon.size].reshape(lat.size, lon.size).astype(kind)
+    with netcdf.Dataset(tmp_path / "p.nc", "w") as file:
+        for axis, values, marks in (("lat", lat, NORTH), ("lon", lon, EAST)):
+            file.createDimension(axis, values.size)
+            # The axes are packed, too.
+            variable = file.createVariable(axis, "i2", (axis,))
+            variable.setncatts({**marks, "scale_factor": 0.5})
+            variable[:] = values
+        fill = attributes.get("_FillValue")
+        variable = file.createVariable("v", kind, ("lat", "lon"), fill_value=fill)
+        variable.set_auto_maskandscale(False)
+        variable.setncatts({k: v for k, v in attributes.items() if k != "_FillValue"})
+        variable[:] = packed
+    with (
+        xarray.open_dataset(tmp_path / "p.nc", mask_and_scale=False) as raw,
+        xarray.open_dataset(tmp_path / "p.nc") as decoded,
+        warnings.catch_warnings(),
+    ):
+        warnings.simplefilter("error")
+        target = {"lon": [10.0, 100], "lat": [-35.0, 15, 33]}
+        for method in ("nearest_s2d", "bilinear"):
+            right = rondel.Regridder(decoded, target, method)(decoded.v)
+            for source in (raw, decoded):
+                regridder = rondel.Regridder(source, target, method)
+                np.testing.assert_array_equal(regridder(raw.v), right)
+                np.testing.assert_array_equal(regridder(raw).v, right)
+        found = raw.v.rondel.interpolate(([10.0], [15.0]))
+        np.testing.assert_array_equal(found, decoded.v.rondel.interpolate(([10.0], [15.0])))
+        assert not {"scale_factor", "add_offset"} & set(found.attrs)
+
+
+def test_cells_beside_their_coordinates_are_told():
+    lon, lat = np.arange(0.0, 360, 60), np.arange(-75.0, 76, 30)
+    source = xarray.Dataset(
+        {"lon_bnds": (("lon", "two"), lon[:, None] + [30, 90])},
+        {"lon": ("lon", lon, {**EAST, "bounds": "lon_bnds"}), "lat": ("lat", lat, NORTH)},
+    )
+    with pytest.warns(UserWarning, match="6 of 6 coordinates of 'lon' are outside of their cells"):
+        rondel.Regridder(source, TARGET, "conservative")
+    far = {"lon": lon, "lat": np.arange(-95.0, 96, 10)}
+    with pytest.raises(rondel.InvalidInput, match="'lat': latitude -95 is beyond a pole"):
+        rondel.Regridder(far, TARGET, "conservative")
