@@ -140,6 +140,8 @@ class FieldDimensionFinder {
   };
   struct PlacesAlong;
   [[nodiscard]] bool changes_along(const PlacesAlong& line, io::CoordinateKind kind) const;
+  [[nodiscard]] std::optional<io::CoordinateKind> kind_of_rows(std::size_t rows,
+                                                               std::size_t columns) const;
   [[nodiscard]] NamedDirection direction_of(std::size_t dimension) const;
   [[nodiscard]] bool fits_line(const NamedDirection& direction, const PlacesAlong& line) const;
   // Puts the dimensions of a grid into the order of the points where names or axes say it. False if an axis of the file has other

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "interpolation/field_layout.h"
 #include "io/bad_value.h"
@@ -27,6 +29,10 @@ double coordinate_of(const LonLat& place, CoordinateKind kind) {
 bool is_near_deg(double a, double b, CoordinateKind kind, double most_apart_deg) {
   const double away = kind == CoordinateKind::lon ? std::remainder(a - b, 360) : a - b;
   return !(std::abs(away) > most_apart_deg);
+}
+
+CoordinateKind other_kind(CoordinateKind kind) {
+  return kind == CoordinateKind::lat ? CoordinateKind::lon : CoordinateKind::lat;
 }
 
 }  // namespace
@@ -91,47 +97,63 @@ bool FieldDimensionFinder::fits_line(const NamedDirection& direction,
   return true;
 }
 
+// Which coordinate changes from row to row, if the wanted places are a grid of so many rows.
+std::optional<CoordinateKind> FieldDimensionFinder::kind_of_rows(std::size_t rows,
+                                                                 std::size_t columns) const {
+  const PlacesAlong down{rows, columns, 1, columns};
+  const PlacesAlong right{columns, 1, columns, rows};
+  for (const CoordinateKind kind : {CoordinateKind::lat, CoordinateKind::lon}) {
+    if (changes_along(down, kind) && changes_along(right, other_kind(kind))) return kind;
+  }
+  return std::nullopt;
+}
+
 bool FieldDimensionFinder::orient(const OrientedVariable& variable, FieldDimensions& layout) {
   std::vector<std::size_t> places;
   for (const std::size_t d : layout.points) {
     if (variable.shape[d] > 1) places.push_back(d);
   }
   if (places.size() != 2) return true;
-  const std::uint64_t rows = variable.shape[places[0]];
-  const std::uint64_t columns = variable.shape[places[1]];
-  const bool are_known = wanted_.positions.size() == rows * columns;
-  const PlacesAlong down{rows, columns, 1, columns};
-  const PlacesAlong right{columns, 1, columns, rows};
-  // Where nothing is known of the places, their longitudes change fastest, as in every format.
-  CoordinateKind of_rows = CoordinateKind::lat;
-  bool is_grid = !are_known;
-  for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
-    const CoordinateKind other =
-        kind == CoordinateKind::lat ? CoordinateKind::lon : CoordinateKind::lat;
-    if (!are_known || !changes_along(down, kind) || !changes_along(right, other)) continue;
-    of_rows = kind;
-    is_grid = true;
-  }
+  std::size_t rows = variable.shape[places[0]];
+  std::size_t columns = variable.shape[places[1]];
   NamedDirection first = direction_of(variable.dimensions[places[0]]);
   NamedDirection second = direction_of(variable.dimensions[places[1]]);
+  const bool are_known = wanted_.positions.size() == rows * columns;
+  const bool has_lengths = shape_.size() > 1;
+  // Where nothing is known of the places, their longitudes change fastest, as in every format.
+  std::optional<CoordinateKind> of_rows = CoordinateKind::lat;
+  if (are_known) of_rows = kind_of_rows(rows, columns);
   const bool are_named = first.kind != second.kind;  // one of them, or both and differently
-  const bool is_turned =
-      are_named && (first.kind ? *first.kind != of_rows : *second.kind == of_rows);
-  const bool is_square = rows == columns && shape_.size() > 1;
-  if (is_square && is_grid && is_turned) {
-    std::ranges::reverse(layout.points);
-    std::swap(first, second);
-  } else if (is_square && !(is_grid && are_named)) {
-    const std::string names =
-        io::in_quotes(file_.dimensions()[variable.dimensions[places[0]]].name) + " and " +
-        io::in_quotes(file_.dimensions()[variable.dimensions[places[1]]].name);
-    layout.remark = "variable " + io::in_quotes(variable.name) + ": the dimensions " + names +
-                    " have the same length, and nothing says which of them has the longitudes: "
-                    "they are taken in this order";
+  bool is_turned = false;
+  bool is_decided = has_lengths && rows != columns;
+  if (!is_decided && are_known && rows != columns) {
+    if (!of_rows) {
+      of_rows = kind_of_rows(columns, rows);
+      is_turned = of_rows.has_value();
+    }
+    is_decided = of_rows.has_value();
+  } else if (!is_decided && of_rows && are_named) {
+    is_turned = first.kind ? *first.kind != *of_rows : *second.kind == *of_rows;
+    is_decided = true;
   }
-  if (!is_grid || !are_known || (is_turned && !is_square)) return true;
-  for (const auto& [direction, line] : {std::pair(first, down), std::pair(second, right)}) {
-    if (fits_line(direction, line)) continue;
+  if (!is_decided) {
+    layout.remark =
+        "variable " + io::in_quotes(variable.name) + ": nothing says which of the dimensions " +
+        io::in_quotes(file_.dimensions()[variable.dimensions[places[0]]].name) + " and " +
+        io::in_quotes(file_.dimensions()[variable.dimensions[places[1]]].name) +
+        " has the longitudes: they are taken in this order";
+  }
+  if (is_turned) {
+    std::ranges::reverse(layout.points);
+    std::swap(rows, columns);
+    std::swap(first, second);
+  }
+  if (!are_known || !of_rows) return true;
+  const PlacesAlong down{rows, columns, 1, columns};
+  const PlacesAlong right{columns, 1, columns, rows};
+  for (const auto& [direction, line, kind] :
+       {std::tuple(first, down, *of_rows), std::tuple(second, right, other_kind(*of_rows))}) {
+    if (direction.kind != kind || fits_line(direction, line)) continue;
     why_not_ = "has " + io::in_quotes(direction.axis->name) +
                ", which is not the axis of the places that are wanted";
     return false;

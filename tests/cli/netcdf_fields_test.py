@@ -131,7 +131,31 @@ class Fields(unittest.TestCase):
         add(data, "t", ("a", "b"), np.ones((6, 6)))
         data.close()
         said = self.run_tool("apply", "w.nc", "plain.nc", "-o", "o.nc")
-        self.assertIn('the dimensions "a" and "b" have the same length, and nothing says', said)
+        self.assertIn('nothing says which of the dimensions "a" and "b" has the longitudes', said)
+
+    def test_weights_without_lengths_take_names_and_places(self):
+        lat = SQUARE_LAT[:5]
+        values = np.random.default_rng(8).normal(size=(5, 6))
+        self.grid("right.nc", SQUARE_LON, lat, t=(values, None))
+        for weights in ("w.npz", "w.nc"):
+            self.run_tool("interpolate", "right.nc", "--to", "grid:60", "--weights", weights)
+        with netCDF4.Dataset(self.folder / "w.nc", "a") as data:
+            data.renameVariable("src_grid_dims", "unknown")
+        self.run_tool("apply", "w.nc", "right.nc", "-o", "right_out.csv")
+        right = self.table("right_out.csv")["t"]
+        for names, turned in itertools.product((("lat", "lon"), ("a", "b")), (False, True)):
+            data = self.new("bare.nc")
+            for name, length in zip(names, (5, 6), strict=True):
+                data.createDimension(name, length)
+            add(data, "t", names[::-1] if turned else names, values.T if turned else values)
+            data.close()
+            for weights in ("w.npz", "w.nc"):
+                with self.subTest(names=names, turned=turned, weights=weights):
+                    said = self.run_tool("apply", weights, "bare.nc", "-o", "o.npy")
+                    is_unknown = weights == "w.npz" and names == ("a", "b")
+                    self.assertEqual("nothing says" in said, is_unknown)
+                    if not is_unknown:
+                        np.testing.assert_array_equal(np.load(self.folder / "o.npy"), right)
 
     def test_one_axis_with_other_numbers_is_refused(self):
         self.square_weights()
