@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -75,7 +76,8 @@ FieldDimensionFinder::NamedDirection FieldDimensionFinder::direction_of(
   for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
     const std::size_t slash = name.rfind('/');
     const std::string own = slash == std::string::npos ? name : name.substr(slash + 1);
-    if (io::is_known_name(own, kind)) return {kind, nullptr};
+    const std::string_view of_grid = kind == CoordinateKind::lon ? "x" : "y";
+    if (own == of_grid || io::is_known_name(own, kind)) return {kind, nullptr};
   }
   return {};
 }

@@ -103,7 +103,7 @@ class Fields(unittest.TestCase):
         self.run_tool("apply", "w.nc", "right.nc", "-o", "right_out.nc")
         right = self.read("right_out.nc", "t")
         for names, axes, turned in itertools.product(
-            (("lat", "lon"), ("latitude", "Longitude"), ("j", "i")),
+            (("lat", "lon"), ("latitude", "Longitude"), ("y", "x"), ("j", "i")),
             ((), ("lat",), ("lon",)),
             (False, True),
         ):

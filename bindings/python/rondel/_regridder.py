@@ -280,7 +280,8 @@ class Regridder(Described):
         """Refuses a square field whose dimensions have names of the other order."""
         last = [str(dim).lower() for dim in data.dims[-2:]]
         is_turned = last[0] in ("lon", "longitude", "x") or last[-1] in ("lat", "latitude", "y")
-        if self._source.are_axes and is_turned:
+        is_square = len(set(self._source.shape)) == 1
+        if self._source.are_axes and is_square and is_turned:
             raise ValueError(
                 f"the last dimensions of the data are {data.dims[-2]} and {data.dims[-1]}, those "
                 f"of the source are {' and '.join(map(str, self._source.dims))}: rename "

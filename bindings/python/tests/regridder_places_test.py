@@ -80,6 +80,10 @@ def test_a_square_of_other_names_is_not_turned():
     for dims in (("lon", "lat"), ("x", "y")):
         with pytest.raises(ValueError, match=f"are {dims[0]} and {dims[1]}, those of the source"):
             regridder(xarray.DataArray(values.T, dims=dims))
+    # The lengths decide where they differ.
+    oblong = rondel.Regridder(source.isel(latitude=slice(5)), TARGET, "bilinear")
+    found = oblong(xarray.DataArray(values[:5], dims=("x", "y")))
+    np.testing.assert_array_equal(found, oblong(values[:5]))
     named = xarray.DataArray(values.T, dims=("longitude", "latitude"))
     np.testing.assert_array_equal(regridder(named), right)
 
