@@ -17,7 +17,7 @@ import numpy as np
 
 from . import _core
 from ._geo import write_named
-from ._projected import with_divided_sides
+from ._projected import in_lonlat
 from ._properties import json_cells
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
@@ -48,7 +48,7 @@ def polygons_of(
 ) -> Polygons:
     """The polygons of objects: a cell for each of them, empty where the group is below 0."""
     rules = edges, overlap, threads, groups
-    return _of_objects(geometries, lambda name: read_polygons(name, *rules))
+    return _of_objects(geometries, edges, lambda name: read_polygons(name, *rules))
 
 
 def features_of(
@@ -58,7 +58,7 @@ def features_of(
     rules = _is_geodesic(edges), _number_of(overlap)
     if is_file(features):
         return _read(os.fspath(features), lambda file: read(file, *rules))
-    return _of_objects(features, lambda file: read(file, *rules))
+    return _of_objects(features, edges, lambda file: read(file, *rules))
 
 
 def _number_of(overlap: PolygonOverlap) -> int:
@@ -79,8 +79,8 @@ def _read(name: str, read: Callable[[str], Any]) -> Any:
     return made[0]
 
 
-def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
-    collection = _collection(geometries)
+def _of_objects(geometries: Any, edges: Edges, read: Callable[[str], Any]) -> Any:
+    collection = _collection(geometries, edges)
     try:
         text = json.dumps(collection, allow_nan=False, default=_plain)
     except ValueError:
@@ -123,9 +123,9 @@ def is_file(regions: Any) -> bool:
     return isinstance(regions, (str, os.PathLike))
 
 
-def _collection(geometries: Any) -> dict[str, Any]:
+def _collection(geometries: Any, edges: Edges) -> dict[str, Any]:
     geometries = _from_arrow(geometries)
-    geometries = in_degrees(geometries)
+    geometries = in_degrees(geometries, edges)
     properties = _properties(geometries)
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
     if _is_box(geometries):
@@ -141,28 +141,28 @@ def _collection(geometries: Any) -> dict[str, Any]:
     return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
 
 
-def in_degrees(geometries: Any) -> Any:
-    """Geometries of GeoPandas in degrees: of WGS 84, or of another body as its CRS has them."""
+def in_degrees(geometries: Any, edges: Edges = "lonlat") -> Any:
+    """Geometries of GeoPandas in degrees: of WGS 84, or of another body as its CRS has them.
+
+    `edges` will join their positions.
+    """
+    is_geodesic = _is_geodesic(edges)
     crs = getattr(geometries, "crs", None)
     if crs is None or crs.equals(4326, ignore_axis_order=True):
         return geometries
     from pyproj.exceptions import ProjError
 
     try:
-        return _converted(geometries, crs, 4326)
+        return in_lonlat(geometries, crs, 4326, is_geodesic)
     except ProjError as error:
         sphere = crs.geodetic_crs  # of the Moon, say, of which there is no way to WGS 84
         if sphere is None or not _has_degrees(sphere):
             raise ValueError(
                 f"the CRS {crs.name!r} cannot be converted to EPSG:4326: {error}"
             ) from None
-        return geometries if crs.equals(sphere) else _converted(geometries, crs, sphere)
-
-
-def _converted(geometries: Any, crs: Any, target: Any) -> Any:
-    if crs.is_projected:
-        geometries = with_divided_sides(geometries, crs, target)
-    return geometries.to_crs(target)
+        if crs.equals(sphere):
+            return geometries
+        return in_lonlat(geometries, crs, sphere, is_geodesic)
 
 
 def _has_degrees(crs: Any) -> bool:
