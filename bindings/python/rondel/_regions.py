@@ -357,6 +357,7 @@ def clip_cells(
     [4.0, 4.0, 4.0, 4.0, 8.0, 0.0]
 
     """
+    _require_rules(edges, overlap)
     cells = Partition.voronoi(self, threads=threads)._partition
     shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
     if values is None:
@@ -484,6 +485,7 @@ def feature_cells(
     for name, value in (("tolerance_km", tolerance_km), ("radius_km", radius_km)):
         if not float(value) > 0:
             raise ValueError(f"{name} must be positive, not {float(value):g}")
+    _require_rules(edges, overlap)
     tolerance = float(tolerance_km) / float(radius_km)
     area = None if within is None else as_partition(within, edges, "keep", threads)._partition
     found = features_of(
@@ -495,6 +497,14 @@ def feature_cells(
         ),
     )
     return Regions._of(found, np.arange(found.num_cells), "feature")
+
+
+def _require_rules(edges: str, overlap: str) -> None:
+    """Refuses other words, also where no polygons are read to which they matter."""
+    if edges not in ("lonlat", "geodesic"):
+        raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
+    if overlap not in ("error", "first"):
+        raise ValueError(f"overlap must be 'error' or 'first', not {overlap!r}")
 
 
 def as_partition(

@@ -148,8 +148,8 @@ def remap(
         integral is kept. 'fracarea': the area that sources cover, so that constants are
         reproduced.
     source_mask, target_mask : array_like of bool, shape (n,) and (m,), optional
-        Which cells take part; by default the mask of the partition. Numbers other than 0 are true;
-        a missing value (NaN, NA, None, or masked) is false.
+        Which cells take part; by default the mask of the partition. For a grid also of its shape.
+        Numbers other than 0 are true; a missing value (NaN, NA, None, or masked) is false.
     overlap : {'error', 'first', 'share'}, optional
         What to do with a place that several cells of one side contain. 'error' (default): raise an
         error that names two of the cells and the place. 'first': the place belongs to the cell with
@@ -171,8 +171,8 @@ def remap(
     Raises
     ------
     InvalidInput
-        If a mask has another length, cells of one side overlap and `overlap` is 'error', or a cell
-        crosses or overlaps itself. It is a `ValueError` whose `index` is the cell.
+        If a mask has another length or shape, cells of one side overlap and `overlap` is 'error',
+        or a cell crosses or overlaps itself. It is a `ValueError` whose `index` is the cell.
     TypeError
         If a mask has elements that are neither numbers nor booleans, or an argument has no cells.
 
@@ -238,4 +238,8 @@ def _as_partition(cells: Any, threads: int | None) -> Partition:
 def _as_mask(mask: ArrayLike | None, name: str, partition: Partition) -> IntArray:
     if mask is None:
         return partition._mask
+    shape = np.shape(mask)
+    if len(shape) != 1 and shape != partition.shape:
+        wanted = {f"({partition.num_cells},)", str(partition.shape)}
+        raise ValueError(f"{name} must have the shape {' or '.join(sorted(wanted))}, not {shape}")
     return np.ascontiguousarray(as_mask(mask, name).reshape(-1), np.int32)

@@ -52,7 +52,8 @@ def weights_to_netcdf(
     site_areas : array_like, shape (n,), optional
         Areas of the sites in steradians, such as those of their Voronoi cells.
     target_areas : array_like, shape (m,), optional
-        Areas of the targets in steradians. With both areas other programs can compute integrals.
+        Areas of the targets in steradians; of a grid also of the shape (nlat, nlon). With both
+        areas other programs can compute integrals.
     method : str, optional
         The name of the method in the file.
 
@@ -75,6 +76,16 @@ def weights_to_netcdf(
             raise ValueError(f"{name} must be {count} points, not of shape {np.shape(points)}")
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
+    for name, areas, points in (
+        ("site_areas", site_areas, sites),
+        ("target_areas", target_areas, targets),
+    ):
+        if areas is None or points is None or np.ndim(areas) == 1:
+            continue
+        if np.shape(areas) != np.shape(points)[:-1]:
+            raise ValueError(
+                f"{name} have the shape {np.shape(areas)}, not {np.shape(points)[:-1]}"
+            )
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
     source = Side(_degrees(sites), _areas(site_areas, "site_areas"))
     target = Side(_degrees(targets), _areas(target_areas, "target_areas"), shape=shape)

@@ -334,6 +334,19 @@ def test_cells_of_a_box_along_their_borders_are_valid():
     assert shapely.coverage_is_valid(np.array(shapes))
 
 
+def test_other_words_are_errors_also_where_they_have_no_effect():
+    cells = rondel.SphericalVoronoi.from_lonlat([0], [0])
+    box = [0, 0, 10, 10]
+    for word in ("share", "keep", ""):
+        for regions in (box, rondel.polygons(box)):
+            with pytest.raises(ValueError, match="overlap must be 'error' or 'first', not"):
+                cells.clip(regions, overlap=word)
+        with pytest.raises(ValueError, match="overlap must be 'error' or 'first', not"):
+            rondel.feature_cells(box, 100, overlap=word)
+    with pytest.raises(ValueError, match="edges must be 'lonlat' or 'geodesic', not 'flat'"):
+        cells.clip(rondel.polygons(box), edges="flat")
+
+
 @pytest.mark.parametrize("nothing", [None, float("nan")])
 @pytest.mark.parametrize("overlap", ["first", "error"])
 def test_regions_without_a_value_take_no_space(tmp_path, nothing, overlap):

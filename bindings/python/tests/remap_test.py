@@ -73,6 +73,20 @@ def test_masks():
         rondel.remap(CELLS, GRID, source_mask=[True, False])
 
 
+def test_masks_of_grids_have_their_shape():
+    grid = rondel.lonlat_grid(36, 18)
+    mask = np.ones(grid.shape, bool)
+    mask[:9] = False
+    found = rondel.remap(grid, grid, source_mask=mask)
+    assert np.array_equal(np.unique(found.weights.indices), np.flatnonzero(mask.reshape(-1)))
+    for wrong in (mask.T, mask.reshape(-1, 1), mask[None], True):
+        for side in ("source_mask", "target_mask"):
+            with pytest.raises(ValueError, match=rf"{side} must have the shape \(18, 36\) or"):
+                rondel.remap(grid, grid, **{side: wrong})
+    with pytest.raises(ValueError, match=r"must have the shape \(300,\), not \(2, 150\)"):
+        rondel.remap(CELLS, GRID, source_mask=np.ones((2, 150)))
+
+
 def test_files(tmp_path):
     box = [[[10, 20], [40, 20], [40, 50], [10, 50], [10, 20]]]
     geometry = {"type": "Polygon", "coordinates": box}

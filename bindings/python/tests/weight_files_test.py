@@ -55,6 +55,9 @@ def test_areas(tmp_path):
         assert np.array_equal(file.variables["area_b"][:], np.ones(30))
     with pytest.raises(ValueError, match="areas are 5 instead of 80"):
         WEIGHTS.to_netcdf(tmp_path / "w.nc", site_areas=areas[:5])
+    WEIGHTS.to_netcdf(tmp_path / "w.nc", targets=TARGETS, target_areas=np.ones((5, 6)))
+    with pytest.raises(ValueError, match=r"target_areas have the shape \(6, 5\), not \(5, 6\)"):
+        WEIGHTS.to_netcdf(tmp_path / "w.nc", targets=TARGETS, target_areas=np.ones((6, 5)))
 
 
 def test_names_of_scrip(tmp_path):
