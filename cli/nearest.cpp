@@ -47,11 +47,6 @@ std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& t
   return found;
 }
 
-std::string_view cell(const Column& column, Index row) {
-  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
-  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
-}
-
 // Returns the sites of each query in compressed rows.
 SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
   if (options.within_deg >= 0) {
@@ -70,14 +65,12 @@ SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
 std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
                      const SiteLists& lists) {
   const char separator = job.separator();
-  std::string text = "query";
-  text += separator;
-  text += "site";
-  text += separator;
-  text += "distance_deg";
-  for (const Column& column : columns) {
-    text += separator;
-    append_field(text, column.name, separator);
+  std::vector<std::string> names = {"query", "site", "distance_deg"};
+  for (const Column& column : columns) names.push_back(column.name);
+  std::string text;
+  for (const std::string& name : free_names(std::move(names))) {
+    if (!text.empty()) text += separator;
+    append_field(text, name, separator);
   }
   text += '\n';
   for (std::size_t i = 0; i < job.queries().size(); ++i) {
@@ -90,7 +83,7 @@ std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
       append_distance(text, job.locator().distance(job.queries()[i], site) * degrees_per_radian);
       for (const Column& column : columns) {
         text += separator;
-        append_field(text, cell(column, site), separator);
+        append_field(text, column.cell(site), separator);
       }
       text += '\n';
     }

@@ -86,11 +86,6 @@ std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t firs
   return wkb.bytes();
 }
 
-std::string_view cell_of(const Column& column, std::size_t row) {
-  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
-  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
-}
-
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};
@@ -99,34 +94,25 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
+// A column of numbers has integers of 64 bits if all of them are such, texts if doubles would round others, and else doubles.
 int field_type(const Column& column) {
   if (!column.is_numeric) return field_text;
   for (std::size_t row = 0; row < column.ends.size(); ++row) {
-    const std::string_view text = cell_of(column, row);
-    if (!text.empty() && !number_in<std::int64_t>(text)) return field_real;
+    const std::string_view text = column.cell(row);
+    if (text.empty() || number_in<std::int64_t>(text)) continue;
+    return column.has_wide_integers() ? field_text : field_real;
   }
   return field_integer;
 }
 
-// The names of the fields: as in GeoJSON, a name that is taken gets underscores. GeoPackage takes upper and lower case for
-// one, and has columns of its own.
+// The names of the fields. GeoPackage takes upper and lower case for one, and has columns of its own.
 std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
   const bool is_sqlite = format.ending == std::string_view("gpkg");
-  const auto known_as = [&](std::string name) {
-    if (is_sqlite) {
-      for (char& c : name) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    }
-    return name;
-  };
   std::set<std::string> taken = {"area"};
   if (is_sqlite) taken.insert({"fid", "geom"});
   std::vector<std::string> names;
-  for (const Column& column : columns) {
-    std::string name = column.name;
-    while (!taken.insert(known_as(name)).second) name += '_';
-    names.push_back(std::move(name));
-  }
-  return names;
+  for (const Column& column : columns) names.push_back(column.name);
+  return free_names(std::move(names), std::move(taken), is_sqlite);
 }
 
 // A dataset in GDAL's memory. What fails is told with the path of the file that it becomes.
@@ -179,7 +165,10 @@ class GdalFile {
     GdalHandle const feature = gdal_.create_feature(gdal_.definition(layer_));
     gdal_.give_geometry(feature, geometry);
     gdal_.set_double(feature, 0, area);
-    for (std::size_t k = 0; k < columns.size(); ++k) set(feature, k, cell_of(columns[k], row));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const bool is_text = !columns[k].is_json.empty() && !columns[k].is_json[row];
+      if (is_text || !columns[k].cell(row).empty()) set(feature, k, columns[k].cell(row));
+    }
     const int error = gdal_.add_feature(layer_, feature);
     gdal_.destroy_feature(feature);
     require(error == 0);
@@ -207,7 +196,6 @@ class GdalFile {
   }
 
   void set(GdalHandle feature, std::size_t k, std::string_view text) const {
-    if (text.empty()) return;
     const int field = static_cast<int>(k) + 1;
     if (types_[k] == field_integer) {
       gdal_.set_integer(feature, field, number_in<std::int64_t>(text).value_or(0));

@@ -30,11 +30,6 @@ namespace {
 
 constexpr double mean_earth_radius = 6371.0088;  // kilometers; WGS 84, (2 a + b) / 3
 
-std::string_view text_in_row(const Column& column, std::size_t row) {
-  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
-  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
-}
-
 const Column& column_of(const std::vector<Column>& columns, const std::string& file,
                         const std::string& name, const std::string& option) {
   const auto column = std::ranges::find(columns, name, &Column::name);
@@ -61,21 +56,17 @@ struct Groups {
   Column names;
 };
 Groups groups_of(const Column& column) {
-  Groups groups{{}, {column.name, column.is_numeric, {}, {}}};
+  Groups groups{{}, column.empty_copy()};
   std::unordered_map<std::string_view, Index> known;
-  std::uint64_t begin = 0;
-  for (const std::uint64_t end : column.ends) {
-    const std::string_view text = std::string_view(column.text).substr(begin, end - begin);
-    begin = end;
+  for (std::size_t row = 0; row < column.ends.size(); ++row) {
+    const std::string_view text = column.cell(row);
     if (text.empty()) {
       groups.of_rows.push_back(no_index);
       continue;
     }
     const auto [entry, is_new] = known.try_emplace(text, static_cast<Index>(known.size()));
     groups.of_rows.push_back(entry->second);
-    if (!is_new) continue;
-    groups.names.text += text;
-    groups.names.ends.push_back(groups.names.text.size());
+    if (is_new) groups.names.add(column, row);
   }
   return groups;
 }
@@ -95,13 +86,8 @@ Column area_column(const CellRings& cells, double radius_km) {
 
 // Returns these rows of a column.
 Column rows_of(const Column& column, std::span<const Index> rows) {
-  Column made{column.name, column.is_numeric, {}, {}};
-  for (const Index row : rows) {
-    const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
-    made.text.append(column.text, begin, column.ends[row] - begin);
-    made.ends.push_back(made.text.size());
-    if (!column.is_number.empty()) made.is_number.push_back(column.is_number[row]);
-  }
+  Column made = column.empty_copy();
+  for (const Index row : rows) made.add(column, row);
   return made;
 }
 
@@ -109,6 +95,7 @@ Column rows_of(const Column& column, std::span<const Index> rows) {
 struct Features {
   CellRings rings;
   std::vector<Column> columns;
+  Column ids;  ///< without cells where a feature comes from several ones
 };
 
 // Cells of a table, whole or clipped; or, with --clip-value, their pieces in the polygons. One of
@@ -120,9 +107,9 @@ struct Cut {
 };
 
 // Makes the features. The columns of the cells are the number in the table and the table's columns,
-// or the name of the group.
+// or the name of the group. What is computed comes first, since names that are taken twice change.
 Features features_of(const VoronoiOptions& options, Cut cut, const Groups& groups,
-                     std::vector<Column> columns, const Execution& execution) {
+                     std::vector<Column> columns, const Column& ids, const Execution& execution) {
   Features made;
   const bool is_joined = !options.group.empty();
   if (is_joined) columns = {groups.names};
@@ -131,6 +118,7 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
                      ? dissolve(cut.cells, groups.of_rows, groups.names.ends.size(), execution)
                      : std::move(cut.cells);
     made.columns = std::move(columns);
+    if (!is_joined) made.ids = ids;
   } else {
     RegionPieces parts = dissolve(cut.pieces, groups.of_rows, cut.values.of_rows, execution);
     for (const Column& column : columns) made.columns.push_back(rows_of(column, parts.cells));
@@ -142,7 +130,8 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
     made.rings = std::move(parts.rings);
   }
   if (options.earth_radius_km > 0) {
-    made.columns.push_back(area_column(made.rings, options.earth_radius_km));
+    const auto place = made.columns.begin() + (is_joined ? 0 : 1);  // behind the number
+    made.columns.insert(place, area_column(made.rings, options.earth_radius_km));
   }
   return made;
 }
@@ -158,7 +147,7 @@ Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
     rules.overlap = options.overlap;
     rules.is_taken = [&](std::size_t feature, std::span<const Column> columns) {
       const auto column = std::ranges::find(columns, options.clip_value, &Column::name);
-      return column == columns.end() || !text_in_row(*column, feature).empty();
+      return column == columns.end() || !column->cell(feature).empty();
     };
   }
   const PolygonTable polygons = read_polygons({options.clip, {}}, rules, execution);
@@ -179,7 +168,7 @@ void write(Job& job, const VoronoiOptions& options, const Features& made) {
                             options.tolerance_deg, job.execution());
     } else {
       write_regions(options.common.target(), made.rings, made.columns, options.tolerance_deg,
-                    job.execution());
+                    job.execution(), made.ids);
     }
   });
 }
@@ -188,6 +177,27 @@ void write(Job& job, const VoronoiOptions& options, const Features& made) {
 std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns) {
   columns.insert(columns.begin(), index_column(name, size));
   return columns;
+}
+
+// Returns a remark on groups none of whose sites has a cell.
+std::vector<std::string> remarks_on_groups(const Groups& groups,
+                                           const Triangulation& triangulation) {
+  const std::size_t size = groups.names.ends.size();
+  if (size == 0) return {};
+  std::vector<bool> has_cell(groups.of_rows.size(), true);
+  for (const Duplicate& duplicate : triangulation.duplicates()) has_cell[duplicate.site] = false;
+  for (const Hidden& hidden : triangulation.hidden()) has_cell[hidden.site] = false;
+  std::vector<bool> is_seen(size);
+  for (std::size_t i = 0; i < groups.of_rows.size(); ++i) {
+    if (has_cell[i] && groups.of_rows[i] != no_index) is_seen[groups.of_rows[i]] = true;
+  }
+  const auto lost = static_cast<std::size_t>(std::ranges::count(is_seen, false));
+  if (lost == 0) return {};
+  const auto first = static_cast<std::size_t>(std::ranges::find(is_seen, false) - is_seen.begin());
+  return {count(lost, "group of ", "groups of ") + "'" + groups.names.name +
+          (lost > 1 ? "' have" : "' has") +
+          " no cell, as all sites are hidden or at the place of one before (" +
+          (lost > 1 ? "first '" : "'") + std::string(groups.names.cell(first)) + "')"};
 }
 
 Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& triangulation,
@@ -224,9 +234,11 @@ ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
     made = features_of(options, cut_cells_of_sites(options, triangulation, execution), groups,
-                       numbered("site", table.sites.size(), std::move(table.columns)), execution);
+                       numbered("site", table.sites.size(), std::move(table.columns)), table.ids,
+                       execution);
   });
   write(job, options, made);
+  tell(table.name, remarks_on_groups(groups, triangulation));
   job.report(triangulation, !options.group.empty()  ? "the joined cells"
                             : !options.clip.empty() ? "the clipped cells"
                                                     : "the cells");
@@ -257,31 +269,35 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
   return cut;
 }
 
-bool has_place(const FeatureTable& table, std::size_t feature) {
-  return table.lines.features[feature] < table.lines.features[feature + 1] ||
-         table.polygons.cells[feature] < table.polygons.cells[feature + 1];
-}
-
-std::size_t count_unplaced(const FeatureTable& table) {
-  std::size_t unplaced = 0;
-  for (std::size_t f = 0; f < table.lines.num_features(); ++f) {
-    if (!has_place(table, f)) ++unplaced;
-  }
-  return unplaced;
-}
-
-// Returns remarks on features that have a place but no cell.
-std::vector<std::string> remarks_on(const FeatureTable& table, const CellRings& cells) {
+// Returns remarks on features without a geometry, and on those that have one but no cell. What lies outside of --clip has no cell
+// either, so with that only polygons are told that lie in others before.
+std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, bool is_clipped,
+                                    bool is_quiet) {
+  std::size_t unlocated = 0;
   std::size_t without = 0;
   std::size_t first = 0;
-  for (std::size_t f = 0; f < cells.num_cells(); ++f) {
-    if (!has_place(table, f) || cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f)) continue;
+  for (std::size_t f = 0; f < table.lines.num_features(); ++f) {
+    if (!table.is_located[f]) {
+      ++unlocated;
+      continue;
+    }
+    const CellRings& cells = is_clipped ? table.polygons : cut.cells;
+    const bool has_line = table.lines.features[f] < table.lines.features[f + 1];
+    if (cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f) || (is_clipped && has_line)) {
+      continue;
+    }
     if (without++ == 0) first = f;
   }
-  if (without == 0) return {};
-  return {count(without, "feature has", "features have") +
-          " no cell, as others before have all of their places (" + (without > 1 ? "first " : "") +
-          feature_name(table.columns, first) + ")"};
+  std::vector<std::string> remarks;
+  if (unlocated > 0 && !is_quiet) {
+    remarks.push_back("left out " + count(unlocated, "feature", "features") + " without a place");
+  }
+  if (without > 0) {
+    remarks.push_back(count(without, "feature has", "features have") +
+                      " no cell, as others before have all of their places (" +
+                      (without > 1 ? "first " : "") + feature_name(table.columns, first) + ")");
+  }
+  return remarks;
 }
 
 ExitStatus write_cells_of_features(const VoronoiOptions& options) {
@@ -298,14 +314,10 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
       groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
     }
     Cut cut = cut_cells_of_features(options, table, execution);
-    const std::size_t unplaced = count_unplaced(table);
-    if (unplaced > 0 && !options.common.quiet) {
-      tell(table.name, {"left out " + count(unplaced, "feature", "features") + " without a place"});
-    }
-    if (options.clip.empty()) tell(table.name, remarks_on(table, cut.cells));
+    tell(table.name, remarks_on(table, cut, !options.clip.empty(), options.common.quiet));
     made = features_of(options, std::move(cut), groups,
                        numbered("feature", table.lines.num_features(), std::move(table.columns)),
-                       execution);
+                       table.ids, execution);
   });
   write(job, options, made);
   const std::size_t count_of_features = table.lines.num_features();

@@ -136,8 +136,9 @@ class FieldFile {
 /// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side,
 /// and one column for each field, named by its time or place on other axes ("tas_2001-07-15",
 /// "tas_850"); `.npy` of shape (n,) or (fields, n); `.nc` and `.nc4` on the grid of the side if it
-/// has one, or else along one dimension. If two columns or variables would have the same name, such
-/// as a field and a coordinate, the second one gets a number, "lat_2".
+/// has one, or else along one dimension. If two columns or variables would have the same name,
+/// coordinates come before fields, and these before columns of the side: what comes later gets an
+/// underscore, "lat_".
 RONDEL_API void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
                              const NetcdfOptions& netcdf = {});
 

@@ -9,8 +9,10 @@
 /// disk: after a power failure within seconds the file may be incomplete.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,6 +72,9 @@ struct ReadOptions {
   std::string radius;
   bool radians = false;       ///< longitude, latitude and radius are in radians
   bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
+  /// .csv and .tsv: a table without columns for places has no sites, and a row whose coordinates are
+  /// empty is a site that is not a number.
+  bool may_lack_places = false;
 };
 
 /// One column of a table, as text.
@@ -80,10 +85,35 @@ struct Column {
   bool is_numeric = false;
   std::string text;                 ///< all cells, one after the other, without separators
   std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
-  /// Says which cells are numbers, if a GeoJSON property is a number in some features and a text in
-  /// others; else empty.
-  std::vector<bool> is_number = {};
+  /// Says which cells are JSON that is written unchanged, null where they are empty; the others are
+  /// texts, also where they are empty. It is empty if `is_numeric` says it: then an empty cell is
+  /// null, and the others are JSON or texts.
+  std::vector<bool> is_json = {};
+
+  /// Returns the text of a cell.
+  [[nodiscard]] std::string_view cell(std::size_t row) const {
+    const std::uint64_t begin = row == 0 ? 0 : ends[row - 1];
+    return std::string_view(text).substr(begin, ends[row] - begin);
+  }
+  /// Appends a cell of a column of the same kind.
+  void add(const Column& column, std::size_t row) {
+    text += column.cell(row);
+    ends.push_back(text.size());
+    if (!column.is_json.empty()) is_json.push_back(column.is_json[row]);
+  }
+  /// True if an integer of a column of numbers is no double, as hashes and indices of 64 bits often
+  /// are. Files that store doubles have such columns as texts.
+  [[nodiscard]] RONDEL_API bool has_wide_integers() const;
+  /// Returns a column of this name and kind without cells.
+  [[nodiscard]] Column empty_copy() const { return {name, is_numeric, {}, {}, {}}; }
 };
+
+/// Returns names that differ from each other and from those that are taken, as properties, columns
+/// and variables of a file have to: in order, a name that is taken gets underscores at its end.
+/// \param ignores_case  true if the letters a to z and A to Z do not make names different
+[[nodiscard]] RONDEL_API std::vector<std::string> free_names(std::vector<std::string> names,
+                                                             std::set<std::string> taken = {},
+                                                             bool ignores_case = false);
 
 /// The sites of a file.
 struct SiteTable {
@@ -93,6 +123,9 @@ struct SiteTable {
   std::vector<LonLat> positions;  ///< degrees as given; empty for xyz input
   std::vector<double> radii_deg;  ///< the radii of circles; empty without a radius column
   std::vector<Column> columns;    ///< if they are kept; the third one without a name is "column_3"
+  /// GeoJSON: the members `id` of the features, as JSON, if columns are kept. A cell is empty where
+  /// a feature has none or more than one site; there are no cells if all of them would be empty.
+  Column ids;
   /// The line of each site, or its row if the format has no lines; empty if every line, or row, has
   /// one site.
   std::vector<std::uint64_t> lines;

@@ -133,11 +133,12 @@ RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double toleranc
 /// are those of region_polygons(): valid, and equal along borders. The geometry of a cell without
 /// polygons is null.
 /// \param file  .geojson (RFC 7946)
-/// \param columns  one value for each cell
-/// \throws InvalidInput if columns or offsets do not fit, or the tolerance is not positive
+/// \param columns  one value for each cell; names that are taken change as in free_names()
+/// \param ids  the member `id` of each feature, as JSON, empty for none; no cells: there are no ids
+/// \throws InvalidInput if columns, ids or offsets do not fit, or the tolerance is not positive
 /// \throws FileError if the file cannot be written, or has another ending
 RONDEL_API void write_regions(const FileName& file, const CellRings& cells,
                               std::span<const Column> columns = {}, double tolerance_deg = 0.01,
-                              const Execution& execution = {});
+                              const Execution& execution = {}, const Column& ids = {});
 
 }  // namespace rondel

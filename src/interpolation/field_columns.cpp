@@ -32,32 +32,34 @@ std::string netcdf_name(std::string name) {
 
 namespace {
 
-// Returns a name that is not used yet and that programs accept for a variable: without blanks and
-// beginning with a letter.
-std::string name_of_variable(const Column& column, std::set<std::string>& used) {
+// Returns a name that programs accept for a variable: without blanks and beginning with a letter.
+std::string name_of_variable(const Column& column) {
   std::string name = netcdf_name(column.name);
   std::ranges::replace(name, ' ', '_');
   const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
   if (!is_letter(name.front())) name.insert(0, "column_");
-  std::string text = name;
-  for (std::size_t k = 2; !used.insert(text).second; ++k) text = name + "_" + std::to_string(k);
-  return text;
+  return name;
 }
 
 }  // namespace
 
-void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> used) {
+std::string take_name(const std::string& name, std::set<std::string>& taken) {
+  return *taken.insert(free_names({name}, taken).front()).first;
+}
+
+void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken) {
   for (const Column& column : columns_) {
-    const std::string name = name_of_variable(column, used);
+    const std::string name = take_name(name_of_variable(column), taken);
+    is_number_.push_back(column.is_numeric && !column.has_wide_integers());
     std::size_t longest = 1;
     for (std::size_t i = 0; i < column.ends.size(); ++i) {
-      longest = std::max(longest, io::cell_of(column, i).size());
+      longest = std::max(longest, column.cell(i).size());
     }
     lengths_.push_back(longest);
-    if (column.is_numeric) {
+    if (is_number_.back()) {
       out.add_variable({name, NetcdfType::float64, {points}, {}});
     } else {
-      const std::size_t length = out.add_dimension(name + "_length", longest);
+      const std::size_t length = out.add_dimension(take_name(name + "_length", taken), longest);
       out.add_variable(
           variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}}));
     }
@@ -68,16 +70,16 @@ void ColumnsOut::write(io::NetcdfWriter& out) const {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Column& column = columns_[c];
     const std::size_t size = column.ends.size();
-    if (column.is_numeric) {
+    if (is_number_[c]) {
       out.write_values<double>(size, [&](std::size_t i) {
-        const std::string_view cell = io::cell_of(column, i);
+        const std::string_view cell = column.cell(i);
         return cell.empty() ? std::numeric_limits<double>::quiet_NaN()
                             : io::parse_number(cell, column.name);
       });
     } else {
       const std::size_t length = lengths_[c];
       out.write_values<char>(size * length, [&](std::size_t k) {
-        const std::string_view cell = io::cell_of(column, k / length);
+        const std::string_view cell = column.cell(k / length);
         return k % length < cell.size() ? cell[k % length] : '\0';
       });
     }

@@ -19,18 +19,22 @@ namespace rondel::interpolation {
 // Returns a valid netCDF name: characters that netCDF does not accept become underscores.
 std::string netcdf_name(std::string name);
 
+// Returns a name of free_names(), which is then taken.
+std::string take_name(const std::string& name, std::set<std::string>& taken);
+
 class ColumnsOut {
  public:
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
 
   // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of
-  // the points, `used` the names that other variables have.
-  void define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> used);
+  // the points, `taken` the names of other variables and dimensions.
+  void define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken);
   // Writes the values, after NetcdfWriter::begin().
   void write(io::NetcdfWriter& out) const;
 
  private:
   std::span<const Column> columns_;
+  std::vector<bool> is_number_;       // by column
   std::vector<std::size_t> lengths_;  // by column: bytes of its longest text, at least 1
 };
 

@@ -83,35 +83,24 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
   return fields;
 }
 
-// Makes the names of columns unique: a repeated name gets a number.
-class ColumnNames {
- public:
-  std::string unique(const std::string& name) {
-    std::string text = name;
-    for (std::size_t k = 2; !used_.insert(text).second; ++k) {
-      text = name + "_" + std::to_string(k);
-    }
-    return text;
-  }
-
- private:
-  std::set<std::string> used_;
-};
-
+// Returns the header: places, properties and fields. A property that has the name of a field gives way to it.
 std::string header_of(const FieldsToWrite& job, char separator) {
-  ColumnNames names;
-  std::string text;
-  const auto append = [&](const std::string& name) {
-    if (!text.empty()) text += separator;
-    io::append_csv_field(text, names.unique(name), separator);
-  };
+  std::vector<std::string> names;
   if (!job.side.points.empty() || job.fields.num_points == 0) {  // the columns of no rows, too
-    append("lon");
-    append("lat");
+    names = {"lon", "lat"};
   }
-  for (const Column& column : job.side.columns) append(column.name);
+  const auto num_coordinates = static_cast<std::ptrdiff_t>(names.size());
   for (const FieldArray& array : job.fields.arrays) {
-    for (const std::string& name : names_of_fields(array, job.fields.axes)) append(name);
+    for (const std::string& name : names_of_fields(array, job.fields.axes)) names.push_back(name);
+  }
+  const auto num_others = static_cast<std::ptrdiff_t>(names.size());
+  for (const Column& column : job.side.columns) names.push_back(column.name);
+  names = free_names(std::move(names));
+  std::rotate(names.begin() + num_coordinates, names.begin() + num_others, names.end());
+  std::string text;
+  for (const std::string& name : names) {
+    if (!text.empty()) text += separator;
+    io::append_csv_field(text, name, separator);
   }
   return text + '\n';
 }
@@ -143,7 +132,7 @@ class TableSink : public FieldSink {
       }
       for (const Column& column : job_.side.columns) {
         separate();
-        io::append_csv_field(text, io::cell_of(column, i), separator_);
+        io::append_csv_field(text, column.cell(i), separator_);
       }
       for (std::size_t at = i; at < values_.size(); at += n) {
         separate();

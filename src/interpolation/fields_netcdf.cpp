@@ -86,14 +86,6 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
-// Returns a valid netCDF name, with a number appended if it is taken.
-std::string take_name(const std::string& given, std::set<std::string>& taken) {
-  const std::string name = netcdf_name(given);
-  std::string own = name;
-  for (std::size_t k = 2; !taken.insert(own).second; ++k) own = name + "_" + std::to_string(k);
-  return own;
-}
-
 class NetcdfSink : public FieldSink {
  public:
   NetcdfSink(io::AtomicFile& file, const FieldsToWrite& job)
@@ -131,7 +123,8 @@ class NetcdfSink : public FieldSink {
     }
     points_.define(out_);
     std::vector<std::string> names;
-    for (const FieldArray& array : fields.arrays) names.push_back(take_name(array.name, taken_));
+    for (const FieldArray& array : fields.arrays)
+      names.push_back(take_name(netcdf_name(array.name), taken_));
     columns_.define(out_, points_.dimensions().front(), taken_);
     for (std::size_t a = 0; a < leading.size(); ++a) {
       const FieldArray& array = fields.arrays[a];
@@ -161,7 +154,7 @@ class NetcdfSink : public FieldSink {
     for (const LeadingDimension& known : known_) {
       if (known.name == name && known.length == length) return known;
     }
-    const std::string own_name = take_name(name, taken_);
+    const std::string own_name = take_name(netcdf_name(name), taken_);
     known_.push_back({name, length, own_name, out_.add_dimension(own_name, length)});
     return known_.back();
   }

@@ -51,7 +51,9 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
 
   const auto append_feature = [&](std::string& text, std::size_t site, map::CellMap::Pen& pen) {
     text += site == first_cell ? "\n" : ",\n";
-    text += R"({"type":"Feature","properties":{"site":)";
+    text += R"({"type":"Feature",)";
+    append_id(text, cells.table.ids, site);
+    text += R"("properties":{"site":)";
     append_integer(text, site);
     text += R"(,"area":)";
     append_number(text, cells.diagram.areas[site]);

@@ -2,6 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/column_text.h"
 
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <system_error>
+
 #include "io/csv_columns.h"
 #include "io/csv_records.h"
 #include "io/number.h"
@@ -9,8 +16,32 @@
 
 namespace rondel::io {
 
+namespace {
+
+// Throws BadValue if the text has a character U+0000, at which a text of netCDF and GDAL ends.
+void require_no_zero(std::string_view text, const std::string& what) {
+  if (text.find('\0') == std::string_view::npos) return;
+  throw BadValue(what + " has the character \\u0000, at which texts end in other formats");
+}
+
+// True if the text is an integer that is no double.
+bool is_wide_integer(std::string_view text) {
+  constexpr std::size_t most_digits = 15;  // 10^15 < 2^53
+  if (text.size() <= most_digits) return false;
+  const std::string_view digits = text.substr(text.front() == '-' ? 1 : 0);
+  if (digits.find_first_not_of("0123456789") != std::string_view::npos) return false;
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc()) return true;
+  const int spare = std::countl_zero(number) + std::countr_zero(number);
+  return number != 0 && spare < 64 - std::numeric_limits<double>::digits;
+}
+
+}  // namespace
+
 Column make_column(std::string_view name) {
   if (!is_utf8(name)) throw BadValue("the name of a column is not UTF-8");
+  require_no_zero(name, "the name of the column " + in_quotes(name));
   Column column;
   column.name = name;
   column.is_numeric = true;
@@ -21,6 +52,7 @@ void append_cell(Column& column, std::string_view cell) {
   if (!is_utf8(cell)) {
     throw BadValue("the text in column " + in_quotes(column.name) + " is not UTF-8");
   }
+  require_no_zero(cell, "the text in column " + in_quotes(column.name));
   if (column.is_numeric && !cell.empty()) column.is_numeric = is_json_number(cell);
   column.text += cell;
   column.ends.push_back(column.text.size());
@@ -34,11 +66,6 @@ void append_csv_field(std::string& text, std::string_view field, char separator)
   text += '"';
   for (const char c : field) text.append(c == '"' ? 2 : 1, c);
   text += '"';
-}
-
-std::string_view cell_of(const Column& column, std::size_t row) {
-  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
-  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
 }
 
 std::string csv_of(std::span<const Column> columns) {
@@ -59,7 +86,7 @@ std::string csv_of(std::span<const Column> columns) {
   };
   append_row([](const Column& column) { return std::string_view(column.name); });
   for (std::size_t row = 0; row < columns.front().ends.size(); ++row) {
-    append_row([&](const Column& column) { return cell_of(column, row); });
+    append_row([&](const Column& column) { return column.cell(row); });
   }
   return text;
 }
@@ -87,3 +114,28 @@ std::vector<Column> columns_of_csv(std::string_view text, std::size_t num_rows) 
 }
 
 }  // namespace rondel::io
+
+namespace rondel {
+
+bool Column::has_wide_integers() const {
+  for (std::size_t row = 0; is_numeric && row < ends.size(); ++row) {
+    if (io::is_wide_integer(cell(row))) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> free_names(std::vector<std::string> names, std::set<std::string> taken,
+                                    bool ignores_case) {
+  const auto known_as = [&](std::string name) {
+    for (char& c : name) {
+      if (ignores_case && c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return name;
+  };
+  for (std::string& name : names) {
+    while (!taken.insert(known_as(name)).second) name += '_';
+  }
+  return names;
+}
+
+}  // namespace rondel

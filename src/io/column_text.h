@@ -28,9 +28,6 @@ void append_cell(Column& column, std::string_view cell);
 // Appends a field of a table, in quotes if it needs them.
 RONDEL_API void append_csv_field(std::string& text, std::string_view field, char separator);
 
-// Returns the cell of a row.
-RONDEL_API std::string_view cell_of(const Column& column, std::size_t row);
-
 // Returns a table with a header and a line for each row; an empty text if there are no columns.
 RONDEL_API std::string csv_of(std::span<const Column> columns);
 

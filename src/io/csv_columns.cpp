@@ -3,6 +3,7 @@
 #include "io/csv_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -127,6 +128,19 @@ std::size_t count_found(const Header& header, std::span<const Coordinate> coordi
       coordinates, [&](const auto& c) { return find(header, c).has_value(); }));
 }
 
+// The coordinates of both kinds.
+struct CoordinateKinds {
+  std::array<Coordinate, 2> lonlat;
+  std::array<Coordinate, 3> xyz;
+};
+CoordinateKinds usual_coordinates(const ReadOptions& options) {
+  return {{{{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},
+            {"latitude", options.lat, {"lat", "latitude"}}}},
+          {{{"x coordinate", options.x, {"x"}},
+            {"y coordinate", options.y, {"y"}},
+            {"z coordinate", options.z, {"z"}}}}};
+}
+
 // True if the coordinates are x, y, z. A file may have both kinds, or a part of one: a complete
 // kind is preferred, then one that is named in part, so that the message says what is missing.
 bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
@@ -173,12 +187,14 @@ void require_different_names(const std::vector<std::string>& names) {
   for (const std::string& name : names) find_column(names, name);
 }
 
+bool has_coordinates(const Header& header, const ReadOptions& options) {
+  const auto [lonlat, xyz] = usual_coordinates(options);
+  if (is_any_named(lonlat) || is_any_named(xyz)) return true;
+  return count_found(header, lonlat) == lonlat.size() || count_found(header, xyz) == xyz.size();
+}
+
 CoordinateColumns find_columns(const Header& header, const ReadOptions& options) {
-  const Coordinate lonlat[] = {{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},
-                               {"latitude", options.lat, {"lat", "latitude"}}};
-  const Coordinate xyz[] = {{"x coordinate", options.x, {"x"}},
-                            {"y coordinate", options.y, {"y"}},
-                            {"z coordinate", options.z, {"z"}}};
+  const auto [lonlat, xyz] = usual_coordinates(options);
   CoordinateColumns result;
   result.is_lonlat = !is_xyz(header, lonlat, xyz);
   std::ranges::transform(result.is_lonlat ? std::span<const Coordinate>(lonlat) : std::span(xyz),

@@ -28,6 +28,9 @@ struct CoordinateColumns {
 // Finds the columns that the options name, or otherwise those with usual names; the order of
 // columns never decides. A radius must be named, since a column of that name may be anything. Names
 // are compared without regard to case. Throws BadValue if a column is missing or two match.
+// True if the options name columns of coordinates, or the header has those of all coordinates.
+bool has_coordinates(const std::vector<std::string>& header, const ReadOptions& options);
+
 CoordinateColumns find_columns(const std::vector<std::string>& header, const ReadOptions& options);
 
 // Returns the names of the columns without blanks around them. A column without a name, as pandas'

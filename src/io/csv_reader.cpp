@@ -54,10 +54,19 @@ void drop_empty_columns(const std::vector<bool>& is_named, SiteTable& table) {
   table.columns = std::move(kept);
 }
 
+// True if all coordinates are empty.
+bool lacks_place(const std::vector<std::string_view>& fields,
+                 const CoordinateColumns& coordinates) {
+  const std::size_t count = coordinates.is_lonlat ? 2 : 3;
+  return std::all_of(coordinates.columns.begin(), coordinates.columns.begin() + count,
+                     [&](std::size_t column) { return trim(fields[column]).empty(); });
+}
+
 // Reads all rows into the table.
 void read_rows(CsvRecords& records, std::string_view text, const ReadJob& options,
                SiteTable& table) {
   const std::vector<std::string> names = column_names(records.fields());
+  if (options.may_lack_places && !has_coordinates(names, options)) return;
   const CoordinateColumns coordinates = find_columns(names, options);
   const std::size_t width = names.size();
   require_different_names(names);
@@ -71,7 +80,9 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
   while (records.next()) {
     const auto& fields = records.fields();
     require_width(records, width);
-    if (coordinates.is_lonlat) {
+    if (options.may_lack_places && lacks_place(fields, coordinates)) {
+      collector.add_unlocated(coordinates.is_lonlat, records.line());
+    } else if (coordinates.is_lonlat) {
       const double lon = parse_number(fields[a], "longitude");
       const double lat = parse_number(fields[b], "latitude");
       collector.add_position(lon, lat, records.line());

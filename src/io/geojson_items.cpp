@@ -148,10 +148,10 @@ void GeoJsonItems::on_root(const JsonTree& root, const ItemListener& listener) {
   }
 }
 
-void GeoJsonItems::visit_geometry(const JsonTree& geometry, const JsonTree& properties,
+void GeoJsonItems::visit_geometry(const JsonTree& geometry, const JsonTree& feature,
                                   const ItemListener& listener) {
   require_degrees(geometry);
-  listener.on_geometry(geometry, properties);
+  listener.on_geometry(geometry, feature);
 }
 
 void GeoJsonItems::visit_feature(const JsonTree& feature, const ItemListener& listener) {
@@ -160,34 +160,49 @@ void GeoJsonItems::visit_feature(const JsonTree& feature, const ItemListener& li
   if (!feature.members.contains("geometry")) throw BadValue("no geometry");
   require_degrees(feature);
   const JsonTree& geometry = feature.member("geometry");
-  const JsonTree& properties = feature.member("properties");
   if (is_unlocated(geometry)) {
-    listener.on_unlocated(properties);
+    listener.on_unlocated(feature);
   } else {
-    visit_geometry(geometry, properties, listener);
+    visit_geometry(geometry, feature, listener);
   }
 }
 
-void PropertyColumns::add(const JsonTree& properties, std::size_t row) {
-  for (const auto& [name, value] : properties.members) {
+void PropertyColumns::add(const JsonTree& feature, std::size_t row) {
+  for (const auto& [name, value] : feature.member("properties").members) {
     const auto [entry, is_new] = index_.try_emplace(name, columns_.size());
     if (is_new) columns_.push_back(make_column(name));
     Column& column = columns_[entry->second];
     pad(column, row);
     append_cell(column, value.is_null() ? std::string() : unquoted(value));
     if (!value.is_number() && !value.is_null()) column.is_numeric = false;
-    column.is_number.resize(row);
-    column.is_number.push_back(value.is_number());
+    pad_kinds(column, row);
+    column.is_json.push_back(!value.is_string());
   }
+  const JsonTree& id = feature.member("id");
+  if (id.is_null()) return;
+  pad(ids_, row);
+  ids_.text += id.text();
+  ids_.ends.push_back(ids_.text.size());
+}
+
+void PropertyColumns::forget_ids(std::size_t row) {
+  if (ids_.ends.size() <= row) return;
+  ids_.ends.resize(row);
+  ids_.text.resize(row == 0 ? 0 : ids_.ends.back());
 }
 
 void PropertyColumns::finish(std::size_t num_rows) {
   for (Column& column : columns_) {
     pad(column, num_rows);
-    column.is_number.resize(num_rows);
-    const bool is_mixed = !column.is_numeric && std::ranges::count(column.is_number, true) > 0;
-    if (!is_mixed) column.is_number = {};
+    pad_kinds(column, num_rows);
+    bool is_plain = true;
+    for (std::size_t row = 0; row < num_rows; ++row) {
+      is_plain = is_plain && column.is_json[row] == (column.is_numeric || column.cell(row).empty());
+    }
+    if (is_plain) column.is_json = {};
   }
+  ids_.is_numeric = true;
+  if (!ids_.ends.empty()) pad(ids_, num_rows);
 }
 
 }  // namespace rondel::io

@@ -31,10 +31,10 @@ std::string unquoted(const JsonTree& value);
 class GeoJsonItems {
  public:
   struct ItemListener {
-    // Called for the geometry of a feature, and for a bare geometry, which has no properties.
-    std::function<void(const JsonTree& geometry, const JsonTree& properties)> on_geometry;
+    // Called for the geometry of a feature, and for a bare geometry, whose feature is null.
+    std::function<void(const JsonTree& geometry, const JsonTree& feature)> on_geometry;
     // Called for a feature without a place.
-    std::function<void(const JsonTree& properties)> on_unlocated;
+    std::function<void(const JsonTree& feature)> on_unlocated;
   };
 
   explicit GeoJsonItems(std::string_view bytes) : bytes_(bytes) {}
@@ -60,7 +60,7 @@ class GeoJsonItems {
   }
   void on_item(const std::string& list, const JsonTree& item, const ItemListener& listener);
   void on_root(const JsonTree& root, const ItemListener& listener);
-  static void visit_geometry(const JsonTree& geometry, const JsonTree& properties,
+  static void visit_geometry(const JsonTree& geometry, const JsonTree& feature,
                              const ItemListener& listener);
   static void visit_feature(const JsonTree& feature, const ItemListener& listener);
 
@@ -70,20 +70,24 @@ class GeoJsonItems {
   std::size_t num_items_ = 0;
 };
 
-// Collects properties, row by row, into columns; a column has a cell in every row.
+// Collects properties and ids of features, row by row, into columns; a column has a cell in every row.
 class PropertyColumns {
  public:
-  explicit PropertyColumns(std::vector<Column>& columns) : columns_(columns) {}
+  PropertyColumns(std::vector<Column>& columns, Column& ids) : columns_(columns), ids_(ids) {}
 
-  void add(const JsonTree& properties, std::size_t row);
+  void add(const JsonTree& feature, std::size_t row);
+  // Forgets the ids of the rows from `row` on: an id is that of one row only.
+  void forget_ids(std::size_t row);
   void finish(std::size_t num_rows);
 
  private:
   static void pad(Column& column, std::size_t size) {
     column.ends.resize(size, column.text.size());
   }
+  static void pad_kinds(Column& column, std::size_t size) { column.is_json.resize(size, true); }
 
   std::vector<Column>& columns_;
+  Column& ids_;
   std::map<std::string, std::size_t> index_;
 };
 

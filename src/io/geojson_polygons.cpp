@@ -25,21 +25,24 @@ constexpr std::array<PolygonFormat, 2> polygon_formats = {{{".geojson"}, {".json
 class PolygonReader {
  public:
   PolygonReader(std::string_view bytes, FeatureKinds kinds, PolygonFeatures& features)
-      : items_(bytes), kinds_(kinds), features_(features), columns_(features.columns) {}
+      : items_(bytes),
+        kinds_(kinds),
+        features_(features),
+        columns_(features.columns, features.ids) {}
 
   void read() {
-    items_.read({[this](const JsonTree& geometry, const JsonTree& properties) {
-                   begin(properties);
+    items_.read({[this](const JsonTree& geometry, const JsonTree& feature) {
+                   begin(feature);
                    add_geometry(geometry, true);
                  },
-                 [this](const JsonTree& properties) { begin(properties); }});
+                 [this](const JsonTree& feature) { begin(feature); }});
     columns_.finish(features_.rings.size());
   }
   [[nodiscard]] std::uint64_t line() const { return items_.line(); }
 
  private:
-  void begin(const JsonTree& properties) {
-    columns_.add(properties, features_.rings.size());
+  void begin(const JsonTree& feature) {
+    columns_.add(feature, features_.rings.size());
     features_.rings.emplace_back();
     features_.lines.emplace_back();
   }

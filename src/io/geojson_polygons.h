@@ -32,6 +32,7 @@ struct PolygonFeatures {
   std::vector<std::vector<LonLatRing>> rings;
   std::vector<std::vector<std::vector<LonLat>>> lines;  // a point is a line of one position
   std::vector<Column> columns;
+  Column ids;  // the members `id`, as JSON; without cells if there are none
 };
 
 enum class FeatureKinds : std::uint8_t { polygons, all };

@@ -3,7 +3,6 @@
 
 #include "io/geojson_properties.h"
 
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -18,28 +17,28 @@ std::string json_string(std::string_view text) { return nlohmann::json(text).dum
 std::vector<std::string> property_keys(std::span<const Column> columns,
                                        std::set<std::string> taken) {
   std::vector<std::string> keys;
-  for (const Column& column : columns) {
-    std::string name = column.name;
-    while (!taken.insert(name).second) name += '_';
-    std::string key = ",";
-    key += json_string(name);
-    key += ':';
-    keys.push_back(std::move(key));
-  }
+  for (const Column& column : columns) keys.push_back(column.name);
+  keys = free_names(std::move(keys), std::move(taken));
+  for (std::string& key : keys) key = "," + json_string(key) + ":";
   return keys;
 }
 
 void append_value(std::string& out, const Column& column, std::size_t row) {
-  const std::uint64_t start = row == 0 ? 0 : column.ends[row - 1];
-  const std::string_view text =
-      std::string_view(column.text).substr(start, column.ends[row] - start);
-  if (text.empty()) {
-    out += "null";
-  } else if (column.is_numeric || (!column.is_number.empty() && column.is_number[row])) {
-    out += text;
-  } else {
+  const std::string_view text = column.cell(row);
+  const bool is_json =
+      column.is_json.empty() ? column.is_numeric || text.empty() : column.is_json[row];
+  if (!is_json) {
     out += json_string(text);
+  } else {
+    out += text.empty() ? "null" : text;
   }
+}
+
+void append_id(std::string& out, const Column& ids, std::size_t row) {
+  if (row >= ids.ends.size() || ids.cell(row).empty()) return;
+  out += R"("id":)";
+  out += ids.cell(row);
+  out += ',';
 }
 
 }  // namespace rondel::io

@@ -14,12 +14,14 @@
 
 namespace rondel::io {
 
-// Returns `,"name":` for each column, with names that differ from each other and from those that
-// are taken.
+// Returns `,"name":` for each column, with the names of free_names().
 std::vector<std::string> property_keys(std::span<const Column> columns,
                                        std::set<std::string> taken);
 
-// Appends the cell of a row as JSON; null for an empty cell.
+// Appends the cell of a row as JSON.
 void append_value(std::string& out, const Column& column, std::size_t row);
+
+// Appends `"id":ID,` where the row has an id.
+void append_id(std::string& out, const Column& ids, std::size_t row);
 
 }  // namespace rondel::io

@@ -22,23 +22,25 @@ class GeoJsonReader {
         keep_columns_(options.keep_columns),
         table_(table),
         collector_(table, options),
-        columns_(table.columns),
+        columns_(table.columns, table.ids),
         items_(bytes) {}
 
   // Throws BadValue if the document is not valid; line() is then where.
   void read() {
-    items_.read({[this](const JsonTree& geometry, const JsonTree& properties) {
-                   add_geometry(geometry, properties);
+    items_.read({[this](const JsonTree& geometry, const JsonTree& feature) {
+                   const std::size_t first = collector_.size();
+                   add_geometry(geometry, feature);
+                   if (collector_.size() - first > 1) columns_.forget_ids(first);
                  },
-                 [this](const JsonTree& /*properties*/) { ++table_.num_unlocated; }});
+                 [this](const JsonTree& /*feature*/) { ++table_.num_unlocated; }});
     columns_.finish(collector_.size());
   }
   [[nodiscard]] std::uint64_t line() const { return items_.line(); }
 
  private:
-  void add_geometry(const JsonTree& geometry, const JsonTree& properties);
-  void add_coordinates(const JsonTree& coordinates, const JsonTree& properties);
-  [[nodiscard]] double radius_in(const JsonTree& properties) const;
+  void add_geometry(const JsonTree& geometry, const JsonTree& feature);
+  void add_coordinates(const JsonTree& coordinates, const JsonTree& feature);
+  [[nodiscard]] double radius_in(const JsonTree& feature) const;
 
   std::size_t num_bytes_;
   std::string radius_;  // name of the property
@@ -49,10 +51,10 @@ class GeoJsonReader {
   GeoJsonItems items_;
 };
 
-void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& properties) {
+void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& feature) {
   const std::string type = geojson_type(geometry);
   const JsonTree& coordinates = geometry.member("coordinates");
-  if (type == "Point") return add_coordinates(coordinates, properties);
+  if (type == "Point") return add_coordinates(coordinates, feature);
   const bool is_collection = type == "GeometryCollection";
   if (!is_collection && type != "MultiPoint") {
     throw BadValue("type " + in_quotes(type) + " where a Point is needed");
@@ -63,26 +65,26 @@ void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& prope
     // Refuses collections in collections, which bounds the recursion.
     if (is_collection && geojson_type(part) == type) throw BadValue("nested GeometryCollection");
     if (is_collection) {
-      add_geometry(part, properties);
+      add_geometry(part, feature);
     } else {
-      add_coordinates(part, properties);
+      add_coordinates(part, feature);
     }
   }
 }
 
-void GeoJsonReader::add_coordinates(const JsonTree& coordinates, const JsonTree& properties) {
+void GeoJsonReader::add_coordinates(const JsonTree& coordinates, const JsonTree& feature) {
   if (!coordinates.is_array() || coordinates.items.size() < 2 ||
       !coordinates.items[0].is_number() || !coordinates.items[1].is_number()) {
     throw BadValue("coordinates " + in_quotes(coordinates.text()) + " are not [lon, lat]");
   }
-  if (keep_columns_) columns_.add(properties, collector_.size());
+  if (keep_columns_) columns_.add(feature, collector_.size());
   collector_.add_position(coordinates.items[0].number(), coordinates.items[1].number(), line());
-  if (!radius_.empty()) collector_.make_circle(radius_in(properties));
+  if (!radius_.empty()) collector_.make_circle(radius_in(feature));
   collector_.report_progress(items_.num_bytes_read(), num_bytes_);
 }
 
-double GeoJsonReader::radius_in(const JsonTree& properties) const {
-  const JsonTree& value = properties.member(radius_);
+double GeoJsonReader::radius_in(const JsonTree& feature) const {
+  const JsonTree& value = feature.member("properties").member(radius_);
   if (value.is_null()) throw BadValue("no property " + in_quotes(radius_));
   if (value.is_number()) return value.number();
   return parse_number(unquoted(value), "radius");

@@ -16,6 +16,7 @@ const JsonTree& JsonTree::member(const std::string& name) const {
 
 std::string JsonTree::text() const {
   if (kind == Kind::scalar) return scalar.dump();
+  if (kind == Kind::integer) return string();
   std::string text;
   for (const JsonTree& item : items) text += (text.empty() ? "" : ",") + item.text();
   for (const auto& [name, value] : members) {
@@ -52,6 +53,14 @@ bool JsonTreeBuilder::add(JsonTree value) {
 bool JsonTreeBuilder::add_scalar(nlohmann::json value) {
   JsonTree tree;
   tree.scalar = std::move(value);
+  return add(std::move(tree));
+}
+
+bool JsonTreeBuilder::number_float(double value, const std::string& text) {
+  if (text.find_first_not_of("-0123456789") != std::string::npos) return add_scalar(value);
+  JsonTree tree;
+  tree.kind = JsonTree::Kind::integer;
+  tree.scalar = text;
   return add(std::move(tree));
 }
 

@@ -28,7 +28,8 @@ class JsonError : public BadValue {
 };
 
 struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's values does not throw
-  enum class Kind : std::uint8_t { scalar, array, object };
+  // An integer beyond 64 bits keeps its digits, as a string in `scalar`.
+  enum class Kind : std::uint8_t { scalar, integer, array, object };
 
   Kind kind = Kind::scalar;
   nlohmann::json scalar;  // null, a boolean, a number or a string
@@ -36,10 +37,14 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   std::map<std::string, JsonTree> members;
 
   [[nodiscard]] bool is_null() const { return kind == Kind::scalar && scalar.is_null(); }
-  [[nodiscard]] bool is_number() const { return kind == Kind::scalar && scalar.is_number(); }
+  [[nodiscard]] bool is_number() const {
+    return kind == Kind::integer || (kind == Kind::scalar && scalar.is_number());
+  }
   [[nodiscard]] bool is_string() const { return kind == Kind::scalar && scalar.is_string(); }
   [[nodiscard]] bool is_array() const { return kind == Kind::array; }
-  [[nodiscard]] double number() const { return scalar.get<double>(); }
+  [[nodiscard]] double number() const {
+    return kind == Kind::integer ? parse_number(string(), "number") : scalar.get<double>();
+  }
   [[nodiscard]] std::string string() const { return scalar.get<std::string>(); }
 
   // Returns the member of an object, or null if there is none.
@@ -69,9 +74,7 @@ class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool boolean(bool value) override { return add_scalar(value); }
   bool number_integer(std::int64_t value) override { return add_scalar(value); }
   bool number_unsigned(std::uint64_t value) override { return add_scalar(value); }
-  bool number_float(double value, const std::string& /*text*/) override {
-    return add_scalar(value);
-  }
+  bool number_float(double value, const std::string& text) override;
   bool string(std::string& value) override { return add_scalar(std::move(value)); }
   bool binary(nlohmann::json::binary_t& /*value*/) override { return false; }
   bool start_object(std::size_t /*size*/) override { return open(JsonTree::Kind::object); }

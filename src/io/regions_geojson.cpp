@@ -36,6 +36,7 @@ struct RegionsToWrite {
   std::span<const Column> columns;
   double tolerance;  // radians
   const Execution& execution;
+  const Column& ids;
 };
 
 constexpr std::size_t cells_per_task = 16;
@@ -127,7 +128,9 @@ void write_regions_geojson(AtomicFile& file, const RegionsToWrite& job) {
   for (std::size_t i = 0; i < geometries.size(); ++i) {
     if (geometries[i].empty()) continue;
     std::string text = std::exchange(separator, ",\n");
-    text += R"({"type":"Feature","properties":{"area":)";
+    text += R"({"type":"Feature",)";
+    append_id(text, job.ids, i);
+    text += R"("properties":{"area":)";
     append_number(text, area_of(job.cells, i));
     for (std::size_t k = 0; k < keys.size(); ++k) {
       text += keys[k];
@@ -167,7 +170,7 @@ LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
   const system::Call call(execution);
   io::require_rings(cells);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  const std::vector<map::PolygonsOfRegion> drawn = io::draw({cells, {}, tolerance, execution});
+  const std::vector<map::PolygonsOfRegion> drawn = io::draw({cells, {}, tolerance, execution, {}});
   LonLatRegions all;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     for (const map::PolygonWithHoles& polygon : drawn[i]) {
@@ -183,9 +186,10 @@ LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
 }
 
 void write_regions(const FileName& file, const CellRings& cells, std::span<const Column> columns,
-                   double tolerance_deg, const Execution& execution) {
+                   double tolerance_deg, const Execution& execution, const Column& ids) {
   const system::Call call(execution);
   io::require_rings(cells);
+  io::require_fit(ids.ends.empty() || io::is_complete(ids, cells.num_cells()), "ids");
   io::require_fit(std::ranges::all_of(columns,
                                       [&](const Column& column) {
                                         return io::is_complete(column, cells.num_cells());
@@ -193,7 +197,7 @@ void write_regions(const FileName& file, const CellRings& cells, std::span<const
                   "columns");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<io::RegionsToWrite>(io::region_writers, file, "regions are written as",
-                                      {cells, columns, tolerance, execution});
+                                      {cells, columns, tolerance, execution, ids});
 }
 
 }  // namespace rondel

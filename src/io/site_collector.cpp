@@ -3,6 +3,7 @@
 #include "io/site_collector.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "io/number.h"
@@ -35,6 +36,13 @@ void SiteCollector::add_point(const Point& point, std::uint64_t line) {
   checked_point(point);
   note_line(line);
   table_.sites.push_back(point);
+}
+
+void SiteCollector::add_unlocated(bool is_lonlat, std::uint64_t line) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  note_line(line);
+  if (is_lonlat) table_.positions.push_back({none, none});
+  table_.sites.push_back({none, none, none});
 }
 
 void SiteCollector::make_circle(double radius) {

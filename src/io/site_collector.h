@@ -28,6 +28,8 @@ class SiteCollector {
   // Adds the next site, which is in `line` (0 if the format has no lines). Throws BadValue if it is
   // not valid.
   void add_position(double lon, double lat, std::uint64_t line);
+  // Adds a site that is not a number.
+  void add_unlocated(bool is_lonlat, std::uint64_t line);
   void add_point(const Point& point, std::uint64_t line);
 
   // Turns the site just added into a circle with that radius. Throws BadValue if the radius is not

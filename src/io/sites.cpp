@@ -70,22 +70,16 @@ SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
   selected.name = name;
   selected.first_line = first_line;
   selected.num_unlocated = num_unlocated;
-  for (const Column& column : columns)
-    selected.columns.push_back({column.name, column.is_numeric, {}, {}});
+  for (const Column& column : columns) selected.columns.push_back(column.empty_copy());
+  selected.ids = ids.empty_copy();
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) continue;
     selected.sites.push_back(sites[i]);
     if (!positions.empty()) selected.positions.push_back(positions[i]);
     if (!radii_deg.empty()) selected.radii_deg.push_back(radii_deg[i]);
     selected.lines.push_back(lines.empty() ? first_line + i : lines[i]);
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const Column& from = columns[c];
-      const std::uint64_t begin = i == 0 ? 0 : from.ends[i - 1];
-      Column& to = selected.columns[c];
-      to.text.append(from.text, begin, from.ends[i] - begin);
-      to.ends.push_back(to.text.size());
-      if (!from.is_number.empty()) to.is_number.push_back(from.is_number[i]);
-    }
+    for (std::size_t c = 0; c < columns.size(); ++c) selected.columns[c].add(columns[c], i);
+    if (!ids.ends.empty()) selected.ids.add(ids, i);
   }
   return selected;
 }

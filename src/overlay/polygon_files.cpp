@@ -81,11 +81,16 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
                            const Execution& execution) {
   const system::Call call(execution);
   io::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
+  std::vector<bool> is_located;
+  for (std::size_t f = 0; f < features.rings.size(); ++f) {
+    is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
+  }
   FeatureLines lines = lines_of_features(features, options);
   std::vector<std::string> remarks;
   CellRings polygons = overlay::cells_of_features(features, options, remarks, execution);
-  return {std::move(features.name), std::move(lines), std::move(polygons),
-          std::move(features.columns), std::move(remarks)};
+  return {std::move(features.name),    std::move(lines),        std::move(polygons),
+          std::move(features.columns), std::move(features.ids), std::move(is_located),
+          std::move(remarks)};
 }
 
 }  // namespace rondel

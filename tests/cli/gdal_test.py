@@ -7,6 +7,7 @@ The library is that of pyogrio's wheel; without it ctest says "Skipped".
 """
 
 import importlib.util
+import json
 import os
 import pathlib
 import subprocess
@@ -70,6 +71,27 @@ class FilesOfGdal(unittest.TestCase):
             self.assertEqual("".join(found[["site_", "site__", "area_"]].loc[0]), "abc", name)
             self.assertEqual([*found[own.split()].loc[1]], ["k", 2.5, "l", "m", "n"], name)
             self.assertAlmostEqual(found["area"].sum(), 4 * np.pi, 12)
+
+    def test_integers_that_are_no_doubles_are_texts(self):
+        wide = [2**63 + 2**15, 2**63 + 2**15 + 1, 7, 2**53 + 1]
+        (self.folder / "s.csv").write_text("lon,lat,hash,big,mixed\n" + "".join(
+            f"{90 * k},{k},{value},{2**62 + k},{value % 2**53 + 0.5}\n" for k, value in enumerate(wide)))
+        for name in ("s.gpkg", "s.fgb"):
+            found = self.written(name, "s.csv").set_index("site").sort_index()
+            self.assertEqual([*found["hash"]], [*map(str, wide)], name)
+            self.assertEqual([*found["big"]], [2**62 + k for k in range(4)])
+            self.assertEqual(found["big"].dtype, np.int64)
+            self.assertEqual(found["mixed"].dtype, np.float64)
+
+    def test_empty_texts_are_not_null(self):
+        points = [{"type": "Feature", "properties": {"t": text, "b": True},
+                   "geometry": {"type": "Point", "coordinates": [90 * k, 0]}} for k, text in enumerate(("", None, "x"))]
+        (self.folder / "p.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": points}))
+        for name in ("p.gpkg", "p.fgb"):
+            found = self.written(name, "p.geojson").set_index("site").sort_index()
+            self.assertEqual(["" if t == "" else t or None for t in found["t"].where(found["t"].notna(), None)],
+                             ["", None, "x"], name)
+            self.assertEqual(set(found["b"]), {"true"})
 
     def test_are_the_same_bytes_again(self):
         for name in ("cells.gpkg", "cells.fgb"):

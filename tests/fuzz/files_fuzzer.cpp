@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where, SiteTable::selection on files of
+// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where, SiteTable::selection, Column::cell, Column::add,
+// Column::empty_copy, Column::has_wide_integers, free_names on files of
 // any bytes and any ending: what a file holds, and messages of one line that begin with its name.
 #include <algorithm>
 #include <array>
@@ -24,6 +25,35 @@ void require_message(const FileError& error, const std::string& path) {
   const std::string what = error.what();
   require(what.starts_with(path + ":"), "a message starts with the file: " + what);
   require(what.find('\n') == std::string::npos, "a message is one line: " + what);
+}
+
+// Cells of a column are the text, names differ, and a selection has the cells that are kept.
+void test_columns(const std::string& path) {
+  try {
+    ReadOptions options;
+    options.keep_columns = true;
+    const SiteTable table = read_sites(path, options);
+    std::vector<std::string> names;
+    for (const Column& column : table.columns) {
+      names.push_back(column.name);
+      Column copy = column.empty_copy();
+      std::string text;
+      for (std::size_t i = 0; i < column.ends.size(); ++i) {
+        text += column.cell(i);
+        copy.add(column, i);
+      }
+      require(column.ends.size() == table.sites.size() && text == column.text,
+              "cells are the text");
+      require(copy.text == text && copy.ends == column.ends && copy.is_json == column.is_json &&
+                  copy.has_wide_integers() == column.has_wide_integers(),
+              "a column is copied");
+    }
+    names = free_names(names, {"area"}, true);
+    std::ranges::sort(names);
+    require(std::ranges::adjacent_find(names) == names.end(), "names differ");
+  } catch (const FileError& error) {
+    require_message(error, path);
+  }
 }
 
 void test_sites(const std::string& path) {
@@ -96,6 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write_file(path, bytes);
   fuzz::require(fuzz::content(path) == bytes, "a file holds what was written");
   fuzz::test_sites(path);
+  fuzz::test_columns(path);
   fuzz::test_triangles(path);
   fuzz::test_indices(folder.file("indices.npy"), bytes);
   fuzz::test_numbers(folder.file("numbers.npy"), bytes);

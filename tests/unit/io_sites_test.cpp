@@ -322,11 +322,80 @@ TEST(read_sites, tells_numbers_of_a_property_from_texts) {
   const auto column = [](const SiteTable& of, const char* name) {
     return *std::ranges::find(of.columns, name, &Column::name);
   };
-  EXPECT_EQ(column(table, "v").is_number, (std::vector<bool>{true, false, false, true, false}));
-  EXPECT_TRUE(column(table, "n").is_number.empty());
-  EXPECT_TRUE(column(table, "t").is_number.empty());
+  EXPECT_EQ(column(table, "v").is_json, (std::vector<bool>{true, false, true, true, true}));
+  EXPECT_TRUE(column(table, "n").is_json.empty());
+  EXPECT_TRUE(column(table, "t").is_json.empty());
   const SiteTable selected = table.selection({false, true, false, true, false});
-  EXPECT_EQ(column(selected, "v").is_number, (std::vector<bool>{false, true}));
+  EXPECT_EQ(column(selected, "v").is_json, (std::vector<bool>{false, true}));
+}
+
+TEST(read_sites, keeps_ids_of_features_with_one_site) {
+  const TemporaryDirectory directory;
+  const auto feature = [](const std::string& id, const std::string& geometry) {
+    return R"({"type":"Feature",)" + id + R"("properties":{},"geometry":)" + geometry + "}";
+  };
+  const std::string one = R"({"type":"Point","coordinates":[1,2]})";
+  const std::string two = R"({"type":"MultiPoint","coordinates":[[1,2],[3,4]]})";
+  const std::string file = directory.with(
+      "a.geojson", R"({"type":"FeatureCollection","features":[)" + feature(R"("id":"a",)", one) +
+                       "," + feature("", one) + "," + feature(R"("id":"b",)", two) + "," +
+                       feature(R"("id":18446744073709551616,)", one) + "]}");
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites(file, options);
+  EXPECT_EQ(cells(table.ids),
+            (std::vector<std::string>{R"("a")", "", "", "", "18446744073709551616"}));
+  EXPECT_EQ(cells(table.selection({true, false, false, false, true}).ids),
+            (std::vector<std::string>{R"("a")", "18446744073709551616"}));
+  const std::string none = directory.with("b.geojson", feature("", one));
+  EXPECT_TRUE(read_sites(none, options).ids.ends.empty());
+}
+
+TEST(read_sites, may_lack_places) {
+  const TemporaryDirectory directory;
+  const auto read = [&](const std::string& text, bool may_lack = true) {
+    ReadOptions options;
+    options.may_lack_places = may_lack;
+    return read_sites(directory.with("a.csv", text), options);
+  };
+  const SiteTable some = read("lon,lat,v\n1,2,3\n,,4\n5,6,\n");
+  ASSERT_EQ(some.sites.size(), 3U);
+  EXPECT_TRUE(std::isnan(some.sites[1].x) && std::isnan(some.positions[1].lat_deg));
+  EXPECT_EQ(some.positions[2], (LonLat{5, 6}));
+  EXPECT_EQ(some.where(2), some.name + ":4");
+  EXPECT_TRUE(std::isnan(read("x,y,z\n1,2,3\n, ,\n").sites[1].z));
+  EXPECT_TRUE(read("x,v\n1,3\n").sites.empty());
+  EXPECT_TRUE(read("lat,v\n1,3\n").sites.empty());
+  for (const char* text : {"lon,lat\n1,\n", "x,y,z\n,,1\n", "lon,lat\nnan,1\n"}) {
+    EXPECT_THROW(read(text), FileError) << text;
+  }
+  EXPECT_THROW(read("lon,lat\n,\n", false), FileError);
+  EXPECT_THROW(read("x,v\n1,3\n", false), FileError);
+}
+
+TEST(columns, have_integers_that_are_no_doubles) {
+  const auto is_wide = [](const std::string& text, bool is_numeric = true) {
+    return Column{"a", is_numeric, "1" + text, {1, 1 + text.size()}}.has_wide_integers();
+  };
+  for (const char* text :
+       {"9007199254740993", "-9007199254740993", "9938650116007493633", "18446744073709551615",
+        "18446744073709551616", "-9223372036854775807", "1000000000000000000000000000000"}) {
+    EXPECT_TRUE(is_wide(text)) << text;
+    EXPECT_FALSE(is_wide(text, false)) << text;
+  }
+  for (const char* text : {"", "0", "-1", "9007199254740992", "9007199254740994",
+                           "9223372036854775808", "-9223372036854775808", "18446744073709549568",
+                           "0.10000000000000000001", "9007199254740993.5", "1e30"}) {
+    EXPECT_FALSE(is_wide(text)) << text;
+  }
+}
+
+TEST(free_names, give_way_with_underscores) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(free_names({"a", "b", "a", "a_", "a"}), (Names{"a", "b", "a_", "a__", "a___"}));
+  EXPECT_EQ(free_names({"area", "Area"}, {"area"}), (Names{"area_", "Area"}));
+  EXPECT_EQ(free_names({"Area", "x", "X"}, {"area"}, true), (Names{"Area_", "x", "X_"}));
+  EXPECT_EQ(free_names({}, {"a"}), Names{});
 }
 
 TEST(read_sites, converts_radians) {
