@@ -28,19 +28,40 @@ bool is_near(const Point& a, const Point& b) {
   return x * x + y * y + z * z <= most_apart * most_apart;
 }
 
-// Values that have places must have those of the weights; tables the very numbers, if the file has nothing but their hash.
+bool is_known(const LonLat& place) {
+  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
+}
+
+// How many pairs of places are known on both sides, and whether these are near each other.
+struct ComparedPlaces {
+  std::size_t count = 0;
+  bool are_near = true;
+};
+ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Point>& places) {
+  std::vector<LonLat> known;
+  std::vector<Point> own;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!is_known(sources[i]) || std::isnan(places[i].x)) continue;
+    known.push_back(sources[i]);
+    own.push_back(places[i]);
+  }
+  // The points of a table may be anywhere on their rays.
+  return {known.size(),
+          std::ranges::equal(unit_vectors(lonlats(own)), unit_vectors(known), is_near)};
+}
+
+// Values that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
+// but their hash.
 void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                     const std::vector<Point>& places, bool is_table) {
+  const bool are_complete =
+      std::ranges::none_of(places, [](const Point& place) { return std::isnan(place.x); });
   const std::uint64_t hash = file.weights.sites_hash;
-  if (hash != 0 && point_set_hash(places) == hash) return;
-  const std::vector<LonLat>& sources = file.source.points;
-  const auto is_place = [](const LonLat& place) { return std::abs(place.lat_deg) <= 90; };
-  if (sources.size() == places.size() && std::ranges::all_of(sources, is_place)) {
-    // The points of a table may be anywhere on their rays.
-    if (std::ranges::equal(unit_vectors(lonlats(places)), unit_vectors(sources), is_near)) return;
-  } else if (hash == 0 || !is_table) {
-    return;
-  }
+  if (hash != 0 && are_complete && point_set_hash(places) == hash) return;
+  ComparedPlaces compared;
+  if (file.source.points.size() == places.size()) compared = compare(file.source.points, places);
+  const bool must_be_known = hash != 0 && is_table && are_complete;
+  if (compared.are_near && (compared.count > 0 || !must_be_known)) return;
   throw FileError(options.values_file + ": its points are not the sources of " +
                   options.common.input + ", or not in this order");
 }
@@ -60,9 +81,7 @@ WeightFile readable_weights(const CommonOptions& common) {
 // The places of the weights' sources; none if some are not known.
 std::span<const LonLat> places_of_sources(const WeightFile& file) {
   const std::vector<LonLat>& sources = file.source.points;
-  const bool are_known = std::ranges::all_of(sources, [](const LonLat& place) {
-    return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
-  });
+  const bool are_known = std::ranges::all_of(sources, is_known);
   return are_known ? std::span<const LonLat>(sources) : std::span<const LonLat>();
 }
 
@@ -91,14 +110,10 @@ bool are_columns_named(const ReadOptions& read) {
 
 void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
   if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
-  SiteTable table;
-  try {
-    table = read_sites(options.values_file, options.common.read);
-  } catch (const FileError&) {
-    if (are_columns_named(options.common.read)) throw;
-    return;  // the table has no places
-  }
-  require_places(options, file, table.sites, true);
+  ReadOptions read = options.common.read;
+  read.may_lack_places = true;
+  const SiteTable table = read_sites(options.values_file, read);
+  if (!table.sites.empty()) require_places(options, file, table.sites, true);
 }
 
 bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
