@@ -32,8 +32,15 @@ std::string summary_of(const WeightFile& file, const WeightReport& report) {
                      "; empty rows: " + std::to_string(report.empty_rows) + '\n';
   text += "weights from " + short_number(report.least) + " to " + short_number(report.greatest) +
           "; sums of " + (report.sums_are_of_columns ? "columns" : "rows") + " are " +
-          (report.sums_are_fractions ? "the fractions" : "1") + " to " +
-          short_number(report.worst_row) + '\n';
+          (report.sums_are_at_most_1   ? "at most 1"
+           : report.sums_are_fractions ? "the fractions"
+                                       : "1") +
+          " to " + short_number(report.worst_row) +
+          (report.sums_are_at_most_1 && report.least_row
+               ? ", the least " + short_number(*report.least_row) +
+                     " (the fractions of the targets are not known)"
+               : "") +
+          '\n';
   if (report.worst_column) {
     text += "areas of sources are given away to " + short_number(*report.worst_column) + '\n';
   }
@@ -74,6 +81,7 @@ nlohmann::ordered_json json_of(const WeightFile& file, const WeightReport& repor
           {"least", report.least},
           {"greatest", report.greatest},
           {"row_sums", report.worst_row},
+          {"least_row_sum", maybe(report.least_row)},
           {"column_sums", maybe(report.worst_column)},
           {"direction", maybe(report.worst_direction)},
           {"method", file.method},

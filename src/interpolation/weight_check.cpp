@@ -99,6 +99,7 @@ class WeightChecker {
     // The part of a target that lies outside of the sources is not known.
     is_at_most_wanted_ = method_.is_conservative && file.target.fractions.empty() &&
                          file.normalization != "fracarea";
+    report_.sums_are_at_most_1 = is_at_most_wanted_ && !method_.gives_sources_away;
     const std::string wanted = is_at_most_wanted_           ? "more than 1"
                                : report_.sums_are_fractions ? "the fraction of the target"
                                                             : "something else than 1";
@@ -166,6 +167,7 @@ class WeightChecker {
     const double deviation =
         is_at_most_wanted_ ? std::max(sum - wanted, 0.0) : std::abs(sum - wanted);
     report_.worst_row = std::max(report_.worst_row, deviation);
+    report_.least_row = std::min(report_.least_row.value_or(sum), sum);
     if (!(deviation <= tolerance)) row_sums_.add("target " + std::to_string(row), sum);
   }
 

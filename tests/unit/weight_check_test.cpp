@@ -73,8 +73,14 @@ TEST(weight_check, names_fractions_above_one_and_below_zero) {
 
 TEST(weight_check, takes_rows_below_one_where_fractions_are_not_known) {
   WeightFile file = three_of_four();
+  EXPECT_FALSE(check_weights(file).sums_are_at_most_1);
   file.target.fractions.clear();
   EXPECT_EQ(faults_of(file), Lines{});
+  EXPECT_TRUE(check_weights(file).sums_are_at_most_1);
+  file.weights.values[3] = 0.125;
+  EXPECT_EQ(check_weights(file).least_row, 0.125);
+  file = three_of_four();
+  file.target.fractions.clear();
   file.weights.values[2] = 1.5;
   EXPECT_EQ(check_weights(file).count("row sum"), 1U);
   file = three_of_four();
