@@ -156,6 +156,21 @@ void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
       "error (default: two of them are named) or first (it is of the first one)");
 }
 
+void require_effects(const CLI::App& parser, const VoronoiOptions& options) {
+  const bool has_features = options.densify_km > 0;
+  require_effect(parser, has_features || !options.clip.empty(), {"--edges"},
+                 "without --clip or --densify");
+  require_effect(parser, has_features || !options.clip_value.empty(), {"--overlap"},
+                 "without --clip-value or --densify");
+  require_effect(parser, !has_features,
+                 {"--radius", "--radians", "--delimiter", "--lon", "--lat", "--x", "--y", "--z",
+                  "--model", "--center", "--squared-radius"},
+                 "with --densify, whose INPUT has lines and polygons");
+  const std::string format = options.common.format();
+  require_effect(parser, format != "vtp" && format != "npz", {"--tolerance"},
+                 "for ." + format + ", which has great circles");
+}
+
 Command add_voronoi_command(CLI::App& tool) {
   auto options = std::make_shared<VoronoiOptions>();
   CLI::App* parser = tool.add_subcommand("voronoi", "Compute the Voronoi or power cells of sites");
@@ -211,7 +226,10 @@ Command add_voronoi_command(CLI::App& tool) {
       "  rondel voronoi stations.csv --clip countries.geojson --clip-value name -o parts.gpkg\n"
       "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
-  return {parser, [options] { return run_voronoi(*options); }};
+  return {parser, [options, parser] {
+            require_effects(*parser, *options);
+            return run_voronoi(*options);
+          }};
 }
 
 Command add_hull_command(CLI::App& tool) {

@@ -118,7 +118,13 @@ Command add_scvt_command(CLI::App& group) {
       "  rondel mesh scvt -n 40962 --along land.geojson -o coast.nc\n"
       "  rondel mesh scvt --spacing 240 --fixed sections.geojson -o sections.nc\n"
       "  rondel mesh scvt --spacing spacing.nc:h -o mesh.nc --format ugrid");
-  return {parser, [options] { return run_scvt(*options); }};
+  return {parser, [options, parser] {
+            require_effect(
+                *parser,
+                !options->refine.empty() || !options->fixed.empty() || !options->along.empty(),
+                {"--edges"}, "without --refine, --fixed or --along");
+            return run_scvt(*options);
+          }};
 }
 
 Command add_icosahedral_command(CLI::App& group) {
@@ -159,7 +165,10 @@ Command add_points_command(CLI::App& group) {
       "Examples:\n"
       "  rondel mesh points healpix --size 64 -o centers.npy\n"
       "  rondel mesh points poisson --radius 100 -o poisson.nc --format ugrid");
-  return {parser, [options] { return run_mesh_points(*options); }};
+  return {parser, [options, parser] {
+            require_effect(*parser, options->kind == "poisson", {"--seed"}, "but for poisson");
+            return run_mesh_points(*options);
+          }};
 }
 
 Command add_area_partition_command(CLI::App& group) {

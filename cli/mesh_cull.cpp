@@ -130,7 +130,11 @@ Command add_mesh_cull_command(CLI::App& mesh) {
       "Examples:\n"
       "  rondel mesh cull mesh.nc -o ocean.nc --inside land.geojson --cell-map cells.npy\n"
       "  rondel mesh cull mesh.nc -o region.nc --outside region.geojson --graph graph.info");
-  return {parser, [options] { return run_mesh_cull(*options); }};
+  return {parser, [options, parser] {
+            require_effect(*parser, !options->inside.empty() || !options->outside.empty(),
+                           {"--edges"}, "without --inside or --outside");
+            return run_mesh_cull(*options);
+          }};
 }
 
 ExitStatus run_mesh_cull(const MeshCullOptions& options) {

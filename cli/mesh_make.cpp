@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -172,6 +173,9 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     how += "; ";
   }
   report_mesh(output, made.sites.size(), how, json, std::move(quality), job);
+  if (!is_whole && output.common.quiet) {
+    tell(output.common.output, {how.substr(0, how.find(';'))});
+  }
   return made.end == mesh::ScvtEnd::stopped ? failed : done;
 }
 
@@ -212,6 +216,29 @@ ExitStatus run_mesh_points(const MeshPointsOptions& options) {
   return done;
 }
 
+namespace {
+
+// Scales areas in any unit, as large or small as doubles can be, so that their sum is that of the sphere. The library names the site
+// of an area that is not positive or no number.
+void scale_to_sphere(std::vector<double>& areas) {
+  double largest = 0;
+  for (const double area : areas) {
+    if (std::isfinite(area)) largest = std::max(largest, area);
+  }
+  if (!(largest > 0)) return;
+  const int exponent = std::ilogb(largest);
+  double sum = 0;
+  for (double& area : areas) {
+    const bool is_positive = area > 0;
+    area = std::scalbn(area, -exponent);
+    if (is_positive) area = std::max(area, std::numeric_limits<double>::min());
+    if (std::isfinite(area)) sum += area;
+  }
+  for (double& area : areas) area *= 4 * std::numbers::pi / sum;
+}
+
+}  // namespace
+
 ExitStatus run_area_partition(const AreaPartitionCommandOptions& options) {
   CommonOptions common = options.common;
   require_output(common, can_write_sites(common.target()), ".csv .tsv .xyz .txt .npy");
@@ -221,10 +248,7 @@ ExitStatus run_area_partition(const AreaPartitionCommandOptions& options) {
   std::vector<double> targets;
   if (!options.column.empty()) {
     targets = column_values(table, options.column, "--area");
-    double sum = 0;
-    // If a cell has no number, the library will name the site.
-    for (const double area : targets) sum += std::isfinite(area) ? area : 0;
-    for (double& area : targets) area *= 4 * std::numbers::pi / sum;
+    scale_to_sphere(targets);
   }
   Execution execution = job.execution();
   execution.stop = &interrupted_by_user();
@@ -257,7 +281,10 @@ ExitStatus run_area_partition(const AreaPartitionCommandOptions& options) {
   }
   job.report(json.dump(2) + '\n', summary + "wrote " + count(made.poles.size(), "site", "sites") +
                                       " to " + common.output + '\n');
-  return is_whole ? done : failed;
+  if (is_whole) return done;
+  if (common.json) return failed;
+  throw FileError(common.input +
+                  ": the areas are not reached: " + summary.substr(0, summary.size() - 2));
 }
 
 }  // namespace rondel::cli

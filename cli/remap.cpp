@@ -72,13 +72,16 @@ CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options,
 }
 
 CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
-  CommonOptions named;
-  named.output = file.path;
-  named.output_format = file.format;
-  const std::string format = named.format();
-  if (file.path.starts_with("grid:")) return side_of_grid(file.path, options, job);
-  if (can_read_cells(file)) return side_of_mesh(file, options, job);
-  if (format == "geojson" || format == "json") return side_of_polygons(file, options, job);
+  switch (kind_of_cells(file)) {
+    case CellKind::grid:
+      return side_of_grid(file.path, options, job);
+    case CellKind::file:
+      return side_of_mesh(file, options, job);
+    case CellKind::polygons:
+      return side_of_polygons(file, options, job);
+    case CellKind::sites:
+      break;
+  }
   return side_of_sites(file, options, job);
 }
 
@@ -123,6 +126,16 @@ void report(Job& job, const WeightFile& file, const std::string& output) {
 }
 
 }  // namespace
+
+CellKind kind_of_cells(const FileName& file) {
+  CommonOptions named;
+  named.output = file.path;
+  named.output_format = file.format;
+  const std::string format = named.format();
+  if (file.path.starts_with("grid:")) return CellKind::grid;
+  if (can_read_cells(file)) return CellKind::file;
+  return format == "geojson" || format == "json" ? CellKind::polygons : CellKind::sites;
+}
 
 ExitStatus run_remap(const RemapCommandOptions& options) {
   const CommonOptions& common = options.common;

@@ -70,6 +70,10 @@ struct RemapCommandOptions {
   NetcdfOptions netcdf;  ///< --kind --deflate
 };
 
+/// What the cells of one side come from: `grid:...`, a file of cells, polygons, or sites.
+enum class CellKind { grid, file, polygons, sites };
+CellKind kind_of_cells(const FileName& file);
+
 ExitStatus run_apply(const ApplyCommandOptions& options);
 ExitStatus run_check_weights(const CheckWeightsOptions& options);
 ExitStatus run_interpolate(const InterpolateOptions& options);

@@ -183,7 +183,24 @@ Command add_interpolate_command(CLI::App& tool) {
       "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
       "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
       "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4");
-  return {parser, [options] { return run_interpolate(*options); }};
+  return {parser, [options, parser] {
+            require_effect(*parser, !options->weights.empty(), {"--weight-format"},
+                           "without --weights");
+            return run_interpolate(*options);
+          }};
+}
+
+void require_effects(const CLI::App& parser, const RemapCommandOptions& options) {
+  const CellKind kinds[] = {kind_of_cells(options.common.source()),
+                            kind_of_cells({options.target, ""})};
+  const auto has = [&](CellKind kind) { return kinds[0] == kind || kinds[1] == kind; };
+  require_effect(parser, has(CellKind::polygons), {"--edges"}, "without polygons (.geojson)");
+  require_effect(parser, has(CellKind::grid) || has(CellKind::file), {"--sides"}, "without a grid");
+  require_effect(parser, has(CellKind::sites),
+                 {"--radius", "--radians", "--delimiter", "--lon", "--lat", "--x", "--y", "--z",
+                  "--model", "--center", "--squared-radius"},
+                 "without a file of sites");
+  require_effect(parser, options.common.format() != "npz", {"--kind", "--deflate"}, "for .npz");
 }
 
 Command add_remap_command(CLI::App& tool) {
@@ -235,7 +252,10 @@ Command add_remap_command(CLI::App& tool) {
       "  rondel remap ocean.nc grid:1 -o weights.nc\n"
       "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"
       "  rondel remap grid:0.25 icon.nc --order 2 -o weights.nc --format scrip");
-  return {parser, [options] { return run_remap(*options); }};
+  return {parser, [options, parser] {
+            require_effects(*parser, *options);
+            return run_remap(*options);
+          }};
 }
 
 }  // namespace rondel::cli
