@@ -294,7 +294,8 @@ std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, b
   }
   if (without > 0) {
     remarks.push_back(count(without, "feature has", "features have") +
-                      " no cell, as others before have all of their places (" +
+                      " no cell, as others before have all of their places" +
+                      (table.remarks.empty() ? "" : " or rounding leaves nothing of them") + " (" +
                       (without > 1 ? "first " : "") + feature_name(table.columns, first) + ")");
   }
   return remarks;
