@@ -2,10 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(cells_test
   cells_arrays_test.cpp
+  cells_common_test.cpp
   cells_map_test.cpp
+  cells_mending_test.cpp
   cells_merged_test.cpp
+  cells_nested_test.cpp
   cells_parts_test.cpp
   cells_polygon_test.cpp
   cells_settled_test.cpp
+  cells_tips_test.cpp
   cells_write_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)

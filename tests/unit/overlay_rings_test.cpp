@@ -11,6 +11,7 @@
 
 #include "exact/vector.h"
 #include "map/ring_area.h"
+#include "support/random.h"
 
 namespace rondel::test {
 namespace {
@@ -35,25 +36,26 @@ PointRing hole(double radius, double tilt = 0) {
   return ring;
 }
 
+// 2 pi less the turns at the corners (Gauss, Bonnet), brought into [-2 pi, 2 pi].
+double area_by_turns(const PointRing& ring) {
+  double turns = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point& q = ring[(k + 1) % ring.size()];
+    const Point before = cross(ring[k], q);
+    const Point behind = cross(q, ring[(k + 2) % ring.size()]);
+    turns += std::atan2(dot(q, cross(before, behind)), dot(before, behind));
+  }
+  return std::remainder(2 * std::numbers::pi - turns, 4 * std::numbers::pi);
+}
+
 TEST(overlay_rings, areas_on_the_left) {
   const double small = map::area_on_left(circle(1e-3, 1));
   const double octagon =
       12 * 0.5 * std::sin(2 * std::numbers::pi / 12);  // times the squared radius
   EXPECT_NEAR(small, octagon * 1e-6, 1e-12);
   for (const double radius : {0.3, 1.0, 1.5, 1.57, 2.0, 2.9}) {
-    // Gauss, Bonnet: 2 pi less the turns at the corners.
     const PointRing ring = circle(radius);
-    double turns = 0;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Point& p = ring[k];
-      const Point& q = ring[(k + 1) % ring.size()];
-      const Point& r = ring[(k + 2) % ring.size()];
-      const Point before = cross(p, q);
-      const Point behind = cross(q, r);
-      turns += std::atan2(dot(q, cross(before, behind)), dot(before, behind));
-    }
-    const double expected = std::remainder(2 * std::numbers::pi - turns, 4 * std::numbers::pi);
-    EXPECT_NEAR(map::area_on_left(ring), expected, 1e-13) << radius;
+    EXPECT_NEAR(map::area_on_left(ring), area_by_turns(ring), 1e-13) << radius;
   }
   // A lune of two halves of great circles.
   const PointRing lune = {{0, 0, 1}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
@@ -91,6 +93,26 @@ TEST(overlay_rings, areas_of_what_is_balanced) {
     EXPECT_FALSE(map::is_clockwise(ring));
     std::ranges::reverse(ring);
     EXPECT_TRUE(map::is_clockwise(ring));
+  }
+}
+
+// Caps with a thin wedge that ends opposite their centers, where triangles around the center of mass are ill-defined.
+TEST(overlay_rings, areas_of_rings_with_a_corner_opposite_their_center) {
+  Random random(71);
+  for (int round = 0; round < 200; ++round) {
+    const Point axis = random.direction();
+    const Point u = normalized(cross(axis, random.direction()));
+    const Point v = cross(axis, u);
+    PointRing ring;
+    for (int k = 0; k < 12; ++k) {
+      const double angle = 0.002 + (2 * std::numbers::pi - 0.004) * k / 11;
+      ring.push_back(std::cos(1.2) * axis +
+                     std::sin(1.2) * (std::cos(angle) * u + std::sin(angle) * v));
+    }
+    ring.push_back(normalized(0.01 * random.direction() - axis));
+    EXPECT_NEAR(map::area_on_left(ring), area_by_turns(ring), 1e-11) << round;
+    std::ranges::reverse(ring);
+    EXPECT_NEAR(map::area_on_left(ring), area_by_turns(ring), 1e-11) << round;
   }
 }
 
