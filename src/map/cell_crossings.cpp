@@ -77,7 +77,8 @@ std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution
 
 // The lines of a cell depend only on its points and their representatives. So after the first pass
 // only the cells whose lines crossed and those that others have changed since have to be tested
-// again; the result is that of a pass over all cells in order.
+// again; the result is that of a pass over all cells in order. As long as nothing has changed, no
+// cell has a changed arc, and a pass does nothing.
 void CellMap::resolve_crossing_lines(const Execution& execution) {
   const std::vector<std::size_t> crossed = find_crossing_lines(execution);
   if (crossed.empty()) return;
@@ -240,7 +241,8 @@ void CellMap::keep(std::map<Edge, Inner>& drawn) {
 }
 
 // Shrinks a very short arc at a tip to a point, if that moves the boundary much less than the sites
-// are apart. Rounding may have reversed such an arc, and then the sides of the tip cross.
+// are apart: by at most a part of the tolerance, a sixteenth, whose exact value does not matter.
+// Rounding may have reversed such an arc, and then the sides of the tip cross.
 bool CellMap::merge(const Edge& edge, const ArcTolerance& tolerance) {
   const auto [low, high] = std::minmax({representative(edge.first), representative(edge.second)});
   const double length = distance(cells_.points[low], cells_.points[high]);

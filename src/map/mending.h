@@ -15,7 +15,8 @@ namespace rondel::map {
 inline constexpr double longest_reach = 0x1p-30;  // radians; 6 mm on the earth
 
 // Returns the distance in radians within which a pass merges or aligns corners. It grows with the
-// number of the pass if passes do not end.
+// number of the pass if passes do not end, from merge_distance to longest_reach, and from one pass
+// to the next by four at most.
 double reach_of_pass(int pass);
 
 // Mends the troubles of one pass by dividing lines and merging positions.

@@ -22,7 +22,7 @@ struct Cube {
 };
 
 // Returns the number of the cube along an axis, at least 0, for a coordinate from -2 to 2. It is a
-// non-decreasing function of the coordinate.
+// non-decreasing function of the coordinate, and no other property of it changes what is merged.
 std::int64_t place_of(double coordinate) {
   return static_cast<std::int64_t>((coordinate + 2) * cubes_per_unit);
 }

@@ -66,7 +66,8 @@ bool visits_twice(std::span<const LonLat> positions) {
 }
 
 // Twice the area, in square degrees, of a sliver as wide as rounding from one end of the map to the
-// other.
+// other. The exact value does not matter: what is turned over and no wider than a few times that is
+// dropped or settled.
 constexpr double area_of_rounding = 2 * 360 * merge_distance * degrees_per_radian;
 
 struct Loops {

@@ -41,6 +41,8 @@ Rectangle rectangle_of(const Loop& ring) {
   return around;
 }
 
+// True if a position that is on no side of a closed ring is inside of it: an odd number of sides is
+// above it, and so is an odd number below it.
 bool is_inside_ring(const Loop& closed, const LonLat& p) {
   bool is_inside = false;
   for (std::size_t k = 0; k + 1 < closed.size(); ++k) {

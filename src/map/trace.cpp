@@ -130,6 +130,7 @@ class Drawing {
       const std::size_t start = trace_.starts[k];
       const MapPoint& begin = trace_.points[start];
       if (!is_pole(begin.point)) continue;
+      // The last point of the chain before; the point before that one has the same longitude.
       const MapPoint& end = trace_.points[start == 0 ? trace_.points.size() - 1 : start - 1];
       const double turn = begin.position.lon_deg - end.position.lon_deg;
       if (begin.point.z < 0) {
