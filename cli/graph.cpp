@@ -9,6 +9,7 @@
 #include <string>
 
 #include "command.h"
+#include "report.h"
 #include "rondel/graphs.h"
 #include "rondel/outlines.h"
 #include "validate.h"
@@ -62,6 +63,21 @@ void require_options(const GraphOptions& options) {
   }
 }
 
+// Circles that touch less than three sites are not found. If all sites are in one half of the sphere, the largest circle may be one
+// of them.
+void tell_of_other_circles(const GraphOptions& options, const Triangulation& triangulation,
+                           std::size_t num_found) {
+  if (triangulation.num_vertices() == 0) return;
+  const bool is_flat = triangulation.dimension() < 2;
+  if (is_flat && !options.anywhere) {
+    tell(options.common.input,
+         {"all sites are on one great circle: no circle has its center in their hull"});
+  } else if (options.anywhere && (is_flat ? num_found == 0 : triangulation.num_ghost_faces() > 0)) {
+    tell(options.common.input, {"all sites are in one half of the sphere: a circle that touches "
+                                "less than three of them may be larger, and is not looked for"});
+  }
+}
+
 ExitStatus run_graph(const GraphOptions& options) {
   require_options(options);
   Job job(options.common);
@@ -95,7 +111,11 @@ ExitStatus run_graph(const GraphOptions& options) {
         [&] {
           return largest_empty_circles(triangulation, options.count, centers, job.execution());
         },
-        [&](const auto& circles) { write_circles(target, circles); }, "the circles");
+        [&](const auto& circles) {
+          write_circles(target, circles);
+          tell_of_other_circles(options, triangulation, circles.size());
+        },
+        "the circles");
   }
   return done;
 }

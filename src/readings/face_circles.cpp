@@ -62,7 +62,9 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
   const auto neighbors = triangulation.neighbors();
   const Sites& sites = triangulation.sites();
   // Bit i of is_same[f] is set if the face across edge i of f has the same circle as f. Only the
-  // face with the lower index keeps the bit.
+  // face with the lower index keeps the bit. Two faces with their sites on one circle have the same
+  // one if they are seen from the same side; if the hull is flat, those of its other side have the
+  // circle around the opposite center.
   std::vector<std::uint8_t> is_same(faces.size());
   FaceCircles circles;
   circles.centers = circumcenters(triangulation, execution);
@@ -72,9 +74,10 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
         for (std::size_t f = begin; f < end; ++f) {
           const Triple& face = faces[f];
           circles.radii[f] = radius_of(triangulation, face, circles.centers[f]);
+          const bool is_ghost = triangulation.is_ghost(static_cast<Index>(f));
           for (unsigned i = 0; i < 3; ++i) {
             const Index g = neighbors[f][i];
-            if (g < f) continue;
+            if (g < f || triangulation.is_ghost(g) != is_ghost) continue;
             for (const Index p : faces[g]) {
               if (p == face[(i + 1) % 3] || p == face[(i + 2) % 3]) continue;
               const Sign side = side_of_circle(sites[face[0]], sites[face[1]], sites[face[2]],

@@ -16,7 +16,7 @@
 namespace rondel::readings {
 
 struct FaceCircles {
-  std::vector<Index> first_face;  // the lowest face with exactly the same circle
+  std::vector<Index> first_face;  // the lowest face with exactly the same circle and center
   std::vector<Point> centers;     // unit vectors
   std::vector<double> radii;      // radians; exact to some ulp where first_face[f] == f
 };

@@ -217,8 +217,91 @@ TEST(empty_circles, of_a_cube_are_six_and_those_inside_a_hull_less) {
   const Triangulation obtuse = delaunay(
       std::vector<Point>{unit_vector_deg(0, 0), unit_vector_deg(10, 0), unit_vector_deg(5, 1)});
   EXPECT_TRUE(largest_empty_circles(obtuse, 5).empty());
-  ASSERT_EQ(largest_empty_circles(obtuse, 5, CircleCenters::anywhere).size(), 1U);
-  EXPECT_GT(largest_empty_circles(obtuse, 5, CircleCenters::anywhere)[0].radius, pi / 2);
+  const auto both_sides = largest_empty_circles(obtuse, 5, CircleCenters::anywhere);
+  ASSERT_EQ(both_sides.size(), 2U);
+  EXPECT_GT(both_sides[0].radius, pi / 2);
+  EXPECT_NEAR(both_sides[0].radius + both_sides[1].radius, pi, 1e-14);
+}
+
+// The radii of the empty circles of all triples of sites, both sides of each, the largest first. Circles of more than three sites
+// count once.
+std::vector<double> radii_by_triples(const std::vector<Point>& sites) {
+  std::vector<std::array<double, 4>> circles;  // center and radius
+  const auto add = [&](const Point& normal) {
+    const double length = std::hypot(normal.x, normal.y, normal.z);
+    const Point u{normal.x / length, normal.y / length, normal.z / length};
+    double nearest = pi;
+    for (const Point& p : sites) {
+      const double cosine = u.x * p.x + u.y * p.y + u.z * p.z;
+      nearest = std::min(nearest, std::acos(std::clamp(cosine, -1.0, 1.0)));
+    }
+    return std::array<double, 4>{u.x, u.y, u.z, nearest};
+  };
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    for (std::size_t j = i + 1; j < sites.size(); ++j) {
+      for (std::size_t k = j + 1; k < sites.size(); ++k) {
+        const Point& a = sites[i];
+        const Point b{sites[j].x - a.x, sites[j].y - a.y, sites[j].z - a.z};
+        const Point c{sites[k].x - a.x, sites[k].y - a.y, sites[k].z - a.z};
+        const Point n{b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x};
+        for (const Point& normal : {n, Point{-n.x, -n.y, -n.z}}) {
+          const std::array<double, 4> circle = add(normal);
+          const double to_corner =
+              std::acos(std::clamp(circle[0] * a.x + circle[1] * a.y + circle[2] * a.z, -1.0, 1.0));
+          if (circle[3] < to_corner - 1e-9) continue;  // a site is inside
+          const bool is_known = std::ranges::any_of(circles, [&](const auto& known) {
+            return std::hypot(known[0] - circle[0], known[1] - circle[1], known[2] - circle[2]) <
+                   1e-9;
+          });
+          if (!is_known) circles.push_back(circle);
+        }
+      }
+    }
+  }
+  std::vector<double> radii;
+  for (const auto& circle : circles) radii.push_back(circle[3]);
+  std::ranges::sort(radii, std::ranges::greater{});
+  return radii;
+}
+
+TEST(empty_circles, of_few_sites_are_those_of_all_triples) {
+  Random random(31);
+  const auto expect_all = [](const std::vector<Point>& sites) {
+    const auto circles = largest_empty_circles(delaunay(sites), 100, CircleCenters::anywhere);
+    const std::vector<double> expected = radii_by_triples(sites);
+    ASSERT_EQ(circles.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(circles[i].radius, expected[i], 1e-9);
+    }
+  };
+  for (int turn = 0; turn < 60; ++turn) {
+    SCOPED_TRACE(turn);
+    const int n = 3 + turn % 5;
+    const double widest = turn % 2 == 0 ? 80 : 20;  // on one side of the sphere
+    std::vector<Point> scattered;
+    std::vector<Point> on_one_circle;
+    for (int i = 0; i < n; ++i) {
+      scattered.push_back(
+          unit_vector_deg(widest * random.signed_unit(), widest * random.signed_unit()));
+      on_one_circle.push_back(unit_vector_deg(360.0 * (i + 0.4 * random.signed_unit()) / n, 0));
+    }
+    for (Point& p : on_one_circle) p = {0.6 * p.x, 0.6 * p.y, 0.8};  // off the sphere by rounding
+    expect_all(scattered);
+    if (n == 3) expect_all(on_one_circle);
+  }
+}
+
+// All sites are on one circle, and one of its two sides has no center in the hull.
+TEST(empty_circles, of_a_flat_hull_are_two) {
+  const std::vector<Point> square = {{2, 1, 2}, {-1, 2, 2}, {-2, -1, 2}, {1, -2, 2}};
+  const auto circles = largest_empty_circles(delaunay(square), 9, CircleCenters::anywhere);
+  ASSERT_EQ(circles.size(), 2U);
+  EXPECT_NEAR(circles[0].radius, pi - std::acos(2.0 / 3), 1e-15);
+  EXPECT_NEAR(circles[1].radius, std::acos(2.0 / 3), 1e-15);
+  EXPECT_NEAR(circles[0].center.z, -1, 1e-15);
+  const auto inside = largest_empty_circles(delaunay(square), 9);
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_NEAR(inside[0].center.z, 1, 1e-15);
 }
 
 // The upper and the lower face of a prism, and eight on its sides; in which corners their triangles meet depends on the order.
