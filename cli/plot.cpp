@@ -116,7 +116,8 @@ void add_values(Figure& figure, const PlotOptions& options, const Triangulation&
     std::vector<Triple> faces;
     for (Index f = 0; f < triangulation.num_faces(); ++f) {
       const auto& [a, b, c] = triangulation.faces()[f];
-      const bool has_values = !std::isnan(values[a] + values[b] + values[c]);
+      const bool has_values =
+          !std::isnan(values[a]) && !std::isnan(values[b]) && !std::isnan(values[c]);
       if (has_values && !triangulation.is_ghost(f)) faces.push_back(triangulation.faces()[f]);
     }
     figure.field = {{directions.begin(), directions.end()}, std::move(values), std::move(faces)};

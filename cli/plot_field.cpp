@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 
 #include "globe.h"
@@ -38,35 +39,34 @@ std::uint32_t opaque(const Color& color) {
 // The colors of a scale in steps that are too small to be seen.
 class ColorTable {
  public:
-  explicit ColorTable(const ValueScale& scale) : scale_(scale) {
+  ColorTable() {
     for (std::size_t i = 0; i < colors_.size(); ++i) {
       const double t = static_cast<double>(i) / last;
       colors_[i] = opaque(value_color(t));
     }
   }
-  [[nodiscard]] std::uint32_t at(double value) const {
-    const double range = scale_.most - scale_.least;
-    const double t = range > 0 ? (value - scale_.least) / range : 0.5;
+  // Returns the color at a place of the scale, which rounding may have moved beyond its ends.
+  [[nodiscard]] std::uint32_t at(double t) const {
     return colors_[static_cast<std::size_t>(std::lround(std::clamp(t, 0.0, 1.0) * last))];
   }
 
  private:
-  const ValueScale& scale_;
   static constexpr int last = 1023;
   std::array<std::uint32_t, last + 1> colors_;
 };
 
-// A face in the view frame: a unit vector u has the weights dot(u, normals[i]) at its corners.
+// A face in the view frame: a unit vector u has the weights dot(u, normals[i]) at its corners. The
+// values are places in the scale, whose sums are finite.
 struct FaceInView {
   std::array<Point, 3> normals;
-  std::array<double, 3> values;
+  std::array<double, 3> places;
 };
 
 class FieldPainter {
  public:
   FieldPainter(const ValueScale& scale, int size, double radius, int first_row, int past_row,
                std::span<std::uint32_t> argb)
-      : colors_(scale),
+      : scale_(scale),
         size_(size),
         radius_(radius),
         first_row_(first_row),
@@ -94,7 +94,8 @@ class FieldPainter {
     const auto [left, right] =
         pixels(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), 0, size_);
     FaceInView in_view{{cross_product(b, c), cross_product(c, a), cross_product(a, b)},
-                       {field.values[face[0]], field.values[face[1]], field.values[face[2]]}};
+                       {scale_.place(field.values[face[0]]), scale_.place(field.values[face[1]]),
+                        scale_.place(field.values[face[2]])}};
     for (int row = top; row < bottom; ++row) add_row(in_view, row, left, right);
   }
 
@@ -110,22 +111,23 @@ class FieldPainter {
       const Point u{x * shrunk, y * shrunk, std::sqrt(std::max(0.0, 1 - square))};
       std::array<double, 3> weights{};
       double sum = 0;
-      double value = 0;
+      double place = 0;
       bool is_inside = true;
       for (std::size_t i = 0; i < 3; ++i) {
         weights[i] = dot_product(u, face.normals[i]);
         is_inside = is_inside && weights[i] >= 0;
         sum += weights[i];
-        value += weights[i] * face.values[i];
+        place += weights[i] * face.places[i];
       }
       if (!is_inside || sum <= 0) continue;
       const auto at = static_cast<std::size_t>(row - first_row_) * static_cast<std::size_t>(size_) +
                       static_cast<std::size_t>(column);
-      argb_[at] = colors_.at(value / sum);
+      argb_[at] = colors_.at(place / sum);
     }
   }
 
   ColorTable colors_;
+  const ValueScale& scale_;
   int size_;
   double radius_;
   int first_row_;
@@ -140,11 +142,23 @@ std::string text_of(double value, int digits) {
   return text.data();
 }
 
+// Returns how many marks apart the texts must be that they do not touch each other.
+std::size_t marks_per_text(const std::vector<std::string>& texts, double spacing, double letters) {
+  std::size_t longest = 0;
+  for (const std::string& text : texts) longest = std::max(longest, text.size());
+  const double width = 0.6 * letters * static_cast<double>(longest + 1);
+  return static_cast<std::size_t>(std::max(1.0, std::ceil(width / spacing)));
+}
+
 }  // namespace
 
-Color ValueScale::color(double value) const {
-  return value_color(most > least ? (value - least) / (most - least) : 0.5);
+double ValueScale::place(double value) const {
+  if (!(most > least)) return 0.5;
+  if (std::isfinite(most - least)) return (value - least) / (most - least);
+  return (value / 2 - least / 2) / (most / 2 - least / 2);
 }
+
+Color ValueScale::color(double value) const { return value_color(place(value)); }
 
 ValueScale scale_of(std::span<const double> values, const std::string& name) {
   double least = std::numeric_limits<double>::infinity();
@@ -165,9 +179,9 @@ void paint_field(const ValueField& field, const ValueScale& scale, int size, dou
 }
 
 std::vector<double> round_values(double least, double most) {
-  if (!(least < most) || !std::isfinite(most - least)) return {};
+  if (!(least < most)) return {};
   constexpr double marks = 5;
-  const double rough = (most - least) / marks;
+  const double rough = most / marks - least / marks;
   const double power = std::pow(10, std::floor(std::log10(rough)));
   const double factor = rough / power;
   const double step = power * (factor < 1.5 ? 1 : factor < 3.5 ? 2 : factor < 7.5 ? 5 : 10);
@@ -175,6 +189,21 @@ std::vector<double> round_values(double least, double most) {
   std::vector<double> values;
   for (double k = std::ceil(least / step); k * step <= most; ++k) values.push_back(k * step);
   return values;
+}
+
+std::vector<std::string> texts_within(std::span<const double> values, double range, int digits) {
+  constexpr int most_digits = 12;  // as many as there is room for beside the bar
+  std::vector<std::string> texts;
+  for (; digits <= most_digits; ++digits) {
+    texts.clear();
+    bool are_close = true;
+    for (const double value : values) {
+      texts.push_back(text_of(value, digits));
+      are_close &= std::abs(std::strtod(texts.back().c_str(), nullptr) - value) <= range / 100;
+    }
+    if (are_close || !(range > 0)) break;
+  }
+  return texts;
 }
 
 int bar_height(int size) { return static_cast<int>(std::lround(0.13 * size)); }
@@ -195,17 +224,23 @@ void draw_bar(Canvas& canvas, const ValueScale& scale, int size) {
   canvas.box(left, top, width, height);
   canvas.stroke(bar_end_color, 0.001 * size);
   const double base = top + height / 2 + 0.36 * letters;
-  canvas.text(text_of(scale.least, 4), left - 0.5 * letters, base, letters, TextAlign::right,
-              bar_end_color);
-  canvas.text(text_of(scale.most, 4), left + width + 0.5 * letters, base, letters, TextAlign::left,
-              bar_end_color);
-  for (const double value : round_values(scale.least, scale.most)) {
-    const double x = left + width * ((value - scale.least) / (scale.most - scale.least));
+  const double range = scale.most / 2 - scale.least / 2;  // half of it, which is finite
+  const std::vector<std::string> ends = texts_within(std::array{scale.least, scale.most}, range, 4);
+  canvas.text(ends[0], left - 0.5 * letters, base, letters, TextAlign::right, bar_end_color);
+  canvas.text(ends[1], left + width + 0.5 * letters, base, letters, TextAlign::left, bar_end_color);
+  std::vector<double> marks = round_values(scale.least, scale.most);
+  for (double& mark : marks) mark = std::abs(mark) < 1e-9 * range ? 0 : mark;
+  const std::vector<std::string> texts = texts_within(marks, range, 6);
+  const std::size_t step = marks_per_text(
+      texts, marks.size() < 2 ? width : width * (scale.place(marks[1]) - scale.place(marks[0])),
+      letters);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const double x = left + width * scale.place(marks[i]);
     canvas.box(x - 0.0006 * size, top + height, 0.0012 * size, 0.008 * size);
     canvas.fill(bar_text_color);
-    const bool is_zero = std::abs(value) < 1e-9 * (scale.most - scale.least);
-    canvas.text(is_zero ? "0" : text_of(value, 6), x, top + height + 0.012 * size + letters,
-                letters, TextAlign::center, bar_text_color);
+    if (i % step != 0) continue;
+    canvas.text(texts[i], x, top + height + 0.012 * size + letters, letters, TextAlign::center,
+                bar_text_color);
   }
   canvas.text(scale.name, left + width / 2, top + height + 0.022 * size + 2.2 * letters,
               1.1 * letters, TextAlign::center, bar_text_color);

@@ -20,9 +20,12 @@ namespace rondel::cli {
 /// Maps values to the colors of value_color(), from the least to the largest value.
 struct ValueScale {
   double least = 0;
-  double most = 0;   // name of the column
+  double most = 0;
   std::string name;  ///< of the column
 
+  /// Returns the place of a value in the range, from 0 to 1; 0.5 if the range is one number. The
+  /// range may exceed the largest double.
+  [[nodiscard]] double place(double value) const;
   [[nodiscard]] Color color(double value) const;
 };
 
@@ -43,6 +46,10 @@ void paint_field(const ValueField& field, const ValueScale& scale, int size, dou
 
 /// Returns the values at which a bar has marks: about five round numbers in [least, most].
 std::vector<double> round_values(double least, double most);
+
+/// Returns texts of numbers, all with the same number of significant digits: at least `digits`, and
+/// up to 12 until none is off by more than a hundredth of `range`.
+std::vector<std::string> texts_within(std::span<const double> values, double range, int digits);
 
 /// Returns the height that a bar needs below a picture of `size`, in pixels.
 int bar_height(int size);

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "plot_color.h"
@@ -105,12 +106,40 @@ TEST(round_values, are_about_five_in_the_range) {
   EXPECT_EQ(round_values(0, 1), (std::vector<double>{0, 0.2, 0.4, 0.2 * 3, 0.8, 1}));
   EXPECT_EQ(round_values(12, 480), (std::vector<double>{100, 200, 300, 400}));
   EXPECT_TRUE(round_values(3, 3).empty());
-  EXPECT_TRUE(round_values(-1e308, 1.7e308).empty());
+  EXPECT_EQ(round_values(-1e308, 1.7e308),
+            (std::vector<double>{-1e308, -5e307, 0, 5e307, 1e308, 1.5e308}));
   for (const double scale : {1e-300, 1e-5, 1e17, 1e300}) {
     const std::vector<double> marks = round_values(0.7 * scale, 7.9 * scale);
     EXPECT_GE(marks.size(), 3U);
     EXPECT_LE(marks.size(), 8U);
   }
+}
+
+// A range that is no double: the colors are those of the same values, scaled down.
+TEST(paint_field, takes_values_whose_range_exceeds_the_doubles) {
+  const ValueField small = octahedron();
+  ValueField large = small;
+  for (double& value : large.values) value *= 0x1.8p1023;
+  EXPECT_EQ(painted(large), painted(small));
+  const ValueScale scale = scale_of(large.values, "x");
+  for (const double x : {-1.0, -0.5, 0.0, 0.75, 1.0}) {
+    EXPECT_EQ(scale.place(x * 0x1.8p1023), (x + 1) / 2);
+    const Color color = scale.color(x * 0x1.8p1023);
+    const Color expected = value_color((x + 1) / 2);
+    EXPECT_EQ(color.red, expected.red);
+    EXPECT_EQ(color.blue, expected.blue);
+  }
+}
+
+TEST(texts_within, tell_numbers_of_a_small_range_apart) {
+  const auto texts = [](std::vector<double> values, double range, int digits) {
+    return texts_within(values, range, digits);
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(texts({0, 12.3456}, 12, 4), (Texts{"0", "12.35"}));
+  EXPECT_EQ(texts({98765.25, 98765.75}, 0.5, 4), (Texts{"98765.25", "98765.75"}));
+  EXPECT_EQ(texts({-2e6, -2e6 + 3}, 3, 4), (Texts{"-2000000", "-1999997"}));
+  EXPECT_EQ(texts({1.0 / 3, 1.0 / 3}, 0, 4), (Texts{"0.3333", "0.3333"}));
 }
 
 TEST(scale_of, is_that_of_numbers) {

@@ -47,6 +47,7 @@ export class Layers {
     if (!Number.isFinite(value) || (this.fill.isLogarithmic && value <= 0)) return -1;
     if (low === high) return 0.5;
     if (this.fill.isLogarithmic) return Math.log(value / low) / Math.log(high / low);
+    if (high - low === Infinity) return (value / 2 - low / 2) / (high / 2 - low / 2);
     return (value - low) / (high - low);
   }
 }

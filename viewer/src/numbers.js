@@ -39,10 +39,18 @@ export function areaText(steradians) {
   return `${digits(steradians / size, 5)} ${unit}`;
 }
 
-// Few characters: 1.2M.
-export function shortNumber(value) {
-  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e15)) return value.toExponential(2);
-  return value.toLocaleString("en", { notation: "compact", maximumSignificantDigits: 4 });
+function shortNumber(value, most) {
+  if (value !== 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e15)) return value.toExponential(most - 2);
+  return value.toLocaleString("en", { notation: "compact", maximumSignificantDigits: most });
+}
+
+// Few characters, 1.2M, but so many that numbers that differ have different texts.
+export function shortNumbers(values) {
+  const several = new Set(values).size;
+  for (let most = 4; ; most += 2) {
+    const texts = values.map((value) => shortNumber(value, most));
+    if (most >= 16 || new Set(texts).size === several) return texts;
+  }
 }
 
 // So many decimals that a pixel of `zoom` pixels a radian is told.

@@ -3,7 +3,7 @@
 
 // The controls around the globe: what is shown, colors, the color bar, the theme, help.
 
-import { areaUnit, count, scaleBar, shortNumber } from "./numbers.js";
+import { areaUnit, count, scaleBar, shortNumbers } from "./numbers.js";
 import { colorAt } from "./colors.js";
 
 const toggles = ["edges", "borders", "sites", "circles", "isolines", "coast", "graticule"];
@@ -71,9 +71,9 @@ export class Panel {
     const steps = Array.from({ length: 17 }, (_, i) => colorAt(i / 16).map((c) => Math.round(255 * c)));
     this.byId("legend-bar").style.background = `linear-gradient(to right, ${steps.map((c) => `rgb(${c})`)})`;
     const [low, high] = layers.range;
-    const middle = layers.fill.isLogarithmic ? Math.sqrt(low * high) : low + (high - low) / 2;
+    const middle = layers.fill.isLogarithmic ? Math.sqrt(low * high) : low / 2 + high / 2;
     const { unit, size } = layers.fill.key === "area" ? areaUnit(high) : { unit: "", size: 1 };
-    const texts = [low, middle, high].map((value) => shortNumber(value / size));
+    const texts = shortNumbers([low, middle, high].map((value) => value / size));
     texts.forEach((text, i) => {
       this.byId(`legend-${i}`).textContent = low < high || i === 1 ? text : "";
     });
