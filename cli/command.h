@@ -130,6 +130,11 @@ class Job {
   Triangulation triangulate(const SiteTable& table);
   /// Returns the convex hull of the sites. \throws FileError like triangulate()
   Triangulation hull(const SiteTable& table);
+  /// Returns the values as they are shown: where several sites are in one place, each has the first value there. The report will tell how many sites
+  /// have no value, with the consequence ("cells without a value have no color"), and how many have another value than the one shown.
+  std::vector<double> shown_values(const Triangulation& triangulation,
+                                   const std::vector<double>& values, const std::string& name,
+                                   const std::string& consequence);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
   /// Returns the wanted number of threads, and a progress, which is empty if none is shown.

@@ -42,9 +42,11 @@ ExitStatus run_contours(const ContoursOptions& options) {
   common.read.keep_columns = true;
   Job job(common);
   const SiteTable table = job.read(common.source(), common.read, {&options.value, 1});
-  const std::vector<double> values = column_values(table, options.value, "--value");
-  const std::vector<double> levels = levels_for(options, values);
+  const std::vector<double> given = column_values(table, options.value, "--value");
+  const std::vector<double> levels = levels_for(options, given);
   const Triangulation triangulation = job.triangulate(table);
+  const std::vector<double> values = job.shown_values(
+      triangulation, given, options.value, "triangles without three values are left out");
   const auto run = [&](const auto& trace, const auto& write) {
     decltype(trace()) traced;
     job.time(Stage::dual, [&] { traced = with_places(table, trace); });
@@ -104,7 +106,8 @@ Command add_contours_command(CLI::App& tool) {
       "Values are linear in each triangle that the center sees. An isoline has the property\n"
       "'level' and higher values to its left; a band has 'low' and 'high', null at the open\n"
       "ends, and the values from 'low' to below 'high'. Triangles with a site without a value\n"
-      "are left out.\n\n"
+      "are left out, which is told. Of sites in one place the first one that has a value "
+      "counts.\n\n"
       "Examples:\n"
       "  rondel contours stations.csv --value temperature --step 5 -o isotherms.geojson\n"
       "  rondel contours stations.csv --value depth --levels 0,200,2000 --bands -o bands.geojson");

@@ -65,16 +65,15 @@ void require_options(const GraphOptions& options) {
 
 // Circles that touch less than three sites are not found. If all sites are in one half of the sphere, the largest circle may be one
 // of them.
-void tell_of_other_circles(const GraphOptions& options, const Triangulation& triangulation,
-                           std::size_t num_found) {
+void tell_of_other_circles(const GraphOptions& options, const SiteTable& table,
+                           const Triangulation& triangulation, std::size_t num_found) {
   if (triangulation.num_vertices() == 0) return;
   const bool is_flat = triangulation.dimension() < 2;
   if (is_flat && !options.anywhere) {
-    tell(options.common.input,
-         {"all sites are on one great circle: no circle has its center in their hull"});
+    tell(table.name, {"all sites are on one great circle: no circle has its center in their hull"});
   } else if (options.anywhere && (is_flat ? num_found == 0 : triangulation.num_ghost_faces() > 0)) {
-    tell(options.common.input, {"all sites are in one half of the sphere: a circle that touches "
-                                "less than three of them may be larger, and is not looked for"});
+    tell(table.name, {"all sites are in one half of the sphere: a circle that touches "
+                      "less than three of them may be larger, and is not looked for"});
   }
 }
 
@@ -113,7 +112,7 @@ ExitStatus run_graph(const GraphOptions& options) {
         },
         [&](const auto& circles) {
           write_circles(target, circles);
-          tell_of_other_circles(options, triangulation, circles.size());
+          tell_of_other_circles(options, table, triangulation, circles.size());
         },
         "the circles");
   }

@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "command.h"
 #include "netcdf_part.h"
 #include "progress_line.h"
 #include "report.h"
+#include "rondel/contours.h"
 #include "rondel/delaunay.h"
 #include "rondel/hull.h"
 #include "rondel/mesh_files.h"
@@ -48,6 +51,8 @@ struct Job::State {
 
   Seconds seconds{};
   std::uint64_t num_unlocated = 0;  // number of features read without a geometry
+  std::optional<std::size_t> num_without_value;
+  std::vector<std::string> remarks;  // on the input, told with the report
   Clock::time_point start = Clock::now();
 };
 
@@ -101,6 +106,39 @@ Triangulation Job::hull(const SiteTable& table) {
   return with_places(table, [&] { return convex_hull(Sites::view(table.sites), execution()); });
 }
 
+std::vector<double> Job::shown_values(const Triangulation& triangulation,
+                                      const std::vector<double>& values, const std::string& name,
+                                      const std::string& consequence) {
+  std::vector<double> shown = first_values(triangulation, values);
+  std::size_t num_other = 0;
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    const bool is_shown = std::isnan(values[site]) || values[site] == shown[representative];
+    if (!is_shown) ++num_other;
+    shown[site] = shown[representative];
+  }
+  std::size_t num_without = 0;
+  std::vector<bool> is_vertex(shown.size(), true);
+  for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
+  for (const Hidden& hidden : triangulation.hidden()) is_vertex[hidden.site] = false;
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (is_vertex[i] && std::isnan(shown[i])) ++num_without;
+  }
+  state_->num_without_value = num_without;
+  const std::string of_all = " of " + count(triangulation.num_sites(), "site", "sites");
+  if (num_without > 0) {
+    state_->remarks.push_back(std::to_string(num_without) + of_all +
+                              (num_without == 1 ? " has" : " have") + " no value of '" + name +
+                              "': " + consequence);
+  }
+  if (num_other > 0) {
+    state_->remarks.push_back(std::to_string(num_other) + of_all +
+                              (num_other == 1 ? " is" : " are") +
+                              " at the place of another one with another value of '" + name +
+                              "': of each place the first value counts");
+  }
+  return shown;
+}
+
 void Job::time(Stage stage, const std::function<void()>& work) {
   const Clock::time_point start = Clock::now();
   work();
@@ -119,13 +157,16 @@ Seconds Job::seconds() const {
 
 void Job::report(const Triangulation& triangulation, const std::string& what) {
   const CommonOptions& options = state_->options;
-  report(
-      options.json ? json_report(triangulation, seconds(), state_->num_unlocated) : std::string(),
-      summary(triangulation, seconds(), what, options.output));
+  report(options.json ? json_report(triangulation, seconds(), state_->num_unlocated,
+                                    state_->num_without_value)
+                      : std::string(),
+         summary(triangulation, seconds(), what, options.output));
 }
 
 void Job::report(const std::string& json, const std::string& summary) {
   state_->line.clear();
+  const std::string& input = state_->options.input;
+  tell(input == "-" ? "<stdin>" : input, state_->remarks);
   if (state_->options.output == "-") return;
   if (state_->options.json) {
     print(json);

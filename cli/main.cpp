@@ -94,6 +94,16 @@ std::string file_like_an_option(int argc, const char* const* argv) {
   return {};
 }
 
+// Names an option whose value is empty, "--value=", for which the parser would take the next argument.
+void require_values(std::span<const char* const> arguments) {
+  for (const std::string_view argument : arguments) {
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
+      throw UsageError(std::string(argument.substr(0, argument.size() - 1)) +
+                       ": its value is empty");
+    }
+  }
+}
+
 // Returns the command that the arguments chose, such as "mesh scvt".
 std::string name_of_parsed(const CLI::App& tool) {
   std::string name;
@@ -119,6 +129,7 @@ int run(int argc, const char* const* argv) {
   configure(tool);
   const std::vector<Command> commands = add_commands(tool);
   require_known_command(commands, argc, argv);
+  require_values({argv, static_cast<std::size_t>(argc)});
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForVersion& text) {

@@ -125,7 +125,7 @@ void add_values(Figure& figure, const PlotOptions& options, const Triangulation&
 }
 
 Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
-                   const SiteTable& table, const Execution& execution) {
+                   const SiteTable& table, std::vector<double> values, const Execution& execution) {
   const Show show = shown(options);
   Figure figure;
   figure.style = options.style;
@@ -162,8 +162,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
     if (has_filled_cells) figure.filled = {std::move(cells), std::move(cell_areas), {}};
   }
   if (!options.values.empty()) {
-    add_values(figure, options, triangulation, in_view,
-               column_values(table, options.values, "--values"), execution);
+    add_values(figure, options, triangulation, in_view, std::move(values), execution);
   }
   return figure;
 }
@@ -220,9 +219,11 @@ ExitStatus run_plot(const PlotOptions& options) {
   if (!options.values.empty()) names.push_back(options.values);
   const SiteTable table = job.read(common.source(), common.read, names);
   const Triangulation triangulation = job.triangulate(table);
+  std::vector<double> values = values_of_figure(options, job, table, triangulation);
   Figure figure;
-  job.time(Stage::dual,
-           [&] { figure = make_figure(options, triangulation, table, job.execution()); });
+  job.time(Stage::dual, [&] {
+    figure = make_figure(options, triangulation, table, std::move(values), job.execution());
+  });
   warn_of_size(options, figure, *format);
   job.time(Stage::write, [&] {
     write_file(options.common.output, draw(figure, *format, is_dense(figure, *format),

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "column_values.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -106,6 +107,16 @@ void add_view_options(CLI::App& parser, PlotOptions& options) {
 }
 
 }  // namespace
+
+std::vector<double> values_of_figure(const PlotOptions& options, Job& job, const SiteTable& table,
+                                     const Triangulation& triangulation) {
+  if (options.values.empty()) return {};
+  const bool has_cells = options.common.format() == "html" || filling(options) == Fill::cells;
+  return job.shown_values(triangulation, column_values(table, options.values, "--values"),
+                          options.values,
+                          has_cells ? "cells without a value have no color"
+                                    : "triangles without three values have no color");
+}
 
 void add_plot_options(CLI::App& parser, PlotOptions& options) {
   add_content_options(parser, options);

@@ -39,6 +39,10 @@ inline Fill filling(const PlotOptions& options) {
   return options.fill.value_or(options.values.empty() ? Fill::none : Fill::field);
 }
 
+/// Returns the values of --values as Job::shown_values() does; none without --values.
+std::vector<double> values_of_figure(const PlotOptions& options, Job& job, const SiteTable& table,
+                                     const Triangulation& triangulation);
+
 /// Adds the options that say what is shown, and from where.
 void add_plot_options(CLI::App& parser, PlotOptions& options);
 

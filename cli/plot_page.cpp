@@ -57,10 +57,9 @@ ExitStatus run_page(const PlotOptions& options) {
   Job job(common);
   const SiteTable table = job.read();
   GlobeOptions globe = globe_options(options);
-  std::vector<double> values;
-  if (!options.values.empty()) values = column_values(table, options.values, "--values");
-  globe.values = values;
   const Triangulation triangulation = job.triangulate(table);
+  const std::vector<double> values = values_of_figure(options, job, table, triangulation);
+  globe.values = values;
   Diagram both;
   Isolines lines;
   if (options.contours > 0) {

@@ -135,9 +135,10 @@ std::string hull_line(const Triangulation& hull, const HullSize& size) {
 }  // namespace
 
 std::string json_report(const Triangulation& triangulation, const Seconds& seconds,
-                        std::uint64_t unlocated) {
+                        std::uint64_t unlocated, std::optional<std::size_t> without_value) {
   Json json = contract(triangulation, seconds);
   json["unlocated"] = unlocated;
+  if (without_value) json["without_value"] = *without_value;
   return json.dump(2) + '\n';
 }
 

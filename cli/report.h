@@ -26,9 +26,10 @@ std::string count(std::size_t number, const std::string& one, const std::string&
 void tell(const std::string& file, const std::vector<std::string>& remarks);
 
 /// Returns the JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated`
-/// is the number of features of the input that have no geometry.
+/// is the number of features of the input that have no geometry, `without_value` that of vertices
+/// without a value, which only commands that draw values report.
 std::string json_report(const Triangulation& triangulation, const Seconds& seconds,
-                        std::uint64_t unlocated);
+                        std::uint64_t unlocated, std::optional<std::size_t> without_value);
 
 /// Returns the same, and what only a hull has: flat, volume, area.
 std::string hull_json_report(const Triangulation& hull, const HullSize& size,

@@ -46,6 +46,13 @@ struct Bands {
   [[nodiscard]] std::size_t num_polygons() const noexcept { return polygon_offsets.size() - 1; }
 };
 
+/// Returns the values that count at the vertices: of the sites in one place, the first one that has
+/// a value. Others keep their own. isolines() and bands() use these values.
+/// \param values  one for each site; NaN is missing
+/// \throws InvalidInput if there is not one value for each site
+RONDEL_API std::vector<double> first_values(const Triangulation& triangulation,
+                                            std::span<const double> values);
+
 /// Computes the isolines of the field that is linear in the plane of each solid face, as in
 /// Method::linear:
 ///
@@ -63,8 +70,8 @@ struct Bands {
 /// 4. A point on an edge is computed from the edge's ends alone, the end with the lower value
 ///    first. A site whose value is the level has its unit vector as a point.
 /// 5. The bytes depend on the values and the places of the sites, not on their order, nor on the
-///    number of threads. If several sites are in one place, the value of the lowest index counts.
-///    (For a Triangulation::from_arrays() the order of faces decides the order of lines, and where
+///    number of threads. If several sites are in one place, the value of the lowest index that has
+///    one counts. (For a Triangulation::from_arrays() the order of faces decides the order of lines, and where
 ///    a closed line begins.)
 ///
 /// The expected time is O(n log k + length of the result) for k levels. Below dimension 2 there are

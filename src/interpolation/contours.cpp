@@ -12,6 +12,7 @@
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -20,22 +21,28 @@ using interpolation::ContourTracer;
 using interpolation::RegionKind;
 using interpolation::TracedLines;
 
+void require_values(const Triangulation& triangulation, std::span<const double> values) {
+  if (values.size() == triangulation.num_sites()) return;
+  throw InvalidInput("there are " + std::to_string(values.size()) + " values for " +
+                     std::to_string(triangulation.num_sites()) + " sites");
+}
+
 void require_values_and_levels(const Triangulation& triangulation, std::span<const double> values,
                                std::span<const double> levels) {
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("weighted sites have no isolines");
   }
-  if (values.size() != triangulation.num_sites()) {
-    throw InvalidInput("there are " + std::to_string(values.size()) + " values for " +
-                       std::to_string(triangulation.num_sites()) + " sites");
-  }
+  require_values(triangulation, values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isinf(values[i])) throw InvalidInput("a value is infinite", i);
+    if (std::isinf(values[i])) throw InvalidInput("value " + std::to_string(i) + " is infinite", i);
   }
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    if (!std::isfinite(levels[k])) throw InvalidInput("a level is not finite", k);
+    const std::string level =
+        "level " + std::to_string(k) + ", " + system::shortest_text(levels[k]) + ",";
+    if (!std::isfinite(levels[k])) throw InvalidInput(level + " is not finite", k);
     if (k > 0 && !(levels[k - 1] < levels[k])) {
-      throw InvalidInput("a level is not above the one before", k);
+      throw InvalidInput(
+          level + " is not above the one before it, " + system::shortest_text(levels[k - 1]), k);
     }
   }
 }
@@ -73,11 +80,22 @@ void append_polygons(const TracedLines& rings, Bands& out) {
 
 }  // namespace
 
+std::vector<double> first_values(const Triangulation& triangulation,
+                                 std::span<const double> values) {
+  require_values(triangulation, values);
+  std::vector<double> first(values.begin(), values.end());
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    if (std::isnan(first[representative])) first[representative] = values[site];
+  }
+  return first;
+}
+
 Isolines isolines(const Triangulation& triangulation, std::span<const double> values,
                   std::span<const double> levels, const Execution& execution) {
   const system::Call call(execution);
   require_values_and_levels(triangulation, values, levels);
-  ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, execution);
+  const std::vector<double> own = first_values(triangulation, values);
+  ContourTracer tracer(triangulation, own, levels, RegionKind::from_level_on, execution);
   const std::vector<TracedLines> traced = traced_regions(
       levels.size(), execution, [&](std::size_t level) { return tracer.lines(level + 1); });
   Isolines out;
@@ -96,7 +114,8 @@ Bands bands(const Triangulation& triangulation, std::span<const double> values,
             std::span<const double> levels, const Execution& execution) {
   const system::Call call(execution);
   require_values_and_levels(triangulation, values, levels);
-  ContourTracer tracer(triangulation, values, levels, RegionKind::band, execution);
+  const std::vector<double> own = first_values(triangulation, values);
+  ContourTracer tracer(triangulation, own, levels, RegionKind::band, execution);
   const std::vector<TracedLines> traced = traced_regions(
       tracer.num_regions(), execution, [&](std::size_t region) { return tracer.rings(region); });
   const bool is_without_rings =

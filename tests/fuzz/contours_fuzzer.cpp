@@ -128,6 +128,23 @@ bool has_clear_edges(const Triangulation& t) {
   return true;
 }
 
+// Values that count are values of the place, and missing ones are missing in all sites of it.
+void test_first_values(const Triangulation& t, const std::vector<double>& values) {
+  std::vector<Index> place(values.size());
+  for (Index i = 0; i < place.size(); ++i) place[i] = i;
+  for (const auto& [site, representative] : t.duplicates()) place[site] = representative;
+  std::vector<double> expected(values.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = values.size(); i-- > 0;) {
+    if (!std::isnan(values[i])) expected[place[i]] = values[i];
+  }
+  const std::vector<double> found = first_values(t, values);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const double wanted = place[i] == i ? expected[i] : values[i];
+    require(found[i] == wanted || (std::isnan(found[i]) && std::isnan(wanted)),
+            "the first value of a place counts");
+  }
+}
+
 // Levels divide the surface; they change nothing of what it covers.
 void test_area(const Bands& bands, const Bands& undivided) {
   const double difference = area_of(bands) - area_of(undivided);
@@ -191,6 +208,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Isolines lines = isolines(t, values, levels);
     fuzz::require(infinite == values.end(), "infinite values are refused");
     fuzz::test_isolines(lines);
+    fuzz::test_first_values(t, values);
     const Bands found = bands(t, values, levels);
     fuzz::test_bands(found);
     if (fuzz::has_clear_edges(t)) fuzz::test_area(found, bands(t, values, {}));

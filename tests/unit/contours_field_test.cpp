@@ -198,6 +198,33 @@ TEST(contours, name_the_first_bad_argument) {
             InvalidInput::no_index);
 }
 
+// The second site of each place has the value of the first one, which has none; the third one's value does not count.
+TEST(contours, take_the_first_value_of_each_place) {
+  Random random(23);
+  std::vector<Point> sites;
+  std::vector<double> values;
+  for (int i = 0; i < 40; ++i) {
+    sites.push_back({random.signed_unit(), random.signed_unit(), random.signed_unit()});
+    values.push_back(random.signed_unit());
+  }
+  const std::vector<double> levels = {-0.5, 0, 0.25};
+  const Triangulation apart = delaunay(sites);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point> repeated = sites;
+  std::vector<double> moved = values;
+  for (std::size_t i = 0; i < sites.size(); i += 3) {
+    repeated.insert(repeated.end(), {sites[i], sites[i]});
+    moved.insert(moved.end(), {values[i], 7});
+    moved[i] = none;
+  }
+  const Triangulation together = delaunay(repeated);
+  EXPECT_EQ(isolines(together, moved, levels).points, isolines(apart, values, levels).points);
+  EXPECT_EQ(bands(together, moved, levels).points, bands(apart, values, levels).points);
+  const std::vector<double> first = first_values(together, moved);
+  EXPECT_TRUE(std::equal(values.begin(), values.end(), first.begin()));
+  EXPECT_THROW((void)first_values(together, values), InvalidInput);
+}
+
 TEST(contours, of_values_that_hardly_differ_and_that_are_huge) {
   const Triangulation t = projected(generator("uniform").make(50, 1));
   std::vector<double> values = smooth_values(t);

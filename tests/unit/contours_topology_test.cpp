@@ -40,6 +40,11 @@ void expect_simple(std::span<const Point> points, std::string_view name) {
 }
 
 double surface_area(const Triangulation& t, std::span<const double> values) {
+  std::vector<bool> has_value(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) has_value[i] = !std::isnan(values[i]);
+  for (const auto& [site, representative] : t.duplicates()) {
+    if (has_value[site]) has_value[representative] = true;
+  }
   double area = 0;
   for (Index f = 0; f < t.num_faces(); ++f) {
     std::array<Point, 3> corners;
@@ -47,7 +52,7 @@ double surface_area(const Triangulation& t, std::span<const double> values) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index site = t.faces()[f][i];
       corners[i] = unit(minus(t.sites()[site], t.sphere().center));
-      is_there = is_there && !std::isnan(values[site]);
+      is_there = is_there && has_value[site];
     }
     if (is_there) area += signed_ring_area(corners);
   }

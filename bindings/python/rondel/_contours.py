@@ -32,7 +32,8 @@ def isolines(
     Parameters
     ----------
     values : array_like, shape (n,)
-        A value for each site. Triangles with a corner whose value is NaN or masked are left out.
+        A value for each site. Triangles with a corner whose value is NaN or masked are left out. Of
+        sites in one place the first one that has a value counts.
     levels : float or array_like, shape (k,)
         One level, or several in increasing order.
     threads : int, optional
@@ -76,7 +77,8 @@ def bands(
     Parameters
     ----------
     values : array_like, shape (n,)
-        A value for each site. Triangles with a corner whose value is NaN or masked are left out.
+        A value for each site. Triangles with a corner whose value is NaN or masked are left out. Of
+        sites in one place the first one that has a value counts.
     levels : float or array_like, shape (k,)
         One level, or several in increasing order, which make k + 1 bands.
     threads : int, optional
