@@ -50,12 +50,29 @@ std::vector<std::string> readings(const std::string& input) {
   return files;
 }
 
+bool is_standard_output(const std::string& path) {
+  return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
+}
+
+// Throws FileError if the folder of a file is not there, so that no other output is written before that is noticed.
+void require_folder(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = resolved(path).parent_path();
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  const bool is_there = fs::exists(folder, error);
+  throw FileError(path + ": " + (is_there ? "Not a directory" : "No such file or directory"));
+}
+
 }  // namespace
 
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     const NamedFile& output = outputs[k];
+    if (is_standard_output(output.path) && std::string_view(output.option) != "--output") {
+      throw UsageError(std::string(output.option) +
+                       ": only --output may be standard output; name a file");
+    }
     if (!is_file_name(output.path)) continue;
     const std::string what = std::string(output.option) + ": '" + output.path + "' is the ";
     for (const NamedFile& input : inputs) {
@@ -70,6 +87,9 @@ void require_separate_files(const std::vector<NamedFile>& inputs,
       if (!are_one_file(outputs[other].path, output.path)) continue;
       throw UsageError(what + "file of " + outputs[other].option);
     }
+  }
+  for (const NamedFile& output : outputs) {
+    if (is_file_name(output.path)) require_folder(output.path);
   }
 }
 

@@ -20,6 +20,7 @@ struct NamedFile {
 ///
 /// \throws UsageError if a file that is written is also read, or is written twice. Files are compared as the system knows them (device
 /// and number), so every spelling and every link of a file is that file; of files that do not exist yet the resolved paths are compared.
+/// Only --output may be standard output. \throws FileError if the folder of an output does not exist
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
 

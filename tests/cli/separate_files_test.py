@@ -125,10 +125,10 @@ class SeparateFiles(unittest.TestCase):
                 words += [option, name]
         return words
 
-    def assert_refused(self, words, said):
+    def assert_refused(self, words, said, status=2):
         content = {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
         done = self.run_tool(*words)
-        self.assertEqual((done.returncode, done.stdout), (2, ""), (words, done.stderr))
+        self.assertEqual((done.returncode, done.stdout), (status, ""), (words, done.stderr))
         self.assertIn(said, done.stderr, words)
         self.assertEqual(
             content, {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}, words
@@ -185,6 +185,25 @@ class SeparateFiles(unittest.TestCase):
                             words = self.arguments(command, {second: name, first: spelling})
                             self.assert_refused(words, "' is the file of --")
                         (self.folder / name).unlink(missing_ok=True)
+
+    def test_only_output_is_standard_output(self):
+        for command, (_, _, written) in COMMANDS.items():
+            for option in set(written) - {"--output"}:
+                for name in ("-", "/dev/stdout", "/dev/fd/1"):
+                    words = self.arguments(command, {option: name})
+                    self.assert_refused(words, f"{option}: only --output may be standard output")
+
+    def test_folders_of_all_outputs_are_there_before_one_is_written(self):
+        """The other outputs could be written, and nothing is read: no INPUT exists."""
+        (self.folder / "file").write_bytes(b"content")
+        for command, (_, _, written) in COMMANDS.items():
+            for option, ending in written.items():
+                name = f"nowhere/out{ending}"
+                words = self.arguments(command, {option: name})
+                self.assert_refused(words, f"{name}: No such file or directory", status=1)
+                name = f"file/out{ending}"
+                words = self.arguments(command, {option: name})
+                self.assert_refused(words, f"{name}: Not a directory", status=1)
 
     def test_different_files_are_none(self):
         """A second name of nothing, names that begin as others do, a device for several outputs."""
