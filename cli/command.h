@@ -51,17 +51,25 @@ struct Command {
   std::function<ExitStatus()> run;
 };
 
+/// An option that changes nothing unless a condition holds, which other options decide.
+struct OptionEffect {
+  const CLI::Option* option;
+  std::function<bool()> has_effect;
+  std::string otherwise;  ///< ends "--count has no effect ...", such as "without --kind circles"
+};
+
 /// The options that mean the same in every command that has them.
 struct CommonOptions {
-  std::string input;          ///< INPUT; "-": standard input
-  std::string input_format;   ///< --input-format
-  std::string output;         ///< -o, --output; "-": standard output
-  std::string output_format;  ///< --format
-  ReadOptions read;           ///< --lon --lat --x --y --z --radius --radians
-  Options build;              ///< --model --center --squared-radius
-  unsigned threads = 0;       ///< --threads
-  bool json = false;          ///< --json
-  bool quiet = false;         ///< --quiet
+  std::string input;                  ///< INPUT; "-": standard input
+  std::string input_format;           ///< --input-format
+  std::string output;                 ///< -o, --output; "-": standard output
+  std::string output_format;          ///< --format
+  ReadOptions read;                   ///< --lon --lat --x --y --z --radius --radians
+  Options build;                      ///< --model --center --squared-radius
+  unsigned threads = 0;               ///< --threads
+  bool json = false;                  ///< --json
+  bool quiet = false;                 ///< --quiet
+  std::vector<OptionEffect> effects;  ///< see require_effect()
 
   [[nodiscard]] FileName source() const { return {input, input_format}; }
   [[nodiscard]] FileName target() const { return {output, output_format}; }
@@ -69,19 +77,35 @@ struct CommonOptions {
   [[nodiscard]] std::string format() const;
 };
 
+/// Makes it a usage error to give an option that has no effect. The conditions are checked when the command line has been parsed, if the
+/// command calls add_report_options(); what they refer to must live until then.
+/// \param otherwise  says when there is none: "--count has no effect without --kind circles"
+void require_effect(CommonOptions& options, const CLI::Option* option,
+                    std::function<bool()> has_effect, std::string otherwise);
+
+/// The help text of INPUT where it has sites.
+inline constexpr const char* default_input_help =
+    "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
+    "Longitude and latitude in degrees, or x, y, z.";
+
+/// Returns the files from which a command reads sites or values.
+using TablesRead = std::function<std::vector<FileName>()>;
+
 /// Adds INPUT and the options that say how to read it. \pre this comes before add_build_options(),
 /// since --radius sets the model, which --model may contradict.
-void add_input_options(
-    CLI::App& command, CommonOptions& options,
-    const std::string& what =
-        "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
-        "Longitude and latitude in degrees, or x, y, z.");
+/// \param tables  the files for which names of columns, --delimiter and --radians are; --radius is for the first one. By default INPUT
+void add_input_options(CLI::App& command, CommonOptions& options,
+                       const std::string& what = default_input_help, const TablesRead& tables = {});
 /// Does the same for a command that takes points in space: x, y, z only.
 void add_point_input_options(CLI::App& command, CommonOptions& options);
 /// Adds --output, which the caller may require, and --format. `what` says for the help what is
 /// written, and to which endings.
 CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
 void add_build_options(CLI::App& command, CommonOptions& options);
+/// Tells that names of columns in `read`, which are for another file, change nothing for this one.
+void tell_of_columns(const std::string& netcdf, const ReadOptions& read);
+/// Throws UsageError if --radians is given and none of the tables has angles.
+void require_angles(const ReadOptions& read, std::span<const SiteTable* const> tables);
 void add_threads_option(CLI::App& command, CommonOptions& options);
 void add_report_options(CLI::App& command, CommonOptions& options);
 

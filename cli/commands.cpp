@@ -56,7 +56,9 @@ std::string distance_error(const std::string& text) { return range_error(text, 0
 
 void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats) {
   options.common.output = "-";
-  add_input_options(parser, options.common);
+  add_input_options(parser, options.common, default_input_help, [&options] {
+    return std::vector<FileName>{options.common.source(), {options.queries, options.query_format}};
+  });
   parser
       .add_option("QUERIES", options.queries,
                   "The points to ask for, in the formats of INPUT; columns that are named\n"
@@ -156,19 +158,23 @@ void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
       "error (default: two of them are named) or first (it is of the first one)");
 }
 
-void require_effects(const CLI::App& parser, const VoronoiOptions& options) {
-  const bool has_features = options.densify_km > 0;
-  require_effect(parser, has_features || !options.clip.empty(), {"--edges"},
-                 "without --clip or --densify");
-  require_effect(parser, has_features || !options.clip_value.empty(), {"--overlap"},
-                 "without --clip-value or --densify");
-  require_effect(parser, !has_features,
-                 {"--radius", "--radians", "--delimiter", "--lon", "--lat", "--x", "--y", "--z",
-                  "--model", "--center", "--squared-radius"},
-                 "with --densify, whose INPUT has lines and polygons");
-  const std::string format = options.common.format();
-  require_effect(parser, format != "vtp" && format != "npz", {"--tolerance"},
-                 "for ." + format + ", which has great circles");
+// Tells of options for polygons without them, and of those for sites with lines and polygons.
+void require_effects(const CLI::App& parser, VoronoiOptions& options) {
+  const auto has_features = [&options] { return options.densify_km > 0; };
+  require_effect(
+      options.common, parser.get_option("--edges"),
+      [=, &options] { return has_features() || !options.clip.empty(); },
+      "without --clip or --densify");
+  require_effect(
+      options.common, parser.get_option("--overlap"),
+      [=, &options] { return has_features() || !options.clip_value.empty(); },
+      "without --clip-value or --densify");
+  for (const char* const name :
+       {"--radius", "--radians", "--delimiter", "--lon", "--x", "--model", "--center"}) {
+    require_effect(
+        options.common, parser.get_option(name), [=] { return !has_features(); },
+        "with --densify, whose INPUT has lines and polygons");
+  }
 }
 
 Command add_voronoi_command(CLI::App& tool) {
@@ -180,11 +186,19 @@ Command add_voronoi_command(CLI::App& tool) {
       "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
       "input's columns), .vtp .npz; with GDAL installed .gpkg .fgb .parquet")
       ->required();
-  parser
-      ->add_option("--tolerance", options->tolerance_deg,
-                   "GeoJSON: how far a line may be from its great circle (default: 0.01)")
-      ->check(positive_error)
-      ->type_name("DEG");
+  const CLI::Option* const tolerance =
+      parser
+          ->add_option("--tolerance", options->tolerance_deg,
+                       "GeoJSON: how far a line may be from its great circle (default: 0.01)")
+          ->check(positive_error)
+          ->type_name("DEG");
+  require_effect(
+      options->common, tolerance,
+      [given = options.get()] {
+        const std::string format = given->common.format();
+        return format != "vtp" && format != "npz";
+      },
+      "on .vtp and .npz, which have no polygons of straight lines");
   parser
       ->add_option(
           "--clip", options->clip,
@@ -214,6 +228,7 @@ Command add_voronoi_command(CLI::App& tool) {
       ->check(earth_radius_error)
       ->type_name("KM");
   add_build_options(*parser, options->common);
+  require_effects(*parser, *options);
   add_report_options(*parser, options->common);
   parser->footer(
       "Areas are in steradians; --earth-radius adds square kilometres. Hidden sites, which\n"
@@ -226,10 +241,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "  rondel voronoi stations.csv --clip countries.geojson --clip-value name -o parts.gpkg\n"
       "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
-  return {parser, [options, parser] {
-            require_effects(*parser, *options);
-            return run_voronoi(*options);
-          }};
+  return {parser, [options] { return run_voronoi(*options); }};
 }
 
 Command add_hull_command(CLI::App& tool) {
@@ -284,16 +296,17 @@ Command add_generate_command(CLI::App& tool) {
       ->required()
       ->check(kind_error)
       ->type_name("");
-  parser->add_option("-n,--number", recipe.n, "Number of sites, also as 1e6")
-      ->check(count_error)
-      ->transform(digits_of_whole)
-      ->type_name("N");
+  CLI::Option* number = parser->add_option("-n,--number", recipe.n, "Number of sites, also as 1e6");
+  number->check(count_error)->transform(digits_of_whole)->type_name("N");
   add_output_option(*parser, options->common,
                     "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy")
       ->required();
-  parser->add_option("--seed", recipe.seed, "Seed of the random numbers (default: 1)")
-      ->check(seed_error)
-      ->type_name("S");
+  CLI::Option* seed =
+      parser->add_option("--seed", recipe.seed, "Seed of the random numbers (default: 1)");
+  seed->check(seed_error)->type_name("S");
+  require_effect(
+      options->common, seed, [given = options.get()] { return find_kind(given->kind)->is_random; },
+      "on sites that are not random");
   CLI::Option* angle = parser->add_option("--angle", options->angle,
                                           "Angular radius of patch, cluster, cap and\n"
                                           "small-circle, largest one of circles, width of wedge,\n"
@@ -307,7 +320,7 @@ Command add_generate_command(CLI::App& tool) {
   for (CLI::Option* option : {rows, columns}) {
     option->check(count_error)->transform(digits_of_whole)->type_name("N");
   }
-  rows->needs(columns);
+  rows->needs(columns)->excludes(number);
   columns->needs(rows);
   add_report_options(*parser, options->common);
   parser->footer(kinds_help() +

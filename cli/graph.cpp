@@ -140,18 +140,30 @@ Command add_graph_command(CLI::App& tool) {
                    "alpha: the largest radius of a triangle's circle, in degrees")
       ->check(positive_error)
       ->type_name("DEG");
-  parser
-      ->add_option("--count", options->count,
-                   "circles: how many of those of the faces, the largest first (default: 1)")
-      ->check(positive_error)
-      ->type_name("N");
-  parser->add_flag("--anywhere", options->anywhere,
-                   "circles: also those whose centers are outside of the sites' hull");
-  parser
-      ->add_option("--tolerance", options->tolerance_deg,
-                   "How far a line may be from its great circle (default: 0.01)")
-      ->check(positive_error)
-      ->type_name("DEG");
+  const CLI::Option* const count =
+      parser
+          ->add_option("--count", options->count,
+                       "circles: how many of those of the faces, the largest first (default: 1)")
+          ->check(positive_error)
+          ->type_name("N");
+  const CLI::Option* const anywhere =
+      parser->add_flag("--anywhere", options->anywhere,
+                       "circles: also those whose centers are outside of the sites' hull");
+  const CLI::Option* const tolerance =
+      parser
+          ->add_option("--tolerance", options->tolerance_deg,
+                       "How far a line may be from its great circle (default: 0.01)")
+          ->check(positive_error)
+          ->type_name("DEG");
+  const auto are_circles = [given = options.get()] { return given->kind == "circles"; };
+  require_effect(options->common, count, are_circles, "without --kind circles");
+  require_effect(options->common, anywhere, are_circles, "without --kind circles");
+  require_effect(
+      options->common, tolerance,
+      [given = options.get()] {
+        return given->kind != "circles" && given->common.format() == "geojson";
+      },
+      "without lines in .geojson");
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(

@@ -243,6 +243,8 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   const NetcdfSites grid = job.read_grid(common.source(), read, options.columns);
   const SiteTable& table = grid.table;
   Targets targets = read_targets(options.target, common.read);
+  const SiteTable* const tables[] = {&table, &targets.table};
+  require_angles(common.read, tables);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
   if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, counts);
   if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, counts);

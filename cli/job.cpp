@@ -59,7 +59,12 @@ struct Job::State {
 Job::Job(const CommonOptions& options) : state_(std::make_unique<State>(options)) {}
 Job::~Job() = default;
 
-SiteTable Job::read() { return read(state_->options.source(), state_->options.read); }
+SiteTable Job::read() {
+  SiteTable table = read(state_->options.source(), state_->options.read);
+  const SiteTable* const tables[] = {&table};
+  require_angles(state_->options.read, tables);
+  return table;
+}
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read,
                     std::span<const std::string> names) {
@@ -72,6 +77,12 @@ SiteTable Job::read(const FileName& file, const ReadOptions& read,
   return grid.table.selection(is_kept);
 }
 
+void tell_of_columns(const std::string& netcdf, const ReadOptions& read) {
+  if (read.lon.empty() && read.x.empty()) return;
+  tell(netcdf, {"names of columns are for tables; " + netcdf +
+                ":NAME chooses one of several coordinates of netCDF"});
+}
+
 NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
                            std::span<const std::string> names) {
   const Clock::time_point start = Clock::now();
@@ -82,6 +93,7 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   if (is_netcdf) {
     sites = read_netcdf_sites(part.first, names, read.keep_columns);
     tell(part.first.path, sites.remarks);
+    tell_of_columns(part.first.path, read);
   } else {
     sites.table = read_sites(file, read, execution());
   }

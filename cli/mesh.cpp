@@ -76,9 +76,6 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
   if (is_mesh_file(common) && common.output == "-") {
     throw UsageError("--output: a mesh is written to a file");
   }
-  if (!is_mesh_file(common) && output.netcdf.kind != NetcdfKind::by_name) {
-    throw UsageError("--kind: sites are not written as netCDF");
-  }
 }
 
 void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
@@ -125,17 +122,26 @@ void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKin
                         ? of_meshes
                         : of_meshes + ". Or its sites: .csv .tsv .xyz .txt .npy")
       ->required();
-  add_netcdf_options(parser, output.netcdf);
+  add_netcdf_options(parser, output.common, output.netcdf, [&output] {
+    return is_mesh_file(output.common) ? std::vector<FileName>{output.common.target()}
+                                       : std::vector<FileName>();
+  });
   parser
       .add_option("--graph", output.graph,
                   "Where to write which cells are neighbors, for METIS: MPAS's graph.info")
       ->type_name("FILE");
-  parser
-      .add_option("--sphere-radius", output.radius,
-                  "The radius of the sphere, in metres for most models (default: 1, or that of\n"
-                  "the mesh that is read)")
-      ->check(radius_error)
-      ->type_name("R");
+  const CLI::Option* const radius =
+      parser
+          .add_option(
+              "--sphere-radius", output.radius,
+              "The radius of the sphere, in metres for most models (default: 1, or that of\n"
+              "the mesh that is read)")
+          ->check(radius_error)
+          ->type_name("R");
+  require_effect(
+      output.common, radius,
+      [&output] { return is_mesh_file(output.common) || !output.report.empty(); },
+      "on sites, which are unit vectors");
   add_mesh_report_option(parser, output.report);
 }
 

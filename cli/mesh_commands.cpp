@@ -53,11 +53,17 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
                   "sites on both sides never move; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE");
-  add_word<PolygonEdges>(
+  const CLI::Option* const edges = add_word<PolygonEdges>(
       parser, "--edges", options.edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
       "What joins positions of --refine, --fixed and --along: lonlat (default;\n"
       "straight in longitude and latitude, RFC 7946) or geodesic (great circles)");
+  require_effect(
+      options.output.common, edges,
+      [&options] {
+        return !(options.refine.empty() && options.fixed.empty() && options.along.empty());
+      },
+      "without --refine, --fixed or --along");
 }
 
 Command add_scvt_command(CLI::App& group) {
@@ -81,12 +87,19 @@ Command add_scvt_command(CLI::App& group) {
       ->allow_extra_args(false)
       ->needs(spacing)
       ->type_name("FILE:KM");
-  parser
-      ->add_option("--gradient", options->slope,
-                   "How much the spacing grows over its own distance, at most\n"
-                   "(default: 0.05 of --refine; files as they are)")
-      ->check(positive_error)
-      ->type_name("G");
+  const CLI::Option* const gradient =
+      parser
+          ->add_option("--gradient", options->slope,
+                       "How much the spacing grows over its own distance, at most\n"
+                       "(default: 0.05 of --refine; files as they are)")
+          ->check(positive_error)
+          ->type_name("G");
+  require_effect(
+      options->output.common, gradient,
+      [given = options.get()] {
+        return !given->refine.empty() || is_file_of_spacings(given->spacing);
+      },
+      "without --refine or a file of --spacing");
   parser
       ->add_option("--density", options->density,
                    "Spacing as the power -1/4 of this density of a tessellation, FILE.nc:NAME or\n"
@@ -157,18 +170,18 @@ Command add_points_command(CLI::App& group) {
   parser->add_option("--radius", options->radius_km, "poisson: the least distance")
       ->check(positive_error)
       ->type_name("KM");
-  parser->add_option("--seed", options->seed, "poisson: seed of the random numbers (default: 1)")
-      ->check(seed_error)
-      ->type_name("S");
+  CLI::Option* const seed = parser->add_option("--seed", options->seed,
+                                               "poisson: seed of the random numbers (default: 1)");
+  seed->check(seed_error)->type_name("S");
+  require_effect(
+      options->output.common, seed, [given = options.get()] { return given->kind == "poisson"; },
+      "on sites that are not random");
   add_mesh_output(*parser, options->output);
   parser->footer(
       "Examples:\n"
       "  rondel mesh points healpix --size 64 -o centers.npy\n"
       "  rondel mesh points poisson --radius 100 -o poisson.nc --format ugrid");
-  return {parser, [options, parser] {
-            require_effect(*parser, options->kind == "poisson", {"--seed"}, "but for poisson");
-            return run_mesh_points(*options);
-          }};
+  return {parser, [options] { return run_mesh_points(*options); }};
 }
 
 Command add_area_partition_command(CLI::App& group) {

@@ -114,11 +114,15 @@ Command add_mesh_cull_command(CLI::App& mesh) {
                    "Remove the cells that have 1 in this file; the others have 0: .npy,\n"
                    "FILE.nc:NAME, FILE.csv:COLUMN; of NAME(nCells, nRegions) those in any region")
       ->type_name("FILE");
-  add_word<PolygonEdges>(
+  const CLI::Option* const edges = add_word<PolygonEdges>(
       *parser, "--edges", options->polygon_edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
+  require_effect(
+      options->written.common, edges,
+      [given = options.get()] { return !given->inside.empty() || !given->outside.empty(); },
+      "without --inside or --outside");
   add_mesh_output_options(*parser, options->written, MeshOutputKind::mesh);
   add_map_options(*parser, *options);
   add_threads_option(*parser, options->written.common);
@@ -130,11 +134,7 @@ Command add_mesh_cull_command(CLI::App& mesh) {
       "Examples:\n"
       "  rondel mesh cull mesh.nc -o ocean.nc --inside land.geojson --cell-map cells.npy\n"
       "  rondel mesh cull mesh.nc -o region.nc --outside region.geojson --graph graph.info");
-  return {parser, [options, parser] {
-            require_effect(*parser, !options->inside.empty() || !options->outside.empty(),
-                           {"--edges"}, "without --inside or --outside");
-            return run_mesh_cull(*options);
-          }};
+  return {parser, [options] { return run_mesh_cull(*options); }};
 }
 
 ExitStatus run_mesh_cull(const MeshCullOptions& options) {

@@ -67,6 +67,8 @@ struct FixedSites {
 
 /// The files of --spacing, --refine, --density, --fixed, --along and --start.
 std::vector<NamedFile> files_read(const ScvtCommandOptions& options);
+/// True if --spacing names a file, and no number of kilometers.
+bool is_file_of_spacings(const std::string& spacing);
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution);

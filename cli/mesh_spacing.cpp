@@ -30,9 +30,8 @@ constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
 
 // Returns the number of kilometers, or nothing if the text is the name of a file.
 std::optional<double> as_kilometers(const std::string& option, const std::string& text) {
-  char* end = nullptr;
-  const double kilometers = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0') return std::nullopt;
+  if (text.empty() || is_file_of_spacings(text)) return std::nullopt;
+  const double kilometers = std::strtod(text.c_str(), nullptr);
   if (kilometers > 0 && kilometers < most_kilometers) return kilometers;
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
@@ -103,6 +102,12 @@ std::vector<NamedFile> files_read(const ScvtCommandOptions& options) {
     for (const std::string& path : *paths) files.push_back({option, path});
   }
   return files;
+}
+
+bool is_file_of_spacings(const std::string& spacing) {
+  char* end = nullptr;
+  std::strtod(spacing.c_str(), &end);
+  return !spacing.empty() && *end != '\0';
 }
 
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,

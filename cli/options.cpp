@@ -8,6 +8,8 @@
 #include <filesystem>
 
 #include "command.h"
+#include "netcdf_part.h"
+#include "rondel/mesh_files.h"
 #include "table_options.h"
 #include "validate.h"
 
@@ -38,6 +40,14 @@ CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
   z->needs(x);
   return x;
 }
+
+// Returns true if the command line says how to read this file: it is no netCDF and no grid.
+bool is_table(const FileName& file) {
+  return !file.path.empty() && !file.path.starts_with("grid:") &&
+         !is_netcdf_file(netcdf_part(file).first);
+}
+
+bool has_table(const TablesRead& tables) { return std::ranges::any_of(tables(), is_table); }
 
 void add_columns(CLI::App& command, ReadOptions& read) {
   CLI::Option* lon =
@@ -101,15 +111,46 @@ void add_radius(CLI::App& command, CommonOptions& options) {
 
 }  // namespace
 
-void add_input_options(CLI::App& command, CommonOptions& options, const std::string& what) {
+void add_input_options(CLI::App& command, CommonOptions& options, const std::string& what,
+                       const TablesRead& tables) {
   add_input(command, options, what);
-  add_table_options(command, options);
+  const TablesRead input = [&options] { return std::vector<FileName>{options.source()}; };
+  add_table_options(command, options, tables ? tables : input);
 }
 
-void add_table_options(CLI::App& command, CommonOptions& options) {
+void require_angles(const ReadOptions& read, std::span<const SiteTable* const> tables) {
+  const auto has_angles = [](const SiteTable* table) {
+    return table->sites.empty() || table->is_lonlat() || !table->radii_deg.empty();
+  };
+  if (!read.radians || std::ranges::any_of(tables, has_angles)) return;
+  throw UsageError("--radians has no effect on x, y, z: " + tables.front()->name +
+                   " has no angles");
+}
+
+void require_effect(CommonOptions& options, const CLI::Option* option,
+                    std::function<bool()> has_effect, std::string otherwise) {
+  options.effects.push_back({option, std::move(has_effect), std::move(otherwise)});
+}
+
+void add_table_options(CLI::App& command, CommonOptions& options, const TablesRead& tables) {
   add_delimiter(command, options);
   add_radius(command, options);
   add_columns(command, options.read);
+  const std::string otherwise = "on netCDF and grids, which are no tables";
+  for (const char* const name : {"--delimiter", "--radians", "--x"}) {
+    require_effect(
+        options, command.get_option(name), [tables] { return has_table(tables); }, otherwise);
+  }
+  require_effect(
+      options, command.get_option("--lon"), [tables] { return has_table(tables); },
+      otherwise + "; INPUT.nc:NAME chooses one of several coordinates of netCDF");
+  require_effect(
+      options, command.get_option("--radius"),
+      [tables] {
+        const std::vector<FileName> files = tables();
+        return !files.empty() && is_table(files.front());
+      },
+      "on netCDF and grids; circles are read from tables");
 }
 
 void add_point_input_options(CLI::App& command, CommonOptions& options) {
@@ -175,11 +216,20 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
       ->expected(3)
       ->check(finite_error)
       ->type_name("X Y Z");
-  command
-      .add_option("--squared-radius", options.build.sphere.squared_radius,
-                  "Squared radius of the sphere (default: 1)")
-      ->check(positive_error)
-      ->type_name("R2");
+  CLI::Option* const squared_radius =
+      command
+          .add_option("--squared-radius", options.build.sphere.squared_radius,
+                      "Squared radius of the sphere (default: 1); for --model weighted")
+          ->check(positive_error)
+          ->type_name("R2");
+  const bool is_measured = command.get_name() == "info";
+  require_effect(
+      options, squared_radius,
+      [&options, is_measured] {
+        return is_measured ||
+               (options.build.model == Model::weighted && options.read.radius.empty());
+      },
+      "without --model weighted, and on circles, whose sphere has the radius 1");
   add_threads_option(command, options);
 }
 
@@ -193,6 +243,13 @@ void add_threads_option(CLI::App& command, CommonOptions& options) {
 void add_report_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--json", options.json, "Print one JSON object instead of the summary");
   command.add_flag("--quiet", options.quiet, "Print no summary and show no progress");
+  command.callback([&options] {
+    for (const OptionEffect& effect : options.effects) {
+      if (effect.option->count() == 0 || effect.has_effect()) continue;
+      throw UsageError("--" + effect.option->get_lnames().front() + " has no effect " +
+                       effect.otherwise);
+    }
+  });
 }
 
 void require_array(const char* option, const std::string& path) {

@@ -94,12 +94,6 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
   return points;
 }
 
-Show shown(const PlotOptions& options) {
-  if (options.show) return *options.show;
-  if (filling(options) == Fill::field) return Show::none;
-  return filling(options) == Fill::none ? Show::delaunay : Show::voronoi;
-}
-
 // Adds the field, its isolines and the scale of its colors.
 void add_values(Figure& figure, const PlotOptions& options, const Triangulation& triangulation,
                 std::span<const Point> directions, std::vector<double> values,

@@ -50,11 +50,21 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
       "pictures); none (default)");
   add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
                    "What is behind the globe: faint, or none (default)");
-  parser
-      .add_option("--values", options.values,
-                  "A column of numbers, shown as colors with a color bar. Of netCDF a variable,\n"
-                  "of one with several times 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15")
-      ->type_name("COL");
+  const CLI::Option* const values =
+      parser
+          .add_option(
+              "--values", options.values,
+              "A column of numbers, shown as colors with a color bar. Of netCDF a variable,\n"
+              "of one with several times 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15")
+          ->type_name("COL");
+  require_effect(
+      options.common, values,
+      [&options] {
+        const bool is_page = options.common.format() == "html";
+        return is_page || options.contours > 0 || filling(options) == Fill::cells ||
+               filling(options) == Fill::field;
+      },
+      "with --fill none and area, unless --contours draws isolines");
   parser
       .add_option("--contours", options.contours,
                   "Draw isolines of --values at the multiples of STEP")
@@ -99,14 +109,27 @@ void add_view_options(CLI::App& parser, PlotOptions& options) {
   parser.add_option("--size", options.style.size, "Width and height in pixels (default: 1000)")
       ->check([](const std::string& text) { return whole_error(text, 16, 20'000); })
       ->type_name("N");
-  parser
-      .add_option("--line-width", options.style.line_width,
-                  "Width of the arcs in pixels (default: thinner where sites are close)")
-      ->check(positive_error)
-      ->type_name("W");
+  const CLI::Option* const line_width =
+      parser
+          .add_option("--line-width", options.style.line_width,
+                      "Width of the arcs in pixels (default: thinner where sites are close)")
+          ->check(positive_error)
+          ->type_name("W");
+  require_effect(
+      options.common, line_width,
+      [&options] {
+        return shown(options) != Show::none || options.contours > 0 || options.show_circles;
+      },
+      "without lines: --show, --contours or --circles draws some");
 }
 
 }  // namespace
+
+Show shown(const PlotOptions& options) {
+  if (options.show) return *options.show;
+  if (filling(options) == Fill::field) return Show::none;
+  return filling(options) == Fill::none ? Show::delaunay : Show::voronoi;
+}
 
 std::vector<double> values_of_figure(const PlotOptions& options, Job& job, const SiteTable& table,
                                      const Triangulation& triangulation) {

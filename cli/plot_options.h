@@ -39,6 +39,9 @@ inline Fill filling(const PlotOptions& options) {
   return options.fill.value_or(options.values.empty() ? Fill::none : Fill::field);
 }
 
+/// Returns which edges are drawn.
+Show shown(const PlotOptions& options);
+
 /// Returns the values of --values as Job::shown_values() does; none without --values.
 std::vector<double> values_of_figure(const PlotOptions& options, Job& job, const SiteTable& table,
                                      const Triangulation& triangulation);

@@ -71,10 +71,12 @@ Input poisson(const Recipe& recipe) {
 }
 
 constexpr std::array all_sets{
-    Kind{"icosahedral", "corners of a divided icosahedron: 10 * 4^k + 2", &icosahedral},
-    Kind{"healpix", "centers of HEALPix's pixels, ring by ring: 12 side^2", &healpix},
-    Kind{"reduced-gaussian", "ECMWF's octahedral grid O(k): 4 k (k + 9)", &reduced_gaussian},
-    Kind{"cubed-sphere", "centers of the equiangular cubed sphere: 6 side^2", &cubed_sphere},
+    Kind{"icosahedral", "corners of a divided icosahedron: 10 * 4^k + 2", &icosahedral, 0, false},
+    Kind{"healpix", "centers of HEALPix's pixels, ring by ring: 12 side^2", &healpix, 0, false},
+    Kind{"reduced-gaussian", "ECMWF's octahedral grid O(k): 4 k (k + 9)", &reduced_gaussian, 0,
+         false},
+    Kind{"cubed-sphere", "centers of the equiangular cubed sphere: 6 side^2", &cubed_sphere, 0,
+         false},
     Kind{"poisson", "no two nearer than --angle (1), no gap: takes no -n", &poisson, 1},
 };
 

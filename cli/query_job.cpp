@@ -50,6 +50,8 @@ void QueryJob::prepare() {
   // Columns of netCDF are at the sites, so that the first one says which of several grids is meant.
   sites_ = job_.read(options_.common.source(), read, options_.columns);
   queries_ = job_.read({options_.queries, options_.query_format}, query_options(options_));
+  const SiteTable* const tables[] = {&sites_, &queries_};
+  require_angles(options_.common.read, tables);
   triangulation_ = job_.triangulate(sites_);
   job_.time(Stage::locator, [this] { locator_.emplace(triangulation_); });
 }

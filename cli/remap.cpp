@@ -72,14 +72,14 @@ CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options,
 }
 
 CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
-  switch (kind_of_cells(file)) {
-    case CellKind::grid:
+  switch (form_of(file)) {
+    case CellForm::grid:
       return side_of_grid(file.path, options, job);
-    case CellKind::file:
+    case CellForm::netcdf:
       return side_of_mesh(file, options, job);
-    case CellKind::polygons:
+    case CellForm::polygons:
       return side_of_polygons(file, options, job);
-    case CellKind::sites:
+    case CellForm::sites:
       break;
   }
   return side_of_sites(file, options, job);
@@ -127,14 +127,14 @@ void report(Job& job, const WeightFile& file, const std::string& output) {
 
 }  // namespace
 
-CellKind kind_of_cells(const FileName& file) {
+CellForm form_of(const FileName& file) {
   CommonOptions named;
   named.output = file.path;
   named.output_format = file.format;
   const std::string format = named.format();
-  if (file.path.starts_with("grid:")) return CellKind::grid;
-  if (can_read_cells(file)) return CellKind::file;
-  return format == "geojson" || format == "json" ? CellKind::polygons : CellKind::sites;
+  if (file.path.starts_with("grid:")) return CellForm::grid;
+  if (can_read_cells(file)) return CellForm::netcdf;
+  return format == "geojson" || format == "json" ? CellForm::polygons : CellForm::sites;
 }
 
 ExitStatus run_remap(const RemapCommandOptions& options) {

@@ -70,9 +70,10 @@ struct RemapCommandOptions {
   NetcdfOptions netcdf;  ///< --kind --deflate
 };
 
-/// What the cells of one side come from: `grid:...`, a file of cells, polygons, or sites.
-enum class CellKind { grid, file, polygons, sites };
-CellKind kind_of_cells(const FileName& file);
+/// The forms of cells that `rondel remap` reads.
+enum class CellForm { grid, netcdf, polygons, sites };
+/// Returns the form of INPUT or TARGET, by its name and, for netCDF, its first bytes.
+CellForm form_of(const FileName& file);
 
 ExitStatus run_apply(const ApplyCommandOptions& options);
 ExitStatus run_check_weights(const CheckWeightsOptions& options);

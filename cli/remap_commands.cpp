@@ -88,8 +88,11 @@ Command add_apply_command(CLI::App& tool) {
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)
       ->type_name("SHARE");
-  add_table_options(*parser, options->common);
-  add_netcdf_options(*parser, options->netcdf);
+  add_table_options(*parser, options->common,
+                    [given = options.get()] { return std::vector<FileName>{given->values_file}; });
+  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
+    return output_of_format(given->common, {"nc", "nc4"});
+  });
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
@@ -145,7 +148,9 @@ Command add_interpolate_command(CLI::App& tool) {
   auto options = std::make_shared<InterpolateOptions>();
   CLI::App* parser =
       tool.add_subcommand("interpolate", "Carry values at sites to other points, or make weights");
-  add_input_options(*parser, options->common);
+  add_input_options(*parser, options->common, default_input_help, [given = options.get()] {
+    return std::vector<FileName>{given->common.source(), given->target};
+  });
   parser
       ->add_option(
           "--to", options->target,
@@ -164,11 +169,27 @@ Command add_interpolate_command(CLI::App& tool) {
       ->add_option("--weights", options->weights,
                    "Where to write the weights: .nc or .nc4 (ESMF), .npz (scipy.sparse)")
       ->type_name("FILE");
-  parser
-      ->add_option("--weight-format", options->weight_format,
-                   "Format of the weights: esmf, scrip (for CDO) or npz")
-      ->type_name("FORMAT");
-  add_netcdf_options(*parser, options->netcdf);
+  const CLI::Option* const weight_format =
+      parser
+          ->add_option("--weight-format", options->weight_format,
+                       "Format of the weights: esmf, scrip (for CDO) or npz")
+          ->type_name("FORMAT");
+  require_effect(
+      options->common, weight_format, [given = options.get()] { return !given->weights.empty(); },
+      "without --weights");
+  require_effect(
+      options->common, parser->get_option("--format"),
+      [given = options.get()] { return !given->common.output.empty(); }, "without --output");
+  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
+    CommonOptions weights;
+    weights.output = given->weights;
+    weights.output_format = given->weight_format;
+    std::vector<FileName> written = output_of_format(given->common, {"nc", "nc4"});
+    for (FileName& file : output_of_format(weights, {"nc", "nc4", "esmf", "scrip"})) {
+      written.push_back(std::move(file));
+    }
+    return written;
+  });
   add_methods(*parser, options->interpolation);
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
@@ -183,24 +204,7 @@ Command add_interpolate_command(CLI::App& tool) {
       "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
       "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
       "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4");
-  return {parser, [options, parser] {
-            require_effect(*parser, !options->weights.empty(), {"--weight-format"},
-                           "without --weights");
-            return run_interpolate(*options);
-          }};
-}
-
-void require_effects(const CLI::App& parser, const RemapCommandOptions& options) {
-  const CellKind kinds[] = {kind_of_cells(options.common.source()),
-                            kind_of_cells({options.target, ""})};
-  const auto has = [&](CellKind kind) { return kinds[0] == kind || kinds[1] == kind; };
-  require_effect(parser, has(CellKind::polygons), {"--edges"}, "without polygons (.geojson)");
-  require_effect(parser, has(CellKind::grid) || has(CellKind::file), {"--sides"}, "without a grid");
-  require_effect(parser, has(CellKind::sites),
-                 {"--radius", "--radians", "--delimiter", "--lon", "--lat", "--x", "--y", "--z",
-                  "--model", "--center", "--squared-radius"},
-                 "without a file of sites");
-  require_effect(parser, options.common.format() != "npz", {"--kind", "--deflate"}, "for .npz");
+  return {parser, [options] { return run_interpolate(*options); }};
 }
 
 Command add_remap_command(CLI::App& tool) {
@@ -210,7 +214,12 @@ Command add_remap_command(CLI::App& tool) {
       *parser, options->common,
       "The cells that have the values: netCDF with those of a model or a grid, grid:DEG or\n"
       "grid:NLONxNLAT, .geojson with polygons, or a file of sites, whose Voronoi cells\n"
-      "they are: .csv .tsv .xyz .txt .npy, or - for standard input");
+      "they are: .csv .tsv .xyz .txt .npy, or - for standard input",
+      [given = options.get()] {
+        std::vector<FileName> sites = {given->common.source(), given->target};
+        std::erase_if(sites, [](const FileName& file) { return form_of(file) != CellForm::sites; });
+        return sites;
+      });
   parser->add_option("TARGET", options->target, "The cells that want them, in the same forms")
       ->required()
       ->type_name("");
@@ -218,7 +227,9 @@ Command add_remap_command(CLI::App& tool) {
       *parser, options->common,
       "Where to write the weights: .nc (ESMF; --format scrip for CDO), .nc4, .npz (SciPy)")
       ->required();
-  add_netcdf_options(*parser, options->netcdf);
+  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
+    return output_of_format(given->common, {"nc", "nc4", "esmf", "scrip"});
+  });
   add_word<unsigned>(
       *parser, "--order", options->remap.order, {{"1", 1U}, {"2", 2U}},
       "1 (default): the field is constant in each source; 2: it has a gradient there");
@@ -233,17 +244,32 @@ Command add_remap_command(CLI::App& tool) {
       "What becomes of a place that several cells of one side have: error (default: two of\n"
       "them are named), first (the cell with the lowest number has it) or share (each has its\n"
       "part)");
-  add_word<GridSides>(
+  const CLI::Option* const sides = add_word<GridSides>(
       *parser, "--sides", options->sides,
       {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},
       "What cells of grids have in the north and south: parallels (default) or\n"
       "great-circles (ESMF's)");
-  add_word<PolygonEdges>(
+  const CLI::Option* const edges = add_word<PolygonEdges>(
       *parser, "--edges", options->edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
+  const auto has_side = [given = options.get()](CellForm form) {
+    return form_of(given->common.source()) == form || form_of(given->target) == form;
+  };
+  require_effect(
+      options->common, sides,
+      [has_side] { return has_side(CellForm::grid) || has_side(CellForm::netcdf); },
+      "without a grid");
+  require_effect(
+      options->common, edges, [has_side] { return has_side(CellForm::polygons); },
+      "without polygons in .geojson");
   add_build_options(*parser, options->common);
+  for (const char* const name : {"--model", "--center"}) {
+    require_effect(
+        options->common, parser->get_option(name), [has_side] { return has_side(CellForm::sites); },
+        "without sites, whose cells are computed");
+  }
   add_report_options(*parser, options->common);
   parser->footer(
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the\n"
@@ -252,10 +278,7 @@ Command add_remap_command(CLI::App& tool) {
       "  rondel remap ocean.nc grid:1 -o weights.nc\n"
       "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"
       "  rondel remap grid:0.25 icon.nc --order 2 -o weights.nc --format scrip");
-  return {parser, [options, parser] {
-            require_effects(*parser, *options);
-            return run_remap(*options);
-          }};
+  return {parser, [options] { return run_remap(*options); }};
 }
 
 }  // namespace rondel::cli

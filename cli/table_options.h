@@ -12,7 +12,7 @@
 namespace rondel::cli {
 
 /// Adds --delimiter, --radius, --lon, --lat, --x, --y, --z and --radians like add_input_options(),
-/// for a table that is not INPUT.
-void add_table_options(CLI::App& command, CommonOptions& options);
+/// for a table that is not INPUT. They are usage errors if all of `tables` are netCDF or grids, --radius if the first one is.
+void add_table_options(CLI::App& command, CommonOptions& options, const TablesRead& tables);
 
 }  // namespace rondel::cli

@@ -125,6 +125,7 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
     if (!variable.empty()) names.push_back(variable);
     NetcdfSites sites = read_netcdf_sites(file, names, false);
     tell(file.path, sites.remarks);
+    tell_of_columns(file.path, read);
     targets.table = std::move(sites.table);
     targets.side.points = targets.table.positions;
     if (sites.shape.size() > 1) targets.side.shape = std::move(sites.shape);

@@ -42,7 +42,8 @@ struct Kind {
   std::string_view name;
   std::string_view what;
   Input (*from_recipe)(const Recipe& recipe);
-  double angle_deg = 0;  ///< used if the recipe has none; 0: the kind has no angle
+  double angle_deg = 0;   ///< used if the recipe has none; 0: the kind has no angle
+  bool is_random = true;  ///< false: the seed changes nothing
 };
 
 /// Returns kinds that are ordinary, or hard for other programs.

@@ -271,10 +271,13 @@ Input circles(const Recipe& recipe) {
 
 constexpr std::array all_plain{
     Kind{"uniform", "random on the sphere", &uniform},
-    Kind{"fibonacci", "the Fibonacci spiral: nearly equal distances, no randomness", &fibonacci},
-    Kind{"lonlat-grid", "parallels (both poles too) times meridians; see --rows", &lonlat_grid},
-    Kind{"grid", "centers of the cells of a grid of parallels and meridians", &grid},
-    Kind{"paper-s", "the set S_N of Caroli et al. 2010: N+1 sites on a spiral, and 4", &paper_s},
+    Kind{"fibonacci", "the Fibonacci spiral: nearly equal distances, no randomness", &fibonacci, 0,
+         false},
+    Kind{"lonlat-grid", "parallels (both poles too) times meridians; see --rows", &lonlat_grid, 0,
+         false},
+    Kind{"grid", "centers of the cells of a grid of parallels and meridians", &grid, 0, false},
+    Kind{"paper-s", "the set S_N of Caroli et al. 2010: N+1 sites on a spiral, and 4", &paper_s, 0,
+         false},
     Kind{"cluster", "random clusters, one per 1000 sites (--angle: 2)", &cluster, 2},
     Kind{"patch", "random in one small cap (--angle: 1e-6 radians)", &patch,
          1e-6 * degrees_per_radian},

@@ -235,26 +235,15 @@ class Options(Told):
     def test_without_effect_are_refused(self):
         (self.folder / "s.csv").write_text("lon,lat\n0,0\n90,0\n180,0\n-90,0\n0,90\n0,-90\n")
         self.write("b.geojson", box(0, 0, 9, 9, {}))
-        (self.folder / "mask.npy").write_bytes(b"")
         cells = ("voronoi", "s.csv", "-o", "o.geojson")
         features = ("voronoi", "b.geojson", "--densify", "9", "-o", "o.geojson")
-        grids = ("remap", "grid:90", "grid:60", "-o", "o.nc")
         input_of_features = "with --densify, whose INPUT has lines and polygons"
         for command, option, where in (
             (cells, ("--edges", "geodesic"), "without --clip or --densify"),
             (cells, ("--overlap", "first"), "without --clip-value or --densify"),
             ((*cells, "--clip", "b.geojson"), ("--overlap", "error"), "without --clip-value or --densify"),
-            (("voronoi", "s.csv", "-o", "o.npz"), ("--tolerance", "1"), "for .npz, which has great circles"),
             (features, ("--radius", "r"), input_of_features),
             (features, ("--model", "projected"), input_of_features),
-            (grids, ("--edges", "lonlat"), "without polygons (.geojson)"),
-            (grids, ("--radius", "r"), "without a file of sites"),
-            (("remap", "s.csv", "b.geojson", "-o", "o.nc"), ("--sides", "parallels"), "without a grid"),
-            (("remap", "grid:90", "grid:60", "-o", "o.npz"), ("--deflate", "3"), "for .npz"),
-            (("mesh", "cull", "s.csv", "--mask", "mask.npy", "-o", "o.nc"), ("--edges", "lonlat"), "without --inside or --outside"),
-            (("mesh", "scvt", "-n", "100", "-o", "o.nc"), ("--edges", "lonlat"), "without --refine, --fixed or --along"),
-            (("mesh", "points", "healpix", "--size", "2", "-o", "o.nc"), ("--seed", "3"), "but for poisson"),
-            (("interpolate", "s.csv", "--to", "s.csv", "--value", "lon", "-o", "o.csv"), ("--weight-format", "esmf"), "without --weights"),
         ):
             with self.subTest(option=option, command=command):
                 self.refuse(2, f"{option[0]} has no effect {where}", *command, *option)
