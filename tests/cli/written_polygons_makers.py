@@ -9,6 +9,18 @@ import subprocess
 import numpy as np
 
 
+# Kinds of sites that take no seed.
+NOT_RANDOM = {
+    "fibonacci",
+    "lonlat-grid",
+    "grid",
+    "paper-s",
+    "icosahedral",
+    "healpix",
+    "reduced-gaussian",
+    "cubed-sphere",
+}
+
 class Tool:
     """Runs the tool in a folder, once for each file."""
 
@@ -44,7 +56,8 @@ class Tool:
         return kinds
 
     def generate(self, name, kind, seed, *arguments):
-        return self.call("generate", kind, "--seed", seed, "-o", name, *arguments)
+        of_seed = () if kind in NOT_RANDOM else ("--seed", seed)
+        return self.call("generate", kind, *of_seed, "-o", name, *arguments)
 
     def write(self, command, out, tolerance, *arguments):
         more = ["--tolerance", tolerance, "--threads", "1"]
