@@ -71,7 +71,7 @@ struct FieldSet {
 ///
 /// | ending | content |
 /// | --- | --- |
-/// | `.csv`, `.tsv` | the columns `names`, at least one; an empty cell and `nan` are missing |
+/// | `.csv`, `.tsv` | the columns `names`, at least one; an empty cell, `nan`, `NA` and `null` are missing |
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
 /// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or a file that begins as netCDF | the variables `names`, or all that are fields at the points |
 ///

@@ -131,12 +131,14 @@ struct SiteTable {
   std::vector<std::uint64_t> lines;
   /// The line of site 0 if `lines` is empty; 0 if the format has no lines.
   std::uint64_t first_line = 1;
+  /// GeoJSON with several features in a line: the number of each site's feature, from 0; else empty.
+  std::vector<std::uint64_t> features = {};
   /// GeoJSON: the number of features that were left out because they have no geometry
   std::uint64_t num_unlocated = 0;
 
   [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }
   /// Returns the place of a site in the file: "stations.csv:17" or, for formats without lines,
-  /// "sites.npy: row 16".
+  /// "sites.npy: row 16"; "stations.geojson:1: feature 16" if several features are in a line.
   [[nodiscard]] RONDEL_API std::string where(std::size_t site) const;
   /// Returns the sites i with keep[i], in their order, with all that the table has for them.
   [[nodiscard]] RONDEL_API SiteTable selection(const std::vector<bool>& keep) const;

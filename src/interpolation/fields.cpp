@@ -25,7 +25,8 @@ namespace {
 
 double value_of(std::string_view cell, const std::string& name) {
   const std::string_view text = io::trim(cell);
-  const bool is_missing = text.empty() || text == "nan" || text == "NaN" || text == "NA";
+  const bool is_missing =
+      text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "null";
   return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
 }
 

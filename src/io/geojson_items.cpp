@@ -58,6 +58,10 @@ void require_degrees(const JsonTree& object) {
                  "file, as by ogr2ogr -t_srs EPSG:4326, or take the member away if it is wrong");
 }
 
+std::string_view name_of_item(const std::string& list) {
+  return list == "features" ? "feature" : "geometry";
+}
+
 }  // namespace
 
 std::string geojson_type(const JsonTree& object) {
@@ -101,6 +105,7 @@ void GeoJsonItems::read(const ItemListener& listener) {
   cursor_.position = bytes_.data();
   JsonTreeBuilder builder({[this](std::size_t depth, const std::string& list) {
                              if (depth == 0 || is_item(depth, list)) item_line_ = cursor_.line;
+                             if (is_item(depth, list)) item_ = name_of_item(list);
                            },
                            [&](std::size_t depth, const std::string& list, const JsonTree& object) {
                              if (depth == 1 && list == "crs") {  // before positions are refused
@@ -117,6 +122,9 @@ void GeoJsonItems::read(const ItemListener& listener) {
   } catch (const JsonError&) {
     item_line_ = 0;
     throw;
+  } catch (const BadValue&) {
+    if (item_.empty()) throw;
+    at_item(item_, num_items_, [] { throw; });
   }
   on_root(builder.root(), listener);
 }
@@ -124,7 +132,8 @@ void GeoJsonItems::read(const ItemListener& listener) {
 void GeoJsonItems::on_item(const std::string& list, const JsonTree& item,
                            const ItemListener& listener) {
   const bool is_feature = list == "features";
-  at_item(is_feature ? "feature" : "geometry", num_items_,
+  item_ = {};
+  at_item(name_of_item(list), num_items_,
           [&] { is_feature ? visit_feature(item, listener) : visit_geometry(item, {}, listener); });
   ++num_items_;
   item_line_ = 0;

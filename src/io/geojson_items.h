@@ -43,6 +43,8 @@ class GeoJsonItems {
   // its members is an item.
   void read(const ItemListener& listener);
   [[nodiscard]] std::uint64_t line() const { return item_line_ != 0 ? item_line_ : cursor_.line; }
+  // Returns the number of the current feature or geometry.
+  [[nodiscard]] std::uint64_t number() const { return num_items_; }
   // Returns how many bytes have been read.
   [[nodiscard]] std::size_t num_bytes_read() const {
     return static_cast<std::size_t>(cursor_.position - bytes_.data());
@@ -67,7 +69,8 @@ class GeoJsonItems {
   std::string_view bytes_;
   TextPosition cursor_{};        // position of the parser
   std::uint64_t item_line_ = 0;  // line of the current feature or geometry, 0 between them
-  std::size_t num_items_ = 0;
+  std::string_view item_;        // "feature" or "geometry" within one
+  std::uint64_t num_items_ = 0;
 };
 
 // Collects properties and ids of features, row by row, into columns; a column has a cell in every row.

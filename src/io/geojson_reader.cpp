@@ -3,7 +3,11 @@
 
 // Reads sites from GeoJSON (RFC 7946): every Point and every member of a MultiPoint, alone, in a
 // geometry collection or in features, whose properties become columns.
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/geojson_items.h"
 #include "io/number.h"
@@ -34,6 +38,12 @@ class GeoJsonReader {
                  },
                  [this](const JsonTree& /*feature*/) { ++table_.num_unlocated; }});
     columns_.finish(collector_.size());
+    const std::vector<std::uint64_t>& lines = table_.lines;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      if (lines[i] != lines[i - 1] || features_[i] == features_[i - 1]) continue;
+      table_.features = std::move(features_);
+      break;
+    }
   }
   [[nodiscard]] std::uint64_t line() const { return items_.line(); }
 
@@ -48,6 +58,7 @@ class GeoJsonReader {
   SiteTable& table_;
   SiteCollector collector_;
   PropertyColumns columns_;
+  std::vector<std::uint64_t> features_;  // of each site
   GeoJsonItems items_;
 };
 
@@ -78,6 +89,7 @@ void GeoJsonReader::add_coordinates(const JsonTree& coordinates, const JsonTree&
     throw BadValue("coordinates " + in_quotes(coordinates.text()) + " are not [lon, lat]");
   }
   if (keep_columns_) columns_.add(feature, collector_.size());
+  features_.push_back(items_.number());
   collector_.add_position(coordinates.items[0].number(), coordinates.items[1].number(), line());
   if (!radius_.empty()) collector_.make_circle(radius_in(feature));
   collector_.report_progress(items_.num_bytes_read(), num_bytes_);

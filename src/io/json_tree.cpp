@@ -65,6 +65,9 @@ bool JsonTreeBuilder::number_float(double value, const std::string& text) {
 }
 
 bool JsonTreeBuilder::key(std::string& name) {
+  if (open_.back().tree.members.contains(name)) {
+    throw BadValue("two members " + in_quotes(name) + " of one object");
+  }
   open_.back().key = name;
   return true;
 }

@@ -53,7 +53,8 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   [[nodiscard]] std::string text() const;
 };
 
-// Builds the tree from the parser's events (nlohmann::json::sax_parse). Throws JsonError.
+// Builds the tree from the parser's events (nlohmann::json::sax_parse). Throws JsonError, and
+// BadValue for an object with two members of one name, of which only one would be seen.
 class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   // Deeper trees are refused, since they are read and destroyed by recursion.

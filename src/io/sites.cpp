@@ -62,7 +62,8 @@ void require_columns(const SiteReader& reader, const ReadOptions& options, const
 
 std::string SiteTable::where(std::size_t site) const {
   const std::uint64_t line = lines.empty() ? first_line + site : lines[site];
-  return name + (first_line != 0 ? ":" : ": row ") + std::to_string(line);
+  const std::string place = name + (first_line != 0 ? ":" : ": row ") + std::to_string(line);
+  return features.empty() ? place : place + ": feature " + std::to_string(features[site]);
 }
 
 SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
@@ -77,6 +78,7 @@ SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
     selected.sites.push_back(sites[i]);
     if (!positions.empty()) selected.positions.push_back(positions[i]);
     if (!radii_deg.empty()) selected.radii_deg.push_back(radii_deg[i]);
+    if (!features.empty()) selected.features.push_back(features[i]);
     selected.lines.push_back(lines.empty() ? first_line + i : lines[i]);
     for (std::size_t c = 0; c < columns.size(); ++c) selected.columns[c].add(columns[c], i);
     if (!ids.ends.empty()) selected.ids.add(ids, i);

@@ -12,6 +12,7 @@
 #include "io/cf_reader.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "io/number.h"
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -31,7 +32,19 @@ struct Spacings {
   std::vector<double> values;
   std::vector<std::size_t> numbers;  // positions in the file
   std::string units;                 // as the file says, or empty
+  SiteTable table;                   // says where places are in the file; without name for netCDF
 };
+
+// Returns where a value is: "sites.csv:7: density 0 of 'h'", and for netCDF "f.nc: density 0 at place 5".
+std::string text_of_value(const FileName& file, const std::string& column, const Spacings& spacings,
+                          std::size_t i, const std::string& what) {
+  const std::string value = what + " " + system::shortest_text(spacings.values[i]);
+  const std::size_t place = spacings.numbers[i];
+  if (spacings.table.name.empty()) {
+    return file.path + ": " + value + " at place " + std::to_string(place);
+  }
+  return spacings.table.where(place) + ": " + value + " of " + io::in_quotes(column);
+}
 
 // Bounds far beyond those of any mesh, within which roots of quotients are finite.
 constexpr double least_density = 1e-100;
@@ -156,6 +169,7 @@ Spacings spacings_of(const FileName& file, const std::string& name, const Execut
   Spacings result;
   result.places = std::move(table.sites);
   result.values = std::move(fields.arrays.front().values);
+  result.table = std::move(table);
   return result;
 }
 
@@ -225,8 +239,8 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
     if (!(value * unit > 0 && value * unit < 3)) {
-      throw FileError(file.path + ": spacing " + system::shortest_text(value) + " at place " +
-                      std::to_string(spacings.numbers[i]) + " is not positive, or too large");
+      throw FileError(text_of_value(file, name, spacings, i, "spacing") +
+                      " is not positive, or too large");
     }
     value *= unit;
   }
@@ -240,8 +254,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   for (std::size_t i = 0; i < densities.values.size(); ++i) {
     const double value = densities.values[i];
     if (value >= least_density && value <= largest_density) continue;
-    throw FileError(file.path + ": density " + system::shortest_text(value) + " at place " +
-                    std::to_string(densities.numbers[i]) +
+    throw FileError(text_of_value(file, name, densities, i, "density") +
                     " is not positive, or of no size that a mesh can have");
   }
   const double least = *std::ranges::min_element(densities.values);

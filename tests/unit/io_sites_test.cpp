@@ -207,6 +207,31 @@ TEST(read_sites, names_the_line_of_every_site) {
   }
 }
 
+TEST(read_sites, names_the_feature_where_a_line_has_several) {
+  const TemporaryDirectory directory;
+  const auto point = [](const std::string& properties) {
+    return R"({"type":"Feature","properties":{)" + properties +
+           R"(},"geometry":{"type":"MultiPoint","coordinates":[[1,2],[3,4]]}})";
+  };
+  const std::string begin = R"({"type":"FeatureCollection","features":[)";
+  const std::string unlocated = R"({"type":"Feature","properties":{},"geometry":null})";
+  const SiteTable table = read_sites(
+      directory.with("a.geojson", begin + unlocated + "," + point("") + "," + point("") + "]}"));
+  ASSERT_EQ(table.sites.size(), 4U);
+  EXPECT_EQ(table.where(1), table.name + ":1: feature 1");
+  EXPECT_EQ(table.where(2), table.name + ":1: feature 2");
+  EXPECT_EQ(table.selection({false, false, false, true}).where(0), table.name + ":1: feature 2");
+  const SiteTable one = read_sites(directory.with("b.geojson", begin + point("") + "]}"));
+  EXPECT_EQ(one.where(1), one.name + ":1");
+  const std::string twice =
+      directory.with("c.geojson", begin + point("") + ",\n" + point(R"("v":1,"v":1)") + "]}");
+  EXPECT_EQ(message_of([&] { read_sites(twice); }),
+            twice + ":2: feature 1: two members \"v\" of one object");
+  const std::string root = directory.with("d.geojson", "{\"type\":1,\n\"type\":2}");
+  EXPECT_NE(message_of([&] { read_sites(root); }).find("two members \"type\" of one object"),
+            std::string::npos);
+}
+
 TEST(read_sites, a_selection_keeps_lines_and_columns) {
   for (const char* name : {"plain.csv", "empty_lines.csv", "xyz.npy", "features.geojson"}) {
     ReadOptions options;

@@ -243,5 +243,26 @@ TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
   EXPECT_NE(message({100, 9000, 5, 200}).find("at place 1"), std::string::npos);
 }
 
+TEST(mesh_spacing_files, names_the_line_and_column_of_a_table) {
+  const std::string path = temporary_path("spacings_of_lines.csv");
+  std::ofstream(path) << "lon,lat,h,d\n0,0,,1\n\n90,30,100,-2\n180,-30,-5,1\n";
+  const auto message = [&](const auto& read) {
+    try {
+      (void)read();
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message([&] {
+              return read_spacings({path, {}}, "h", 1e-3, 16);
+            }).find(path + ":5: spacing -5 of \"h\" is not positive"),
+            std::string::npos);
+  EXPECT_NE(message([&] {
+              return read_density({path, {}}, "d", 16);
+            }).find(path + ":4: density -2 of \"d\" is not positive"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace rondel::mesh

@@ -33,12 +33,35 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
     array = np.asarray(values)
     if array.dtype.kind not in "biufO":
         raise TypeError(f"{name} must be real numbers, not {in_words(array)}")
+    _require_doubles(array, name)
     try:
         return np.require(array, np.float64, ["C", "A"])
     except (TypeError, ValueError) as error:
         if array.dtype.kind != "O":
             raise
         raise TypeError(f"{name} must be real numbers: {error}") from None
+
+
+def _require_doubles(array: npt.NDArray[Any], name: str) -> None:
+    """Refuses integers of 64 bits that no double is equal to."""
+    if array.dtype.kind not in "iu" or array.dtype.itemsize < 8 or array.size == 0:
+        return
+    exact = 2**53
+    if int(array.max()) <= exact and int(array.min()) >= -exact:
+        return
+    for index in np.flatnonzero((array > exact) | (array < -exact)).tolist():
+        value = int(array.flat[index])
+        if int(float(value)) != value:
+            at = int(np.unravel_index(index, array.shape)[-1]) if array.ndim else 0
+            raise InvalidInput(f"{name} have the integer {value}, which is no double", at)
+
+
+def require_finite_or_nan(array: FloatArray, name: str) -> None:
+    """Refuses infinite numbers, by the index of the first one along the last axis."""
+    infinite = np.isinf(array)
+    if infinite.any():
+        index = int(np.unravel_index(int(np.argmax(infinite)), array.shape)[-1])
+        raise InvalidInput(f"{name} have an infinite number at index {index}", index)
 
 
 def require_unmasked(values: Any, name: str) -> None:
@@ -171,6 +194,14 @@ def as_threads(threads: int | None) -> int:
     return min(threads, 1024)
 
 
+def as_radius(radius: float) -> float:
+    """The radius of the sphere."""
+    radius = float(radius)
+    if not radius > 0:
+        raise InvalidInput(f"radius must be positive, not {radius}")
+    return radius
+
+
 def as_center(center: ArrayLike | None) -> tuple[float, float, float]:
     """The center of the sphere as three floats."""
     if center is None:
@@ -247,7 +278,12 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     Returns
     -------
     ndarray of float64, shape (..., 2)
-        Longitudes from -180 to 180 and latitudes from -90 to 90, in degrees.
+        Longitudes from -180 to 180 and latitudes from -90 to 90, in degrees; NaN for NaN.
+
+    Raises
+    ------
+    InvalidInput
+        If a point is infinite or the center, which has no direction (its index).
 
     Examples
     --------
@@ -256,6 +292,20 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     [90.0, 0.0]
 
     """
+    xyz = as_floats(points, "points")
+    relative = xyz - np.asarray(as_center(center))
+    for bad, what in (
+        (np.isinf(xyz).any(axis=-1), "infinite"),
+        ((relative == 0).all(axis=-1), "the center of the sphere"),
+    ):
+        if bad.any():
+            index = int(np.argmax(bad))
+            raise InvalidInput(f"point {index} is {what}", index)
+    return degrees_of(xyz, center)
+
+
+def degrees_of(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
+    """What `lonlat` returns, also of points without a direction, which are at (0, 0)."""
     xyz = as_floats(points, "points")
     origin = as_center(center)
     if any(origin):

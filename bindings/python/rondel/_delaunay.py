@@ -16,10 +16,11 @@ from ._arrays import (
     as_kept,
     as_lonlat,
     as_queries,
+    as_radius,
     as_threads,
+    degrees_of,
     frozen,
     is_weighted,
-    lonlat,
 )
 from ._diagram import Diagram
 from ._graphs import Graphs
@@ -146,7 +147,7 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
         copy: bool = True,
     ) -> None:
         points = as_kept(points, copy=copy)
-        radius = float(radius)
+        radius = as_radius(radius)
         built = _core.delaunay(
             points,
             is_weighted(model),
@@ -219,7 +220,7 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
         """
         if self._degrees is not None:
             return self._degrees
-        return frozen(lonlat(self.points, self._triangulation.center))
+        return frozen(degrees_of(self.points, self._triangulation.center))
 
     @cached_property
     def circumcenters(self) -> FloatArray:

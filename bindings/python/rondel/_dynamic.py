@@ -17,6 +17,7 @@ from ._arrays import (
     as_indices,
     as_points,
     as_queries,
+    as_radius,
     as_threads,
     is_weighted,
     unit_vectors,
@@ -99,7 +100,7 @@ class DynamicTriangulation(Described, Queries):
         threads: int | None = None,
     ) -> None:
         self._model: Model = model
-        self._radius = float(radius)
+        self._radius = as_radius(radius)
         if points is None:
             self._state = _core.DynamicTriangulation(
                 is_weighted(model), as_center(center), self._radius * self._radius

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 import numpy as np
 
 from . import _core
-from ._arrays import lonlat
+from ._arrays import degrees_of
 from ._properties import checked_properties, json_cells, with_gaps
 from ._types import Divided, FloatArray, IntArray, Triangulated
 
@@ -95,8 +95,8 @@ def cells_to_geojson(
         Where to write the text; otherwise it is returned, parsed.
     properties : mapping of str to sequence, optional
         More properties: for each a value for every site. Numbers, booleans, texts and what else
-        JSON has stay what they are; None, nan, infinities and what is masked become null, dates
-        ISO 8601 texts. No property is called `site` or `area`.
+        JSON has stay what they are; None, nan, what is masked and, with a warning, infinities are
+        null, dates ISO 8601 texts. No property is called `site` or `area`.
     tolerance_deg : float, optional
         How far the straight lines of a polygon may be from its arcs, in degrees.
 
@@ -280,7 +280,7 @@ def cells_to_xarray(self: Divided, *, properties: Properties | None = None) -> x
     sites = np.flatnonzero(sizes)
     faces = np.full((len(sites), sizes.max(initial=3)), -1, np.int32)
     faces[np.arange(faces.shape[1]) < sizes[sites, None]] = rings
-    mesh = _ugrid("Voronoi diagram", lonlat(points, self.center), faces)
+    mesh = _ugrid("Voronoi diagram", degrees_of(points, self.center), faces)
     taken = tuple(map(str, mesh.variables))
     given = checked_properties(
         properties, (*taken, "site", "face_lon", "face_lat", "face_area"), len(self.points)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._arrays import unmasked
+from ._arrays import require_finite_or_nan, unmasked
 from ._geo import Path
 from ._properties import checked_properties, json_cells
 from ._types import ArrayLike, Divided, Triangulated
@@ -77,7 +77,7 @@ def save_html(
     OSError
         If the file cannot be written; then nothing is left of it.
     ValueError
-        If the number of values is not n.
+        If the number of values is not n, a value is infinite, or `view` is no place.
 
     Examples
     --------
@@ -156,6 +156,8 @@ def _page(
     numbers = None if values is None else np.ascontiguousarray(unmasked(values), np.float64)
     if numbers is not None and numbers.shape != (len(self.points),):
         raise ValueError(f"values have shape {numbers.shape}, not ({len(self.points)},)")
+    if numbers is not None:
+        require_finite_or_nan(numbers, "values")
     if show is None:
         show = "voronoi" if is_diagram or numbers is not None else "delaunay"
     if show not in ("delaunay", "voronoi", "both"):
@@ -163,6 +165,8 @@ def _page(
     given = checked_properties(properties, (), len(self.points))
     columns = [(key, [_text(cell) for cell in json_cells(cells)]) for key, cells in given.items()]
     place = None if view is None else (float(view[0]), float(view[1]))
+    if place is not None and not (np.isfinite(place[0]) and abs(place[1]) <= 90):
+        raise ValueError(f"view must be a longitude and a latitude in degrees, not {view}")
     return _core.globe_page(
         triangulation,
         self.points,

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._arrays import HINT_OF_DEGREES, as_fields, as_floats, as_threads
+from ._arrays import HINT_OF_DEGREES, as_fields, as_floats, as_threads, require_finite_or_nan
 from ._types import ArrayLike, FloatArray, Progress
 from ._weights import Weights
 
@@ -29,6 +29,9 @@ def _position(name: str, value: Any, known: tuple[str, ...]) -> int:
     return known.index(value)
 
 
+USUAL_RINGS = 2
+
+
 def choices_of(
     method: Method,
     outside: Outside,
@@ -36,6 +39,8 @@ def choices_of(
     normalization: Normalization,
     rings: int,
 ) -> tuple[int, int, int, int, int]:
+    if _as_rings(rings) != USUAL_RINGS and method not in ("hermite", "cubic"):
+        raise ValueError(f"rings are of the methods 'hermite' and 'cubic', not of {method!r}")
     return (
         _position("method", method, METHODS),
         _position("outside", outside, _OUTSIDE),
@@ -204,9 +209,9 @@ class Interpolation:
         Raises
         ------
         InvalidInput
-            As in `weights`.
+            As in `weights`, and if a value is infinite, with its index along the last axis.
         ValueError
-            If the last axis of the values is not n.
+            If the last axis of the values is not n, or options do not fit the method.
 
         Examples
         --------
@@ -217,6 +222,7 @@ class Interpolation:
 
         """
         fields = as_fields(values, self.npoints)
+        require_finite_or_nan(fields, "values")
         rays, shape = as_targets(targets)
         choices = choices_of(method, outside, duplicates, normalization, rings)
         leading = fields.shape[:-1]
@@ -283,6 +289,7 @@ class Interpolation:
 
         """
         fields = as_fields(values, self.npoints)
+        require_finite_or_nan(fields, "values")
         weights = Weights._of(
             self._interpolator().gradient(
                 self.npoints,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_points, as_threads, lonlat, require_unmasked
+from ._arrays import as_floats, as_points, as_threads, degrees_of, require_unmasked
 from ._geometries import Edges, features_of, is_file
 from ._lonlat import arcs
 from ._plot import draw_coast_lines, line_options, make_map
@@ -175,7 +175,7 @@ def plot_mesh(
     ends = (self.vertex_points / self.radius)[self.vertices_on_edge]
     drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     if sites:
-        drawn.draw_points(lonlat(self.points))
+        drawn.draw_points(degrees_of(self.points))
     return drawn.ax
 
 

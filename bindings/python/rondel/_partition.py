@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
+from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of
 from ._errors import InvalidInput, warn_caller
 from ._partition_files import FileCells, Sides, are_arcs
 from ._repr import Described, count
@@ -342,7 +342,7 @@ class Partition(FileCells, Described):
         if self._file_centers is not None:
             return self._file_centers
         if self._axes is None:
-            return lonlat(self.centers)
+            return degrees_of(self.centers)
         lon, lat = np.meshgrid(*self._axes)
         return np.stack([lon, lat], axis=-1).reshape(-1, 2)
 

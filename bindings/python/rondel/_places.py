@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._arrays import as_mask, in_words, lonlat, point_set_hash, unit_vectors, unmasked
+from ._arrays import as_mask, degrees_of, in_words, point_set_hash, unit_vectors, unmasked
 from ._coordinates import MARKS, Coordinates, is_away, pairs_of_values, unpacked
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
@@ -330,7 +330,7 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 def _centers(partition: Partition) -> xarray.Dataset:
     """The cells' centers of mass; dimensions as the partition has them."""
     dims = ("y", "x") if len(partition.shape) == 2 else ("cell",)
-    degrees = lonlat(partition.centers).reshape(*partition.shape, 2)
+    degrees = degrees_of(partition.centers).reshape(*partition.shape, 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import datetime
 import json
 import math
+import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -24,8 +25,20 @@ def checked_properties(
             raise ValueError(f"the name {name!r} is taken: call the property something else")
         if len(values) != count:
             raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
+        if num_infinite := _num_infinite(values):
+            warnings.warn(
+                f"the property {name!r} has infinite numbers ({num_infinite}), which become null",
+                stacklevel=4,
+            )
         checked[name] = values
     return checked
+
+
+def _num_infinite(values: Any) -> int:
+    if getattr(values, "dtype", None) is not None and values.dtype.kind == "f":
+        return int(np.isinf(np.ma.asarray(values).compressed()).sum())
+    numbers = (value for value in values if isinstance(value, (float, np.floating)))
+    return sum(map(math.isinf, numbers))
 
 
 def json_cells(values: Any) -> list[str]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 from enum import IntEnum
 from typing import Any, NoReturn, overload
@@ -103,6 +104,7 @@ class Queries:
 
         """
         queries, shape = as_queries(xi)
+        k = operator.index(k)
         if k < 0:
             raise ValueError(f"k must not be negative, but is {k}")
         found = self._locator().k_nearest(queries, k, as_threads(threads))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 import numpy as np
 
 from . import _core
-from ._arrays import lonlat, point_set_hash
+from ._arrays import degrees_of, point_set_hash
 from ._errors import warn_caller
 from ._geo import Path
 from ._types import BoolArray, FloatArray, IntArray
@@ -103,7 +103,7 @@ def _require_places(
         apart = located & ~_are_near(own, side.centers)
         if apart.any() and cells is not None:
             # Files of former versions have the centers of mass.
-            masses = lonlat(cells.centers)
+            masses = degrees_of(cells.centers)
             apart = apart if (located & ~_are_near(masses, side.centers)).any() else used & False
         if apart.any():
             first = int(np.flatnonzero(apart)[0])

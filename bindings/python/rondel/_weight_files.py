@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, lonlat
+from ._arrays import as_floats, degrees_of
 from ._errors import InvalidInput
 from ._geo import Path
 from ._types import ArrayLike, FloatArray, IntArray
@@ -134,7 +134,7 @@ def write_weights(
 def _degrees(points: ArrayLike | None) -> FloatArray:
     if points is None:
         return np.zeros((0, 2))
-    return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))
+    return np.ascontiguousarray(degrees_of(as_floats(points, "points").reshape(-1, 3)))
 
 
 def _areas(values: ArrayLike | None, name: str) -> FloatArray:

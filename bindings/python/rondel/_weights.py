@@ -164,7 +164,8 @@ class Weights(Described):
         Parameters
         ----------
         values : array_like, shape (..., n)
-            A value for each site; further axes, such as time, come first.
+            A value for each site; further axes, such as time, come first. An infinite value makes
+            targets infinite, or NaN.
         skipna : bool, optional
             What to do with missing values (NaN, or masked). False (default): a target that needs a
             missing value has none. True: missing values are left out, and the remaining weights
@@ -186,7 +187,8 @@ class Weights(Described):
         Raises
         ------
         ValueError
-            If the last axis of the values is not n, or `most_missing` is out of range.
+            If the last axis of the values is not n, or `most_missing` is out of range or given
+            without `skipna`.
 
         Raises
         ------
@@ -199,6 +201,8 @@ class Weights(Described):
         leading = fields.shape[:-1]
         if not 0 <= most_missing <= 1:
             raise ValueError(f"most_missing must be from 0 to 1, not {most_missing}")
+        if most_missing < 1 and not skipna:
+            raise ValueError("most_missing has no effect without skipna=True")
         found = self._weights.apply(
             fields.reshape(int(np.prod(leading)), columns),
             float(fill),

@@ -7,6 +7,7 @@ import os
 import pickle
 import subprocess
 import sys
+import warnings
 import weakref
 
 import clouds
@@ -404,3 +405,80 @@ def test_completion_shows_what_is_for_users():
         assert set(module.__all__) <= set(names)
         assert not {"np", "Any", "TYPE_CHECKING", "annotations", "as_floats", "Path"} & set(names)
         assert all(hasattr(module, name) for name in names)
+
+
+def test_integers_that_no_double_equals_are_refused():
+    lon, lat = [0, 90, 180, 0], [0, 0, 0, 90]
+    tri = rondel.delaunay_lonlat(lon, lat)
+    there = rondel.unit_vectors(lon, lat)
+    exact = np.array([0, 2**53, -(2**60), 2**53 + 2])
+    assert np.array_equal(tri.interpolate(exact, there, "nearest"), exact)
+    for values in (
+        np.array([0, 1, 2, 2**53 + 1]),
+        np.array([0, 1, 2, 2**64 - 1], np.uint64),
+        [0, 1, 2, -(2**53) - 1],
+    ):
+        with pytest.raises(rondel.InvalidInput, match="no double") as caught:
+            tri.interpolate(values, there, "nearest")
+        assert caught.value.index == 3
+
+
+def test_lonlat_refuses_points_without_direction():
+    assert np.isnan(rondel.lonlat([np.nan, 0, 1])).any()
+    with pytest.raises(rondel.InvalidInput, match="point 1 is the center") as caught:
+        rondel.lonlat([[1, 0, 0], [0, 0, 0]])
+    assert caught.value.index == 1
+    with pytest.raises(rondel.InvalidInput, match="the center"):
+        rondel.lonlat([1, 2, 3], center=[1, 2, 3])
+    with pytest.raises(rondel.InvalidInput, match="point 0 is infinite"):
+        rondel.lonlat([np.inf, 0, 0])
+
+
+@pytest.mark.parametrize("radius", [-1, 0, np.nan])
+def test_a_radius_is_positive(radius):
+    points = np.eye(3)
+    for make in (rondel.delaunay, rondel.DynamicDelaunay):
+        with pytest.raises(rondel.InvalidInput, match="radius must be positive"):
+            make(points, radius=radius)
+
+
+def test_infinite_numbers_are_refused_or_told(tmp_path):
+    lon, lat = [0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90]
+    tri = rondel.delaunay_lonlat(lon, lat)
+    values = [1, 2, np.inf, np.nan, 5, 6]
+    for call in (
+        lambda: tri.interpolate(values, [[1, 1, 1]], "linear"),
+        lambda: tri.gradient(values),
+        lambda: rondel.interpolate(lon, lat, [values, values], 10, 10, "nearest"),
+        lambda: tri.save_html(tmp_path / "page.html", values),
+        lambda: tri.isolines(values, [0]),
+    ):
+        with pytest.raises(rondel.InvalidInput, match="2") as caught:
+            call()
+        assert caught.value.index == 2
+    assert not list(tmp_path.iterdir())
+    for given in (values, np.array(values), np.ma.masked_invalid([1, 2, 3, np.nan, 5, 6])):
+        is_told = not np.ma.isMaskedArray(given)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            cells = tri.voronoi().to_geojson(properties={"v": given})
+        assert len(caught) == is_told
+        assert cells["features"][3]["properties"]["v"] is None
+
+
+def test_options_without_effect_are_refused(tmp_path):
+    tri = rondel.delaunay_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+    with pytest.raises(ValueError, match="rings are of the methods"):
+        tri.interpolate(np.arange(6), [[1, 1, 1]], "linear", rings=7)
+    with pytest.raises(ValueError, match="rings are of the methods"):
+        tri.weights([[1, 1, 1]], rings=3)
+    assert tri.interpolate(np.arange(6), [[1, 1, 1]], "hermite", rings=3).shape == (1,)
+    weights = tri.weights([[1, 1, 1]], "linear")
+    with pytest.raises(ValueError, match="most_missing has no effect without skipna"):
+        weights.apply(np.arange(6), most_missing=0.5)
+    with pytest.raises(ValueError, match="view must be"):
+        tri.save_html(tmp_path / "page.html", view=(0, 99))
+    with pytest.raises(TypeError, match=r"'float' object cannot be interpreted as an integer"):
+        tri.k_nearest([1, 0, 0], 2.5)
+    with pytest.raises(rondel.InvalidInput, match="level 1, 1, is not above the one before it, 3"):
+        tri.isolines(np.arange(6), [3, 1])
