@@ -110,7 +110,7 @@ def cells_to_geojson(
         If the file cannot be written; then nothing is left of it.
 
     """
-    values = checked_properties(properties, ("site", "area"), len(self.points))
+    values = checked_properties(properties, ("site", "area"), len(self.points), as_json=True)
     columns = [(name, json_cells(column)) for name, column in values.items()]
 
     def write(name: str) -> None:

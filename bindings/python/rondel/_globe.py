@@ -162,7 +162,7 @@ def _page(
         show = "voronoi" if is_diagram or numbers is not None else "delaunay"
     if show not in ("delaunay", "voronoi", "both"):
         raise ValueError(f"show must be 'delaunay', 'voronoi' or 'both', not {show!r}")
-    given = checked_properties(properties, (), len(self.points))
+    given = checked_properties(properties, (), len(self.points), as_json=True)
     columns = [(key, [_text(cell) for cell in json_cells(cells)]) for key, cells in given.items()]
     place = None if view is None else (float(view[0]), float(view[1]))
     if place is not None and not (np.isfinite(place[0]) and abs(place[1]) <= 90):

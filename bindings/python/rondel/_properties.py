@@ -15,9 +15,16 @@ import numpy as np
 
 
 def checked_properties(
-    properties: Mapping[str, Any] | None, taken: tuple[str, ...], count: int
+    properties: Mapping[str, Any] | None,
+    taken: tuple[str, ...],
+    count: int,
+    *,
+    as_json: bool = False,
 ) -> dict[str, Any]:
-    """The properties, if each has a name of its own and a value for every site."""
+    """The properties, if each has a name of its own and a value for every site.
+
+    If they become JSON, infinite numbers are told.
+    """
     checked: dict[str, Any] = {}
     for key, values in (properties or {}).items():
         name = str(key)
@@ -25,10 +32,10 @@ def checked_properties(
             raise ValueError(f"the name {name!r} is taken: call the property something else")
         if len(values) != count:
             raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
-        if num_infinite := _num_infinite(values):
+        if as_json and (num_infinite := _num_infinite(values)):
             warnings.warn(
                 f"the property {name!r} has infinite numbers ({num_infinite}), which become null",
-                stacklevel=4,
+                stacklevel=3,
             )
         checked[name] = values
     return checked

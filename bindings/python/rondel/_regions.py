@@ -216,7 +216,7 @@ class Regions(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        values = checked_properties(properties, (*self._own, *AREA_NAMES), len(self))
+        values = checked_properties(properties, (*self._own, *AREA_NAMES), len(self), as_json=True)
         named = {**self._own, **values}
         if radius_km is not None:
             named["area_km2"] = self.areas_km2(radius_km)

@@ -437,7 +437,7 @@ def test_lonlat_refuses_points_without_direction():
 @pytest.mark.parametrize("radius", [-1, 0, np.nan])
 def test_a_radius_is_positive(radius):
     points = np.eye(3)
-    for make in (rondel.delaunay, rondel.DynamicDelaunay):
+    for make in (rondel.delaunay, rondel.DynamicTriangulation):
         with pytest.raises(rondel.InvalidInput, match="radius must be positive"):
             make(points, radius=radius)
 
