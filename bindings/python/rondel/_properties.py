@@ -7,11 +7,12 @@ from __future__ import annotations
 import datetime
 import json
 import math
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+
+from ._errors import warn_caller
 
 
 def checked_properties(
@@ -33,9 +34,8 @@ def checked_properties(
         if len(values) != count:
             raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
         if as_json and (num_infinite := _num_infinite(values)):
-            warnings.warn(
-                f"the property {name!r} has infinite numbers ({num_infinite}), which become null",
-                stacklevel=3,
+            warn_caller(
+                f"the property {name!r} has infinite numbers ({num_infinite}), which become null"
             )
         checked[name] = values
     return checked
