@@ -95,7 +95,7 @@ std::string file_like_an_option(int argc, const char* const* argv) {
 }
 
 // Names an option whose value is empty, "--value=", for which the parser would take the next argument.
-void require_values(std::span<const char* const> arguments) {
+void require_option_values(std::span<const char* const> arguments) {
   for (const std::string_view argument : arguments) {
     if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
       throw UsageError(std::string(argument.substr(0, argument.size() - 1)) +
@@ -129,7 +129,7 @@ int run(int argc, const char* const* argv) {
   configure(tool);
   const std::vector<Command> commands = add_commands(tool);
   require_known_command(commands, argc, argv);
-  require_values({argv, static_cast<std::size_t>(argc)});
+  require_option_values({argv, static_cast<std::size_t>(argc)});
   try {
     tool.parse(argc, argv);
   } catch (const CLI::CallForVersion& text) {

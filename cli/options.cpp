@@ -42,12 +42,12 @@ CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
 }
 
 // Returns true if the command line says how to read this file: it is no netCDF and no grid.
-bool is_table(const FileName& file) {
+bool may_be_table(const FileName& file) {
   return !file.path.empty() && !file.path.starts_with("grid:") &&
          !is_netcdf_file(netcdf_part(file).first);
 }
 
-bool has_table(const TablesRead& tables) { return std::ranges::any_of(tables(), is_table); }
+bool has_table(const TablesRead& tables) { return std::ranges::any_of(tables(), may_be_table); }
 
 void add_columns(CLI::App& command, ReadOptions& read) {
   CLI::Option* lon =
@@ -148,7 +148,7 @@ void add_table_options(CLI::App& command, CommonOptions& options, const TablesRe
       options, command.get_option("--radius"),
       [tables] {
         const std::vector<FileName> files = tables();
-        return !files.empty() && is_table(files.front());
+        return !files.empty() && may_be_table(files.front());
       },
       "on netCDF and grids; circles are read from tables");
 }
