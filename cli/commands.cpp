@@ -375,7 +375,7 @@ Command add_nearest_command(CLI::App& tool) {
   parser
       ->add_option("--column", options->columns,
                    "Add this column of INPUT to the answers; may be repeated. A column 'site' is\n"
-                   "called 'site_2' there, and so on, since the answers have one of that name")
+                   "called 'site_' there, as the answers have one of that name")
       ->allow_extra_args(false)
       ->type_name("COL");
   parser->footer(

@@ -131,13 +131,7 @@ Command add_scvt_command(CLI::App& group) {
       "  rondel mesh scvt -n 40962 --along land.geojson -o coast.nc\n"
       "  rondel mesh scvt --spacing 240 --fixed sections.geojson -o sections.nc\n"
       "  rondel mesh scvt --spacing spacing.nc:h -o mesh.nc --format ugrid");
-  return {parser, [options, parser] {
-            require_effect(
-                *parser,
-                !options->refine.empty() || !options->fixed.empty() || !options->along.empty(),
-                {"--edges"}, "without --refine, --fixed or --along");
-            return run_scvt(*options);
-          }};
+  return {parser, [options] { return run_scvt(*options); }};
 }
 
 Command add_icosahedral_command(CLI::App& group) {

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "column_values.h"
 #include "query_job.h"
@@ -32,16 +31,6 @@ Column numeric_column(const std::string& name, const std::vector<double>& values
   return column;
 }
 
-// Gives columns whose name is taken by those of the answers, or by one before, a number: site_2.
-void take_free_names(std::vector<Column>& columns) {
-  std::set<std::string> taken = {"query", "site", "distance_deg"};
-  for (Column& column : columns) {
-    const std::string name = column.name;
-    for (int k = 2; !taken.insert(column.name).second; ++k)
-      column.name = name + '_' + std::to_string(k);
-  }
-}
-
 // The columns that are named. In netCDF one may be one of the several fields of a variable.
 std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& table) {
   std::vector<Column> found;
@@ -55,7 +44,6 @@ std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& t
       throw UsageError("--column: " + table.name + " has no column '" + name + "'");
     }
   }
-  take_free_names(found);
   return found;
 }
 

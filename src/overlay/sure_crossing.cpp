@@ -24,9 +24,13 @@ bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const 
   return is_near(a, b, p) || is_near(a, b, q) || is_near(p, q, a) || is_near(p, q, b);
 }
 
-// True if the great circle of ab has p and q strictly on different sides.
-bool are_on_both_sides(const Point& a, const Point& b, const Point& p, const Point& q) {
-  return orientation(a, b, p) * orientation(a, b, q) == Sign::negative;
+// True if the arcs ab and pq cross in the inside of both; exact. Where each great circle separates
+// the ends of the other arc, an arc crosses the other one or the antipodes of the other one; it
+// crosses the other one if p is on one side of ab and a on the other side of pq.
+bool do_cross(const Point& a, const Point& b, const Point& p, const Point& q) {
+  const Sign first = orientation(a, b, p);
+  return first != Sign::zero && orientation(a, b, q) == -first && orientation(p, q, a) == -first &&
+         orientation(p, q, b) == first;
 }
 
 // A side with the least x that its arc may have.
@@ -51,10 +55,7 @@ bool has_sure_crossing(std::span<const BorderArc> arcs) {
     for (std::size_t k = i + 1; k < sides.size() && sides[k].low <= high; ++k) {
       const Point& p = sides[k].a;
       const Point& q = sides[k].b;
-      if (are_on_both_sides(a, b, p, q) && are_on_both_sides(p, q, a, b) && dot(a + b, p + q) > 0 &&
-          !is_touch_by_rounding(a, b, p, q)) {
-        return true;
-      }
+      if (do_cross(a, b, p, q) && !is_touch_by_rounding(a, b, p, q)) return true;
     }
   }
   return false;

@@ -185,10 +185,12 @@ class OutOfCore(unittest.TestCase):
                 shutil.rmtree(scratch)
         for results, name in ((["-o", "scratch/faces"], "faces"),
                               (["-o", "faces.npy", "--areas", "scratch/../scratch/areas"], "../scratch/areas")):
+            scratch.mkdir()
             done = self.run_tool("delaunay", "sites.npy", *results, "--format", "npy", "--scratch", "scratch")
             self.assertEqual((done.returncode, done.stderr),
                              (1, f"rondel: scratch/{name}: a file of the scratch directory, too\n"))
-            self.assertFalse(scratch.exists())
+            self.assertEqual(list(scratch.iterdir()), [])
+            scratch.rmdir()
 
     def test_two_runs_at_once(self):
         """One of them comes to its end, or both do so one after the other."""

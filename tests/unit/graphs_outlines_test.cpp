@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/vector.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/outlines.h"
@@ -125,10 +126,13 @@ TEST(alpha_shape, is_the_border_of_the_faces_with_small_circles) {
       const auto is_in = [&](Index f) {
         if (t.is_ghost(f)) return false;
         const Triple& c = t.faces()[f];
-        // Of one of the larger circles?
+        const Point& first = t.sites()[c[0]];
+        const Point outward = cross(t.sites()[c[1]] - first, t.sites()[c[2]] - first);
+        // Of one of the larger circles? Of the two around both sides of a flat hull the one on its side counts.
         return std::none_of(circles.begin(), circles.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                             [&](const EmptyCircle& circle) {
                               const auto& s = circle.sites;
+                              if (dot(outward, circle.center) < 0) return false;
                               return std::ranges::all_of(c, [&](Index p) {
                                 return side_of_circle(t.sites()[s[0]], t.sites()[s[1]],
                                                       t.sites()[s[2]], t.sites()[p],

@@ -146,7 +146,7 @@ class _Conversion:
             return self._polygon(shape)
         if shape.geom_type == "Point":
             lon, lat = self._transform(shape.x, shape.y)
-            return shapely.Point(_rounded(np.float64(lon)), lat)
+            return shapely.Point(float(_rounded(np.asarray(lon))), lat)
         return shapely.LineString(self._line(shape.coords))
 
     def _polygon(self, shape: Any) -> Any:
