@@ -158,6 +158,22 @@ void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
       "error (default: two of them are named) or first (it is of the first one)");
 }
 
+void add_tolerance(CLI::App& parser, VoronoiOptions& options) {
+  const CLI::Option* const tolerance =
+      parser
+          .add_option("--tolerance", options.tolerance_deg,
+                      "GeoJSON: how far a line may be from its great circle (default: 0.01)")
+          ->check(positive_error)
+          ->type_name("DEG");
+  require_effect(
+      options.common, tolerance,
+      [&options] {
+        const std::string format = options.common.format();
+        return format != "vtp" && format != "npz";
+      },
+      "on .vtp and .npz, which have no polygons of straight lines");
+}
+
 // Tells of options for polygons without them, and of those for sites with lines and polygons.
 void require_effects(const CLI::App& parser, VoronoiOptions& options) {
   const auto has_features = [&options] { return options.densify_km > 0; };
@@ -186,19 +202,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
       "input's columns), .vtp .npz; with GDAL installed .gpkg .fgb .parquet")
       ->required();
-  const CLI::Option* const tolerance =
-      parser
-          ->add_option("--tolerance", options->tolerance_deg,
-                       "GeoJSON: how far a line may be from its great circle (default: 0.01)")
-          ->check(positive_error)
-          ->type_name("DEG");
-  require_effect(
-      options->common, tolerance,
-      [given = options.get()] {
-        const std::string format = given->common.format();
-        return format != "vtp" && format != "npz";
-      },
-      "on .vtp and .npz, which have no polygons of straight lines");
+  add_tolerance(*parser, *options);
   parser
       ->add_option(
           "--clip", options->clip,

@@ -66,6 +66,20 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
       "without --refine, --fixed or --along");
 }
 
+void add_gradient(CLI::App& parser, ScvtCommandOptions& options) {
+  const CLI::Option* const gradient =
+      parser
+          .add_option("--gradient", options.slope,
+                      "How much the spacing grows over its own distance, at most\n"
+                      "(default: 0.05 of --refine; files as they are)")
+          ->check(positive_error)
+          ->type_name("G");
+  require_effect(
+      options.output.common, gradient,
+      [&options] { return !options.refine.empty() || is_file_of_spacings(options.spacing); },
+      "without --refine or a file of --spacing");
+}
+
 Command add_scvt_command(CLI::App& group) {
   auto options = std::make_shared<ScvtCommandOptions>();
   CLI::App* parser = group.add_subcommand("scvt", "Make a centroidal Voronoi mesh");
@@ -87,19 +101,7 @@ Command add_scvt_command(CLI::App& group) {
       ->allow_extra_args(false)
       ->needs(spacing)
       ->type_name("FILE:KM");
-  const CLI::Option* const gradient =
-      parser
-          ->add_option("--gradient", options->slope,
-                       "How much the spacing grows over its own distance, at most\n"
-                       "(default: 0.05 of --refine; files as they are)")
-          ->check(positive_error)
-          ->type_name("G");
-  require_effect(
-      options->output.common, gradient,
-      [given = options.get()] {
-        return !given->refine.empty() || is_file_of_spacings(given->spacing);
-      },
-      "without --refine or a file of --spacing");
+  add_gradient(*parser, *options);
   parser
       ->add_option("--density", options->density,
                    "Spacing as the power -1/4 of this density of a tessellation, FILE.nc:NAME or\n"

@@ -67,8 +67,9 @@ std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
   const char separator = job.separator();
   std::vector<std::string> names = {"query", "site", "distance_deg"};
   for (const Column& column : columns) names.push_back(column.name);
+  const std::vector<std::string> free = free_names(std::move(names));
   std::string text;
-  for (const std::string& name : free_names(std::move(names))) {
+  for (const std::string& name : free) {
     if (!text.empty()) text += separator;
     append_field(text, name, separator);
   }

@@ -144,6 +144,21 @@ Command add_check_weights_command(CLI::App& tool) {
   return {parser, [options] { return run_check_weights(*options); }};
 }
 
+void add_weight_options(CLI::App& parser, InterpolateOptions& options) {
+  parser
+      .add_option("--weights", options.weights,
+                  "Where to write the weights: .nc or .nc4 (ESMF), .npz (scipy.sparse)")
+      ->type_name("FILE");
+  const CLI::Option* const weight_format =
+      parser
+          .add_option("--weight-format", options.weight_format,
+                      "Format of the weights: esmf, scrip (for CDO) or npz")
+          ->type_name("FORMAT");
+  require_effect(
+      options.common, weight_format, [&options] { return !options.weights.empty(); },
+      "without --weights");
+}
+
 Command add_interpolate_command(CLI::App& tool) {
   auto options = std::make_shared<InterpolateOptions>();
   CLI::App* parser =
@@ -165,18 +180,7 @@ Command add_interpolate_command(CLI::App& tool) {
              "'NAME[-1]' or NAME_2001-07-15; may be repeated");
   add_output_option(*parser, options->common,
                     "Where to write the values at the targets: .csv .tsv .npy .nc .nc4");
-  parser
-      ->add_option("--weights", options->weights,
-                   "Where to write the weights: .nc or .nc4 (ESMF), .npz (scipy.sparse)")
-      ->type_name("FILE");
-  const CLI::Option* const weight_format =
-      parser
-          ->add_option("--weight-format", options->weight_format,
-                       "Format of the weights: esmf, scrip (for CDO) or npz")
-          ->type_name("FORMAT");
-  require_effect(
-      options->common, weight_format, [given = options.get()] { return !given->weights.empty(); },
-      "without --weights");
+  add_weight_options(*parser, *options);
   require_effect(
       options->common, parser->get_option("--format"),
       [given = options.get()] { return !given->common.output.empty(); }, "without --output");
@@ -205,6 +209,36 @@ Command add_interpolate_command(CLI::App& tool) {
       "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
       "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4");
   return {parser, [options] { return run_interpolate(*options); }};
+}
+
+// Adds the options of grids and polygons, and of cells that are computed.
+void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
+  const CLI::Option* const sides = add_word<GridSides>(
+      parser, "--sides", options.sides,
+      {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},
+      "What cells of grids have in the north and south: parallels (default) or\n"
+      "great-circles (ESMF's)");
+  const CLI::Option* const edges = add_word<PolygonEdges>(
+      parser, "--edges", options.edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
+  const auto has_side = [&options](CellForm form) {
+    return form_of(options.common.source()) == form || form_of(options.target) == form;
+  };
+  require_effect(
+      options.common, sides,
+      [has_side] { return has_side(CellForm::grid) || has_side(CellForm::netcdf); },
+      "without a grid");
+  require_effect(
+      options.common, edges, [has_side] { return has_side(CellForm::polygons); },
+      "without polygons in .geojson");
+  add_build_options(parser, options.common);
+  for (const char* const name : {"--model", "--center"}) {
+    require_effect(
+        options.common, parser.get_option(name), [has_side] { return has_side(CellForm::sites); },
+        "without sites, whose cells are computed");
+  }
 }
 
 Command add_remap_command(CLI::App& tool) {
@@ -244,32 +278,7 @@ Command add_remap_command(CLI::App& tool) {
       "What becomes of a place that several cells of one side have: error (default: two of\n"
       "them are named), first (the cell with the lowest number has it) or share (each has its\n"
       "part)");
-  const CLI::Option* const sides = add_word<GridSides>(
-      *parser, "--sides", options->sides,
-      {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},
-      "What cells of grids have in the north and south: parallels (default) or\n"
-      "great-circles (ESMF's)");
-  const CLI::Option* const edges = add_word<PolygonEdges>(
-      *parser, "--edges", options->edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
-      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
-  const auto has_side = [given = options.get()](CellForm form) {
-    return form_of(given->common.source()) == form || form_of(given->target) == form;
-  };
-  require_effect(
-      options->common, sides,
-      [has_side] { return has_side(CellForm::grid) || has_side(CellForm::netcdf); },
-      "without a grid");
-  require_effect(
-      options->common, edges, [has_side] { return has_side(CellForm::polygons); },
-      "without polygons in .geojson");
-  add_build_options(*parser, options->common);
-  for (const char* const name : {"--model", "--center"}) {
-    require_effect(
-        options->common, parser->get_option(name), [has_side] { return has_side(CellForm::sites); },
-        "without sites, whose cells are computed");
-  }
+  add_kinds_of_sides(*parser, *options);
   add_report_options(*parser, options->common);
   parser->footer(
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the\n"

@@ -161,11 +161,11 @@ std::optional<std::int64_t> zone_seconds(std::string_view text) {
   if (text.empty() || text == "Z" || text == "UTC" || text == "GMT") return 0;
   const bool is_west = text.front() == '-';
   if (!is_west && text.front() != '+') return std::nullopt;
-  text.remove_prefix(1);
-  const std::size_t digits = std::min(text.find(':'), text.size());
-  const auto first = take_number(text, ":");
-  const auto second = text.empty() ? std::optional<std::int64_t>(0) : take_number(text, "");
-  if (!first || !second || !text.empty() || (digits != 2 && digits != 4)) return std::nullopt;
+  std::string_view rest = text.substr(1);
+  const std::size_t digits = std::min(rest.find(':'), rest.size());
+  const auto first = take_number(rest, ":");
+  const auto second = rest.empty() ? std::optional<std::int64_t>(0) : take_number(rest, "");
+  if (!first || !second || !rest.empty() || (digits != 2 && digits != 4)) return std::nullopt;
   const std::int64_t hours = digits == 4 ? *first / 100 : *first;
   const std::int64_t minutes = digits == 4 ? *first % 100 : *second;
   if (hours > 14 || minutes > 59) return std::nullopt;
@@ -256,10 +256,10 @@ std::vector<std::string> dates_of(const FieldArray& axis) {
   }
   const bool are_days =
       std::ranges::all_of(times, [](std::int64_t time) { return time % ms_per_day == 0; });
-  std::vector<std::string> dates;
-  for (const std::int64_t time : times) {
-    dates.push_back(text_of_time(*calendar, time, !are_days, has_ms));
-  }
+  std::vector<std::string> dates(times.size());
+  std::ranges::transform(times, dates.begin(), [&](std::int64_t time) {
+    return text_of_time(*calendar, time, !are_days, has_ms);
+  });
   return dates;
 }
 

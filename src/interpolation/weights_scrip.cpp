@@ -43,7 +43,7 @@ void require_normalization(WeightFile& content) {
   const std::string word = io::lower_case(io::without_blanks(content.normalization));
   if (word != "none" && word != "destarea" && word != "fracarea") {
     throw io::BadValue("the attribute normalization is " + io::in_quotes(content.normalization) +
-                       " where \"none\", \"destarea\" or \"fracarea\" says what the weights are");
+                       R"( where "none", "destarea" or "fracarea" says what the weights are)");
   }
   content.normalization = word;
 }

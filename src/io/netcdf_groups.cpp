@@ -67,7 +67,7 @@ std::string full_name(std::span<const NetcdfReader::Variable> variables, const s
   const auto has = [&](std::string_view wanted) {
     return std::ranges::count(variables, wanted, &NetcdfReader::Variable::name) != 0;
   };
-  const std::string whole = name.starts_with('/') ? name.substr(1) : name;
+  std::string whole = name.starts_with('/') ? name.substr(1) : name;
   const std::string wanted = whole.substr(0, whole.find('['));
   if (wanted.empty() || has(wanted)) return whole;
   std::string found;

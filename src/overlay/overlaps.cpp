@@ -315,7 +315,7 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
 std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads) {
   std::vector<std::pair<Index, Index>> pairs;
   for (const auto& [filled, other] : candidates_of(cells, threads)) {
-    pairs.push_back(std::minmax(cells.names[filled], cells.names[other]));
+    pairs.emplace_back(std::minmax(cells.names[filled], cells.names[other]));
   }
   std::ranges::sort(pairs);
   return pairs;

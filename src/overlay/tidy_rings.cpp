@@ -176,6 +176,16 @@ class NamesOfCorners {
   std::vector<Index> names_;
 };
 
+// Appends the rings of a cell to cells that have the same points.
+void append_rings(const CellRings& cells, std::size_t cell, CellRings& result) {
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    result.corners.insert(result.corners.end(),
+                          cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
+                          cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
+    result.rings.push_back(result.corners.size());
+  }
+}
+
 }  // namespace
 
 Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
@@ -234,13 +244,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     if (cells.is_whole(i)) result.whole.push_back(static_cast<Index>(i));
     if (!has_changed(i)) {
-      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
-        result.corners.insert(
-            result.corners.end(),
-            cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
-            cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
-        result.rings.push_back(result.corners.size());
-      }
+      append_rings(cells, i, result);
     } else {
       has_any = true;
       const Index key = keys[i];

@@ -82,7 +82,8 @@ TEST(valid_regions, mend_one_trouble_of_each_of_very_many_regions) {
   constexpr std::size_t columns = 300;
   for (std::size_t i = 0; i < 5000; ++i) {
     const double lon = 0.1 + static_cast<double>(i % columns);
-    const double lat = -80.1 + 3 * static_cast<double>(i / columns);
+    const auto row = i / columns;
+    const double lat = -80.1 + 3 * static_cast<double>(row);
     const double left = 0.5 * lon - 90;
     // The fourth corner is on the first side.
     regions.push_back({{{left, lat},
