@@ -251,7 +251,8 @@ TEST(overlay_overlaps, the_first_of_features_whose_borders_nearly_agree) {
     const double shear = random.unit();
     for (int k = 0; k < num_columns * num_columns; ++k) {
       const double west = size * (k % num_columns);
-      const double south = 20 + size * (k / num_columns);
+      const int row = k / num_columns;
+      const double south = 20 + size * row;
       const double bottom = west + shear * (south - 20);
       const double top = bottom + shear * size;
       features.push_back(
