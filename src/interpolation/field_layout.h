@@ -133,7 +133,7 @@ class FieldDimensionFinder {
   [[nodiscard]] std::vector<std::size_t> run_of_points(const FileVariable& variable) const;
   [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
 
-  // What is known of a dimension: the coordinate that it has, and its axis.
+  // A dimension has the coordinate `kind`, if that is known, and the axis, if the file has one.
   struct NamedDirection {
     std::optional<io::CoordinateKind> kind;
     const FileVariable* axis = nullptr;

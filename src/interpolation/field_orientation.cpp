@@ -122,7 +122,7 @@ bool FieldDimensionFinder::orient(const OrientedVariable& variable, FieldDimensi
   NamedDirection second = direction_of(variable.dimensions[places[1]]);
   const bool are_known = wanted_.positions.size() == rows * columns;
   const bool has_lengths = shape_.size() > 1;
-  // Where nothing is known of the places, their longitudes change fastest, as in every format.
+  // The longitudes of places change fastest where nothing says otherwise, as in every format.
   std::optional<CoordinateKind> of_rows = CoordinateKind::lat;
   if (are_known) of_rows = kind_of_rows(rows, columns);
   const bool are_named = first.kind != second.kind;  // one of them, or both and differently

@@ -10,6 +10,15 @@
 
 namespace rondel::overlay {
 
+std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
+  std::vector<Point> points;
+  points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
+  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
+    points.push_back(cells.points[cells.corners[k]]);
+  }
+  return points;
+}
+
 CellRings one_cell(const CellRings& cells, Index cell) {
   CellRings one;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {

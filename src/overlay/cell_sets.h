@@ -5,11 +5,16 @@
 // with one cell.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "rondel/cell_rings.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
+// Returns the corners of a ring.
+std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring);
 // Returns one of the cells, with points of its own.
 CellRings one_cell(const CellRings& cells, Index cell);
 // Returns the complement of a single cell. The complement of the whole sphere has no rings.

@@ -12,6 +12,7 @@
 
 #include "overlay/arcs.h"
 #include "overlay/border_rings.h"
+#include "overlay/cell_sets.h"
 #include "overlay/filling.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
@@ -228,22 +229,12 @@ void require_sound(const Partition& cells, const char* what, const Execution& ex
   throw InvalidInput(std::string(what) + ' ' + overlay::message_of(*wrong), wrong->second);
 }
 
-// Returns the corners of a ring.
-std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
-  std::vector<Point> points;
-  points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
-  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
-    points.push_back(cells.points[cells.corners[k]]);
-  }
-  return points;
-}
-
 // Returns the area of a cell in steradians.
 double area_of_cell(const CellRings& cells, std::size_t cell) {
   if (cells.is_whole(cell)) return sphere_area;
   overlay::RegionArea area;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-    area.add(points_of(cells, r));
+    area.add(overlay::points_of_ring(cells, r));
   }
   return area.value();
 }
@@ -337,7 +328,7 @@ CellRings dissolve(const CellRings& cells, std::span<const Index> groups, std::s
                          i);
     }
     for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
-      const std::vector<Point> points = points_of(cells, r);
+      const std::vector<Point> points = overlay::points_of_ring(cells, r);
       for (std::size_t k = 0; k < points.size(); ++k) {
         keyed.push_back({groups[i], points[k], points[k + 1 < points.size() ? k + 1 : 0]});
       }

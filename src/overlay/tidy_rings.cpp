@@ -13,6 +13,7 @@
 
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
+#include "overlay/cell_sets.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "overlay/snapped_sides.h"
@@ -89,14 +90,15 @@ double length_of(std::span<const Point> ring) {
 }
 
 // True if a ring is wider than rounding of corners along a border of this length can make it.
-bool is_surely_wide(std::span<const Point> ring, double length) {
+bool is_surely_wide(const RingArea& ring, double length) {
   constexpr double surely = 64;
-  return std::abs(area_of_ring(ring).area) > surely * area_of_rounding(length);
+  return std::abs(ring.area) > surely * area_of_rounding(length);
 }
 
 // True if a ring has no area, but for rounding, as one with two equal loops.
 bool is_balanced(std::span<const Point> ring) {
-  return !is_surely_wide(ring, length_of(ring)) || area_of_ring(ring).is_nothing();
+  const RingArea area = area_of_ring(ring);
+  return !is_surely_wide(area, length_of(ring)) || area.is_nothing();
 }
 
 bool crosses_surely(std::span<const Point> ring) {
@@ -105,15 +107,6 @@ bool crosses_surely(std::span<const Point> ring) {
     sides.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]});
   }
   return has_sure_crossing(sides);
-}
-
-std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
-  std::vector<Point> points;
-  points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
-  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
-    points.push_back(cells.points[cells.corners[k]]);
-  }
-  return points;
 }
 
 // Returns the arcs of a cell with turns removed, or nothing for a cell with a balanced crossing;
@@ -198,7 +191,8 @@ Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
   }
   for (std::uint64_t r = after.cells.cells[after.cell]; r < after.cells.cells[after.cell + 1];
        ++r) {
-    if (is_surely_wide(points_of_ring(after.cells, r), length)) return Turn::of_wide_rings;
+    const RingArea area = area_of_ring(points_of_ring(after.cells, r));
+    if (is_surely_wide(area, length)) return Turn::of_wide_rings;
   }
   return Turn::of_rounding;
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What mends the lines of regions, and how far: its reach, its limits, loops that are turned over, and slivers across the
-// border of the map.
+// Mending moves the lines of regions within its reach and limits, turns loops over, and keeps slivers across the border of
+// the map.
 #include <gtest/gtest.h>
 
 #include <algorithm>

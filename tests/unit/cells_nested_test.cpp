@@ -49,7 +49,7 @@ bool do_cross(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d
          turn_in_plane(c, d, a) * turn_in_plane(c, d, b) < 0;
 }
 
-// By the crossings of a line to the east.
+// A place is inside if a line from it to the east crosses the loop an odd number of times.
 bool has_in_it(const Loop& loop, const LonLat& p) {
   bool is_inside = false;
   for (std::size_t k = 0; k < loop.size(); ++k) {

@@ -99,7 +99,7 @@ TEST(overlay_inside, loops_that_balance_are_refused) {
       SCOPED_TRACE(cover.name);
       EXPECT_THROW((void)remap(Partition(cells), cover.cells), InvalidInput);
     }
-    // The same loops with a corner where they meet.
+    // The loops now have a corner where they meet.
     cells.points.push_back({1, 0, 0});
     cells.corners = {0, 4, 1, 2, 4, 3};
     cells.rings = {0, 6};

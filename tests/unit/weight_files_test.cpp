@@ -322,7 +322,7 @@ TEST(weight_files, of_scrip_that_are_areas_are_divided_by_those_of_targets) {
     EXPECT_EQ(read_areas(directory, {.normalization = word}).weights.values,
               divided.weights.values);
   }
-  // What is a mean already stays: other normalizations and methods.
+  // Weights of other normalizations and methods are means already and stay as they are.
   for (const ScripAreas& other :
        {ScripAreas{.normalization = "destarea"}, ScripAreas{.normalization = "fracarea"},
         ScripAreas{.method = "Bilinear remapping"}}) {

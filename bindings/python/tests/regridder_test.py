@@ -302,7 +302,7 @@ def test_data_in_another_order_are_refused():
 
 
 def test_packed_numbers_are_told():
-    # Of floating-point numbers nobody knows whether they are packed still.
+    # Floating-point numbers may be packed or not: the attributes do not say it.
     values = xarray.DataArray(np.ones((4, 8), "f4"), dims=("lat", "lon"), attrs={"add_offset": 3.0})
     ds = xarray.Dataset(
         {"t": values}, {"lon": np.arange(0.0, 360, 45), "lat": np.arange(-60.0, 61, 40)}
