@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -115,16 +116,21 @@ void drop_rounding(std::vector<Piece>& pieces, double area, double length) {
   const auto is_rounding = [](const Piece& piece) {
     return piece.area <= area_of_rounding(piece.length);
   };
-  if (pieces.empty()) return;
-  const double least_share = area / 1024;
+  std::size_t num_small = 0;
   double dropped = 0;
-  for (const Piece& piece : pieces) dropped += is_rounding(piece) ? std::max(piece.area, 0.0) : 0;
+  for (const Piece& piece : pieces) {
+    if (!is_rounding(piece)) continue;
+    ++num_small;
+    dropped += std::max(piece.area, 0.0);
+  }
+  if (num_small == 0) return;
+  const double least_share = area / 1024;
   if (dropped > least_share && area > area_of_rounding(length)) {
     const double least = least_share / static_cast<double>(pieces.size());
     std::erase_if(pieces, [&](const Piece& piece) { return piece.area <= least; });
     return;
   }
-  if (std::ranges::all_of(pieces, is_rounding)) {
+  if (num_small == pieces.size()) {
     const Piece largest = *std::ranges::max_element(pieces, {}, &Piece::area);
     pieces.clear();
     if (largest.area > 0) pieces.push_back(largest);
@@ -173,8 +179,7 @@ struct Measures {
   Point moment{};
   // False if the area is not certain: the region goes around the sphere (as belts do) and has its
   // center of mass near the center of the sphere.
-  bool is_sure =
-      true;  // the area; not of regions around the sphere, as belts, whose center of mass is its center
+  bool is_sure = true;
 };
 // Returns the measures of a region that fits into a hemisphere, from all arcs of its border.
 // `nearby` is a point near the region, for most regions.

@@ -59,7 +59,9 @@ class PieceMaker {
     }
     require_sum(pieces_, sizes_.areas[name], sizes_.lengths[name], name);
     drop_rounding(pieces_, sizes_.areas[name], sizes_.lengths[name]);
-    std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
+    if (!owners_.empty()) {
+      std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
+    }
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
     return pieces_;
   }
