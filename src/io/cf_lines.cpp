@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the lines between the cells of an axis. Coordinates that decrease are reversed before, and the lines are reversed after.
+// Finds the lines between the cells of an axis.
 #include "io/cf_lines.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -46,9 +47,15 @@ void unroll(std::vector<double>& values, double sign) {
   }
 }
 
-// True if most steps go west when each takes the shorter way around; false if all values increase.
+// True if most steps go west when each takes the shorter way around. Values that all increase go
+// east, and three or more that all decrease within one turn go west, even if a step is more than
+// half a turn.
 bool goes_west(const std::vector<double>& values) {
   if (std::ranges::is_sorted(values)) return false;
+  if (values.size() > 2 && std::ranges::is_sorted(values, std::greater_equal{}) &&
+      values.front() - values.back() <= 360) {
+    return true;
+  }
   std::size_t num_west = 0;
   for (std::size_t i = 1; i < values.size(); ++i) {
     num_west += std::remainder(values[i] - values[i - 1], 360) < 0 ? 1U : 0U;
@@ -108,7 +115,8 @@ std::vector<double> halves(const std::vector<double>& values) {
 void close_circle(std::vector<double>& lines, double first, double last) {
   const std::size_t n = lines.size();
   const double turn = lines.back() > lines.front() ? 360 : -360;
-  const double width = std::abs(lines[1] - lines[0]);
+  const double width =
+      std::min(std::abs(lines[1] - lines[0]), std::abs(lines[n - 1] - lines[n - 2]));
   const double excess = std::abs(lines.back() - lines.front()) - 360;
   if (std::abs(excess) <= rounding_share * width) {
     lines.back() = lines.front() + turn;

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 find_package(nlohmann_json 3.11 REQUIRED)
+find_package(ZLIB REQUIRED)
 
 rondel_add_test(io_test
   io_atomic_file_test.cpp
+  io_axes_test.cpp
   io_binary_test.cpp
   io_circles_test.cpp
   io_conventions_test.cpp
@@ -11,10 +13,13 @@ rondel_add_test(io_test
   io_netcdf_test.cpp
   io_number_test.cpp
   io_pvtp_test.cpp
+  io_rows_test.cpp
   io_sites_test.cpp
   io_triangles_test.cpp
+  io_wide_integers_test.cpp
   io_zarr_test.cpp
-  LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
+  io_zip_test.cpp
+  LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)
 
 # A program of its own: what a sanitizer of threads needs.
 rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io rondel_test_support)
