@@ -46,13 +46,19 @@ def copy_tree(changed=None):
             target.write_bytes(content)
 
 
-def configure():
+def is_of_python(test):
+    """Or else of C++ or of the tool."""
+    return test.startswith("python.")
+
+
+def configure(with_python=False):
     """A build that compiles quickly."""
     launcher = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={path}"
                 for path in [shutil.which("ccache")] if path is not None]
     return run(["cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0", "-DRONDEL_BUILD_TESTS=ON", "-DCMAKE_UNITY_BUILD=OFF",
-                "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *launcher])[0]
+                "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", f"-DRONDEL_BUILD_PYTHON={'ON' if with_python else 'OFF'}",
+                f"-DPython_EXECUTABLE={ROOT / 'build' / 'python' / 'bin' / 'python'}", *launcher])[0]
 
 
 def is_of_ctest(test):
@@ -72,6 +78,8 @@ def target_of(test):
         return "same_bytes"
     if test.startswith("fuzz."):
         return test.replace("fuzz.", "replay_")
+    if is_of_python(test):
+        return "rondel_python"
     return "rondel_tool" if is_of_ctest(test) else test.partition(":")[0]
 
 
