@@ -59,15 +59,18 @@ class RONDEL_API Partition {
   /// corners, a corner that is no unit vector, or rings although it is in `whole`; or whose sides
   /// all cancel, as those of a ring and a hole with the same corners, or of two parts that share
   /// all of their border, so that it may be empty or the whole sphere. (Rings no wider than
-  /// rounding of their corners are dropped.) Cells that cross or overlap themselves, or each other,
-  /// are refused by the functions that use them (remap.h, regions.h).
+  /// rounding of their corners are dropped.) Cells that cross or overlap themselves are refused by
+  /// areas(), by centers(), and, as cells that overlap each other, by the functions that use them
+  /// (remap.h, regions.h).
   explicit Partition(const CellRings& cells, const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;
   /// Returns the area of each cell in steradians, computed from its corners.
+  /// \throws InvalidInput with the first cell that crosses or overlaps itself
   [[nodiscard]] std::span<const double> areas() const;
   /// Returns the direction of the center of mass of each cell from the center of the sphere; (0, 0,
   /// 0) for an empty cell.
+  /// \throws InvalidInput as areas() does
   [[nodiscard]] std::vector<Point> centers() const;
   /// Returns the cells. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;

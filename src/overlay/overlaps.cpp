@@ -170,12 +170,17 @@ class OverlapFinder {
   OverlapFinder(const Subdivision& cells, const Execution& execution)
       : cells_(cells), told_{.threads = execution.threads, .stop = execution.stop} {}
 
-  // Finds all overlaps. A cell that overlaps itself is not compared with others.
-  void find() {
+  // Finds the cells that overlap themselves.
+  void find_in_themselves() {
     soundness_.assign(cells_.num_cells(), Soundness::sound);
     for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
       if (cells_.shapes[cell] == Shape::other) soundness_[cell] = find_in_itself(cell);
     }
+  }
+
+  // Finds all overlaps. A cell that overlaps itself is not compared with others.
+  void find() {
+    find_in_themselves();
     if (is_one_region()) return;
     const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
     for (std::size_t k = 0; k < all.size();) {
@@ -310,6 +315,14 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
   std::ranges::stable_sort(
       found, {}, [](const CrossingCells& pair) { return std::pair(pair.first, pair.second); });
   return found;
+}
+
+std::optional<CrossingCells> first_crossing_itself(const Subdivision& cells,
+                                                   const Execution& execution) {
+  OverlapFinder finder(cells, execution);
+  finder.find_in_themselves();
+  const std::vector<CrossingCells> found = finder.take();
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads) {

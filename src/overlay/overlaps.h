@@ -8,6 +8,7 @@
 // index pairs: indices of the cells in the input
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,6 +25,11 @@ namespace rondel::overlay {
 // indices of cells that are the whole sphere.
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
+
+// Returns the first cell of the input that crosses or overlaps itself by more than rounding, twice
+// in one pair, or nothing.
+std::optional<CrossingCells> first_crossing_itself(const Subdivision& cells,
+                                                   const Execution& execution);
 
 // Returns the pairs of cells that may overlap, also by less than rounding, with the lower index of
 // the input first. Others are certainly apart.

@@ -101,6 +101,13 @@ const std::vector<CrossingCells>& PartitionData::overlaps(const Execution& execu
   return overlaps_;
 }
 
+void PartitionData::require_simple_cells() const {
+  std::call_once(is_crossing_known_, [&] {
+    if (!are_apart_) crossing_ = first_crossing_itself(subdivision_, {.threads = 1});
+  });
+  if (crossing_) throw InvalidInput(message_of(*crossing_), crossing_->first);
+}
+
 CellRings rings_of(const PartitionData& data) {
   CellRings result = rings_of(data.subdivision());
   result.whole = data.all_whole();
@@ -275,8 +282,12 @@ Partition Partition::lonlat_grid(const LonLatGrid& grid, GridSides sides,
 }
 
 std::size_t Partition::num_cells() const { return data_->areas().size(); }
-std::span<const double> Partition::areas() const { return data_->areas(); }
+std::span<const double> Partition::areas() const {
+  data_->require_simple_cells();
+  return data_->areas();
+}
 std::vector<Point> Partition::centers() const {
+  data_->require_simple_cells();
   std::vector<Point> centers;
   centers.reserve(num_cells());
   for (const Point& moment : data_->moments()) centers.push_back(normalized(moment));

@@ -51,6 +51,9 @@ class PartitionData {
   // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
   // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
+  // Throws InvalidInput with the first cell that crosses or overlaps itself, which has no area. The
+  // first call looks for it. Several threads may call it.
+  void require_simple_cells() const;
   // Returns the area of each cell in steradians.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
@@ -66,6 +69,8 @@ class PartitionData {
   bool are_apart_ = false;
   mutable std::once_flag are_overlaps_known_;
   mutable std::vector<CrossingCells> overlaps_;
+  mutable std::once_flag is_crossing_known_;
+  mutable std::optional<CrossingCells> crossing_;
   std::vector<double> areas_;
   std::vector<Point> moments_;
   std::vector<double> lengths_;

@@ -247,10 +247,11 @@ CellRings clipped_to(const Partition& cells, const Partition& regions, const Exe
   keyed.reserve(arcs.size());
   for (const NamedArc& arc : arcs) keyed.push_back({arc.cell, arc.from, arc.to});
   CellRings clipped = overlay::rings_around(keyed, cells.num_cells(), execution.threads);
-  const std::span<const double> of_regions = regions.areas();
+  const std::vector<double>& of_cells = PartitionData::of(cells).areas();
+  const std::vector<double>& of_regions = PartitionData::of(regions).areas();
   const double covered = std::accumulate(of_regions.begin(), of_regions.end(), 0.0);
   clipped.whole =
-      whole_cells_of(clipped, [&](std::size_t i) { return std::min(cells.areas()[i], covered); });
+      whole_cells_of(clipped, [&](std::size_t i) { return std::min(of_cells[i], covered); });
   return clipped;
 }
 
@@ -289,8 +290,8 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   result.rings.corners = all.corners;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (all.cells[k] == all.cells[k + 1]) {
-      if (std::min(cells.areas()[pairs[k].first], regions.areas()[pairs[k].second]) <=
-          most_of_sphere)
+      if (std::min(PartitionData::of(cells).areas()[pairs[k].first],
+                   PartitionData::of(regions).areas()[pairs[k].second]) <= most_of_sphere)
         continue;
       result.rings.whole.push_back(static_cast<Index>(result.cells.size()));
     }

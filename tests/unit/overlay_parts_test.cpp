@@ -281,6 +281,31 @@ TEST(overlay_parts, names_cells_that_overlap) {
   EXPECT_EQ(message_of({{bow_tie}, {apart}}), alone + "4.8249 15.5662");
 }
 
+// What crosses itself has no area and no center, which is said as remap() says it.
+TEST(overlay_parts, that_cross_themselves_have_no_areas) {
+  const RingOfPart box = rectangle(0, 0, 20, 20);
+  const RingOfPart bow_tie = {{{0, 0}, {20, 0}, {0, 20}, {20, 20}, {-10, 10}}};
+  const Partition wrong(cells_of_parts({{box}, {bow_tie}}));
+  const std::string message = "cell 1 crosses or overlaps itself at 4.8249 15.5662";
+  for (int time = 0; time < 2; ++time) {
+    try {
+      (void)wrong.areas();
+      ADD_FAILURE();
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(error.what(), message);
+      EXPECT_EQ(error.index(), 1U);
+    }
+    EXPECT_THROW((void)wrong.centers(), InvalidInput);
+  }
+  // Cells that overlap others have areas, and so have parts that touch in a corner.
+  const RingOfPart other = rectangle(20, 20, 40, 40);
+  const Partition sound(cells_of_parts({{box, other}, {rectangle(10, 10, 30, 30)}}));
+  const std::vector<double> alone =
+      areas(cells_of_parts({{box}, {other}, {rectangle(10, 10, 30, 30)}}));
+  EXPECT_NEAR(sound.areas()[0], alone[0] + alone[1], 1e-15);
+  EXPECT_NEAR(sound.areas()[1], alone[2], 1e-15);
+}
+
 // Two covers of the sphere by lunes, which have nothing but the poles in common: whatever is beyond a side is some cell.
 TEST(overlay_parts, names_cells_of_two_covers) {
   std::vector<std::vector<RingOfPart>> lunes;

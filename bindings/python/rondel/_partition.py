@@ -279,13 +279,15 @@ class Partition(FileCells, Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only."""
+        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only. `InvalidInput`
+        is raised if a cell crosses or overlaps itself.
+        """
         return self._partition.areas
 
     @property
     def centers(self) -> FloatArray:
         """Ndarray of float64, shape (n, 3): unit vectors to the centers of mass; (0, 0, 0) for
-        empty cells.
+        empty cells. `InvalidInput` is raised if a cell crosses or overlaps itself.
         """
         return self._partition.centers()
 
