@@ -41,8 +41,13 @@ struct Fill {
 // The strips in one row of one column.
 class RowStrips {
  public:
-  void add(const Strip& strip) {
+  // `rise` is the difference of the sines of the row's parallels.
+  void add(const Strip& strip, double rise) {
     add_term(strip.area, area_);
+    const double from_floor = std::abs(strip.area) / (std::abs(strip.width) * rise);
+    const double share = strip.pole > 0 ? 1 - from_floor : from_floor;
+    lowest_ = std::min(lowest_, share);
+    highest_ = std::max(highest_, share);
     if (strip.pole == 0) {
       has_others_ = true;
     } else if (strip.pole > 0) {
@@ -52,6 +57,13 @@ class RowStrips {
       southern_ += strip.width;
       has_southern_ = true;
     }
+  }
+  // Returns the share of the row's height between the lowest and the highest strip, about, where the
+  // parallels below and above count as strips if the cell is there.
+  [[nodiscard]] double extent(bool is_below, bool is_above) const {
+    const double lowest = is_below ? 0 : lowest_;
+    const double highest = is_above ? 1 : highest_;
+    return std::clamp(highest - lowest, 0.0, 1.0);
   }
   // Returns the area of the cell in this row: the strips, and the part of the row below its
   // northern parallel, which is `above` wide there. `below` is the width that is left at the
@@ -71,6 +83,8 @@ class RowStrips {
 
  private:
   exact::DoubleDouble area_{};
+  double lowest_ = 1;  // share of the row's height, above its southern parallel
+  double highest_ = 0;
   double northern_ = 0;  // the sum of the widths of strips whose areas begin at the north pole
   // The sum for strips that begin at the south pole.
   double southern_ = 0;
@@ -167,9 +181,11 @@ class GridPieceMaker {
       GridPiece piece = row_of(column, row, fill);
       Fill below = fill;
       RowStrips strips;
+      const double rise = grid_.parallel(row + 1).sine - grid_.parallel(row).sine;
+      const double run = grid_.parallel(row + 1).cosine - grid_.parallel(row).cosine;
       for (; next < end && strips_[next].row == row; ++next) {
         const Strip& strip = strips_[next];
-        strips.add(strip);
+        strips.add(strip, rise);
         piece.length += strip.length;
         piece.moment = piece.moment + strip.moment;
         add_term(strip.width, below.sum);
@@ -178,10 +194,12 @@ class GridPieceMaker {
         below.run = below.run + strip.run;
       }
       const double width_above = fill.width;
+      const bool is_below = below.sum.hi + below.sum.lo != 0;  // also by rounding alone
       fill = rounded(below, column, next == end);
       piece.area = strips.area(grid_, row, width_above, fill.width);
       piece.length += fill.size * grid_.parallel(row).cosine;
-      if (width_above != 0 && fill.width != 0) piece.length += grid_.height(row);
+      const double chord = std::sqrt(rise * rise + run * run);  // along a meridian
+      piece.length += chord * strips.extent(is_below, width_above != 0);
       if (piece.cell != no_index) pieces_.push_back(piece);
       if (row == 0 || (next == end && fill.width == 0)) return end;
       if (fill.width == 0) row = strips_[next].row + 1;
@@ -210,8 +228,7 @@ class GridPieceMaker {
     return is_filled ? filled(column) : fill;
   }
 
-  // Returns the part of a row that is inside from parallel to parallel. Its sides count where they
-  // go through the whole row; the borders of other parts are among the strips.
+  // Returns the part of a row that is inside from parallel to parallel.
   [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
     const Graticule::Parallel& south = grid_.parallel(row);
     const Graticule::Parallel& north = grid_.parallel(row + 1);

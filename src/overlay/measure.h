@@ -100,8 +100,11 @@ inline double rough_length(const Point& p, const Point& q) {
 }
 
 // Returns the area by which rounding of corners changes a region whose border has this length.
-// Corners are off by 2u from their edges, or by some 10u where these are nearly parallel.
-constexpr double area_of_rounding(double length) { return 16 * predicates::unit_roundoff * length; }
+// Corners are off by 2u from their edges, or by some 10u where these are nearly parallel. A border
+// whose computed length is 0, as at a pole, may be a rounding long.
+constexpr double area_of_rounding(double length) {
+  return 16 * predicates::unit_roundoff * (length + predicates::unit_roundoff);
+}
 
 // Throws InvalidInput with the cell (its index in the input), whose pieces do not add up to its
 // area.

@@ -321,6 +321,7 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
       const Partition mesh(cells_of_corners_of(grid, noise, random));
       const bool is_source = random.below(2) == 0;
       const Remap remap = is_source ? rondel::remap(mesh, boxes) : rondel::remap(boxes, mesh);
+      std::size_t num_pieces = 0;
       for (std::size_t r = 0; r < rows; ++r) {
         const double south = grid.lat_deg[r];
         const double north = grid.lat_deg[r + 1];
@@ -329,6 +330,7 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
         const double of_box = boxes.areas()[r * columns];
         const double inside = of_box - (south > 0 ? area_of_arc(south, step) : 0) -
                               (north < 0 ? area_of_arc(north, step) : 0);
+        num_pieces += columns * (1U + (above > 0 ? 1U : 0U) + (below > 0 ? 1U : 0U));
         for (std::size_t c = 0; c < columns; ++c) {
           const std::size_t cell = r * columns + c;
           const auto piece = [&](std::size_t box) {
@@ -343,6 +345,8 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
           }
         }
       }
+      // What is beyond a meridian by rounding alone is no piece.
+      EXPECT_EQ(remap.columns.size(), num_pieces);
     }
   }
 }
