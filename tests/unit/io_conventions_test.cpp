@@ -322,6 +322,24 @@ TEST(conventions, missing_values_of_any_type) {
   expect_same(meant(NetcdfType::int8, {}, {-127}), {-127});
 }
 
+// NC_FILL_SHORT and so on of netcdf.h; bytes have none, as all of their values are in use.
+TEST(conventions, what_nobody_wrote_is_missing) {
+  const auto expect = [](NetcdfType type, double fill, double near) {
+    expect_same(meant(type, {}, {fill, near, 1}), {not_there, near, 1});
+    expect_same(meant(type, {numbers("_FillValue", type, {near})}, {fill, near, 1}),
+                {fill, not_there, 1});
+  };
+  expect(NetcdfType::int16, -32767, -32768);
+  expect(NetcdfType::int32, -2147483647.0, -2147483648.0);
+  expect(NetcdfType::uint16, 65535, 65534);
+  expect(NetcdfType::uint32, 4294967295.0, 4294967294.0);
+  expect(NetcdfType::float32, 9.9692099683868690e+36, 9.9692099683868690e+35);
+  expect(NetcdfType::float64, 9.9692099683868690e+36, 9.9692099683868690e+35);
+  for (const NetcdfType type : {NetcdfType::int8, NetcdfType::uint8}) {
+    expect_same(meant(type, {}, {-127, 0, 255}), {-127, 0, 255});
+  }
+}
+
 TEST(conventions, valid_ranges_are_of_packed_numbers) {
   expect_same(meant(NetcdfType::float32, {numbers("valid_max", NetcdfType::float32, {5})}, {5, 6}),
               {5, not_there});

@@ -241,5 +241,55 @@ TEST(netcdf_writer, round_trip_of_all_types) {
   EXPECT_EQ(io::find_attribute(attributes, "whole")->numbers, (Doubles{-7, 2'147'483'647}));
 }
 
+// The version of the header that begin() writes for a variable of bytes or of doubles along each of these dimensions; no value is
+// written. Negative: the version that a refusal names.
+int version_for(const std::vector<std::uint64_t>& sizes, NetcdfType type, int asked = 0) {
+  const std::string path = temporary_path("versions.nc");
+  io::AtomicFile file(path);
+  io::NetcdfWriter writer(file);
+  for (std::size_t d = 0; d < sizes.size(); ++d) {
+    const std::string number = std::to_string(d);
+    writer.add_variable(
+        variable("v" + number, type, {writer.add_dimension("d" + number, sizes[d])}));
+  }
+  try {
+    writer.begin(asked);
+  } catch (const io::BadValue& error) {
+    const std::string message = error.what();
+    return -(message[message.rfind("CDF-") + 4] - '0');
+  }
+  file.commit();
+  return read_all(path)[3];
+}
+
+// The limits of the format: NetCDF Classic and 64-bit Offset File Formats, and CDF-5.
+TEST(netcdf_writer, has_the_lowest_version_that_suffices) {
+  constexpr std::uint64_t gib = std::uint64_t{1} << 30U;
+  const auto version = [](const std::vector<std::uint64_t>& sizes) {
+    return version_for(sizes, NetcdfType::int8);
+  };
+  EXPECT_EQ(version({5}), 1);
+  EXPECT_EQ(version({2 * gib - 1}), 1);
+  EXPECT_EQ(version({2 * gib}), 5);  // no 31 bits
+  // Where the last variable begins, a header behind 2 GiB of values.
+  EXPECT_EQ(version({2 * gib - 1, 5}), 2);
+  EXPECT_EQ(version({gib, gib - 4096, 5}), 1);
+  EXPECT_EQ(version({gib, gib - 8, 5}), 2);
+  EXPECT_EQ(version({gib, 5, 2 * gib - 1}), 1);
+  const auto version_of_doubles = [](std::uint64_t size) {
+    return version_for({size}, NetcdfType::float64);
+  };
+  EXPECT_EQ(version_of_doubles(gib / 2 - 1), 1);
+  EXPECT_EQ(version_of_doubles(gib / 2), 5);  // 4 GiB
+  EXPECT_EQ(version_for({5}, NetcdfType::int64), 5);
+  EXPECT_EQ(version_for({5}, NetcdfType::uint8), 5);
+  EXPECT_EQ(version_for({5}, NetcdfType::float64), 1);
+  for (const int asked : {1, 2, 5}) {
+    EXPECT_EQ(version_for({5}, NetcdfType::int32, asked), asked);
+    EXPECT_EQ(version_for({5}, NetcdfType::int64, asked), asked < 5 ? -5 : 5);
+  }
+  EXPECT_EQ(version_for({2 * gib - 1, 5}, NetcdfType::int8, 1), -2);
+}
+
 }  // namespace
 }  // namespace rondel::test
