@@ -97,12 +97,12 @@ void CellMap::list_cells() {
 // Prefetches what polygons() reads for the cells that follow in the list, in two steps: the offsets
 // of a cell far ahead, and the points of one less far. The distance changes nothing but speed.
 void CellMap::prefetch_listed(std::size_t cell) const {
-  constexpr std::size_t distance = 128;
-  if (cell + 2 * distance < cells_in_order_.size()) {
-    system::prefetch(&cells_.offsets[cells_in_order_[cell + 2 * distance]]);
+  constexpr std::size_t prefetch_distance = 128;
+  if (cell + 2 * prefetch_distance < cells_in_order_.size()) {
+    system::prefetch(&cells_.offsets[cells_in_order_[cell + 2 * prefetch_distance]]);
   }
-  if (cell + distance < cells_in_order_.size()) {
-    const Index site = cells_in_order_[cell + distance];
+  if (cell + prefetch_distance < cells_in_order_.size()) {
+    const Index site = cells_in_order_[cell + prefetch_distance];
     system::prefetch(cells_.rings.data() + cells_.offsets[site]);
     system::prefetch(&directions_[site]);
   }

@@ -374,10 +374,22 @@ TEST(conventions, odd_attributes_are_told) {
       NetcdfType::int8,
       {{"_Unsigned", NetcdfType::text, "yes", {}}, {"scale_factor", NetcdfType::text, "2", {}}});
   EXPECT_NE(several.find("; attribute "), std::string::npos) << several;
+  const auto refusal = [&](const NetcdfAttribute& attribute) {
+    try {
+      return remark(NetcdfType::int16, {attribute});
+    } catch (const io::BadValue& error) {
+      return std::string(error.what());
+    }
+  };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const char* name : {"scale_factor", "add_offset"}) {
-    EXPECT_THROW(remark(NetcdfType::int16, {numbers(name, NetcdfType::float64, {nan})}),
-                 io::BadValue);
+    const std::string start = "variable \"v\": attribute " + std::string(name);
+    EXPECT_EQ(refusal(numbers(name, NetcdfType::float64, {nan})), start + " is not finite");
+    EXPECT_EQ(refusal(numbers(name, NetcdfType::float64, {2, 3})),
+              start + " has 2 numbers instead of one");
+    EXPECT_EQ(refusal({name, NetcdfType::text, "two", {}}),
+              start + " is the text \"two\" and no number");
+    EXPECT_EQ(refusal(numbers(name, NetcdfType::float64, {2})), "");
   }
 }
 
