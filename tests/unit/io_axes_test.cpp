@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Random axes of cells: lines are drawn first, then what files say of them, in every form that they have.
+// Axes of cells: random ones, of which lines are drawn first, then what files say of them in every form that they have; and case by
+// case.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondel/conventions.h"
@@ -17,6 +20,7 @@ namespace rondel::test {
 namespace {
 
 using Doubles = std::vector<double>;
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 // Lines of cells, which increase. Numbers are multiples of 1/8, so that halves are exact.
 Doubles random_lines(Random& random, bool is_longitude, bool is_whole_circle) {
@@ -197,6 +201,134 @@ TEST(axes, whose_bounds_do_not_meet_are_refused) {
     bounds[2 * cell] = lines[cell] + 1e-8 * width;
     EXPECT_EQ(axis_lines(middles(lines), bounds, is_longitude).size(), lines.size());
   }
+}
+
+TEST(axes, lines_of_longitudes) {
+  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
+    return axis_lines(values, bounds, true);
+  };
+  EXPECT_EQ(lines({0, 90, 180, -90}), (Doubles{-45, 45, 135, 225, 315}));
+  EXPECT_EQ(lines({3, 2, 1}), (Doubles{3.5, 2.5, 1.5, 0.5}));
+  EXPECT_EQ(lines({10, 0, 350}), (Doubles{15, 5, -5, -15}));
+  EXPECT_EQ(lines({355, 5}), (Doubles{350, 360, 370}));
+  EXPECT_EQ(lines({300, 290, 80}), (Doubles{305, 295, 185, -25}));
+  // Where both ends of the circle are there, each has half of the cell.
+  EXPECT_EQ(lines({0, 120, 240, 360}), (Doubles{0, 60, 180, 300, 360}));
+  EXPECT_EQ(lines({180, 60, -60, -180}), (Doubles{180, 120, 0, -120, -180}));
+  EXPECT_EQ(lines({0, 120, 240, 360}, {-60, 60, 60, 180, 180, 300, 300, 420}),
+            (Doubles{0, 60, 180, 300, 360}));
+  // Bounds in either order, rolled, across the meridian where they jump, and decreasing under coordinates that do.
+  EXPECT_EQ(lines({5, 15}, {10, 0, 20, 10}), (Doubles{0, 10, 20}));
+  EXPECT_EQ(lines({-175, -5, 5, 175}, {180, 270, 270, 360, 0, 90, 90, 180}),
+            (Doubles{180, 270, 360, 450, 540}));
+  EXPECT_EQ(lines({355, 5}, {350, 0, 0, 10}), (Doubles{350, 360, 370}));
+  EXPECT_EQ(lines({355, 5}, {0, 350, 10, 0}), (Doubles{350, 360, 370}));
+  EXPECT_EQ(lines({15, 5}, {10, 20, 0, 10}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({15, 5}, {20, 10, 0}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({15, 5}, {0, 10, 20}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({5, 15}, {20, 10, 0}), (Doubles{0, 10, 20}));
+  EXPECT_EQ(lines({180}, {0, 360}), (Doubles{0, 360}));
+  EXPECT_EQ(lines({95, 275}, {0, 190, 190, 360}), (Doubles{0, 190, 360}));
+  EXPECT_EQ(lines({90, 270}, {0, 180, 360, 180}), (Doubles{0, 180, 360}));
+  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
+  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
+  // A coordinate beside its cell, and one of another cell.
+  EXPECT_EQ(lines({-4, 6}, {0, 10, 20}), (Doubles{0, 10, 20}));
+  EXPECT_EQ(lines({355, 365}, {-10, 0, 10}), (Doubles{-10, 0, 10}));
+  EXPECT_THROW((void)lines({25, 35}, {0, 10, 20}), InvalidInput);
+  EXPECT_THROW((void)lines({-175, -165}, {0, 10, 10, 20}), InvalidInput);
+  EXPECT_THROW((void)lines({5}), InvalidInput);
+  EXPECT_THROW((void)lines({5, not_there}), InvalidInput);
+}
+
+TEST(axes, lines_of_latitudes) {
+  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
+    return axis_lines(values, bounds, false);
+  };
+  EXPECT_EQ(lines({60, 20, -20, -60}), (Doubles{90, 40, 0, -40, -90}));
+  EXPECT_EQ(lines({-90, 0, 90}), (Doubles{-90, -45, 45, 90}));
+  EXPECT_EQ(lines({5, -5}, {10, 0, 0, -10}), (Doubles{10, 0, -10}));
+  EXPECT_EQ(lines({5, -5}, {0, 10, -10, 0}), (Doubles{10, 0, -10}));
+  // These lines were rounded to single precision as radians.
+  EXPECT_EQ(lines({0}, {-90.0000025, 90.0000025}), (Doubles{-90, 90}));
+}
+
+// What axis_lines() says of an axis, and the index.
+std::pair<std::string, std::size_t> refusal_of_axis(const Doubles& values, const Doubles& bounds,
+                                                    bool is_longitude) {
+  try {
+    (void)axis_lines(values, bounds, is_longitude);
+  } catch (const InvalidInput& error) {
+    return {error.what(), error.index()};
+  }
+  return {};
+}
+
+TEST(axes, of_cells_are_in_order) {
+  const std::string throughout = ", but an axis of cells must increase or decrease throughout";
+  using Refusal = std::pair<std::string, std::size_t>;
+  const auto latitudes = [](const Doubles& values, const Doubles& bounds = {}) {
+    return refusal_of_axis(values, bounds, false);
+  };
+  const auto longitudes = [](const Doubles& values, const Doubles& bounds = {}) {
+    return refusal_of_axis(values, bounds, true);
+  };
+  EXPECT_EQ(latitudes({-50, 10, -10, 50}),
+            Refusal("latitude 2, -10, is not north of latitude 1, 10" + throughout, 2));
+  EXPECT_EQ(latitudes({50, -10, 10, -50}),
+            Refusal("latitude 2, 10, is not south of latitude 1, -10" + throughout, 2));
+  EXPECT_EQ(latitudes({-50, -10, -10, 50}),
+            Refusal("latitude 2, -10, repeats latitude 1, -10" + throughout, 2));
+  EXPECT_EQ(latitudes({7, 7}), Refusal("latitude 1, 7, repeats latitude 0, 7" + throughout, 1));
+  // Also where bounds are in order, or are lines that are not.
+  EXPECT_EQ(latitudes({-30, 10, -10, 30}, {-40, -20, -20, 0, 0, 20, 20, 40}).second, 2U);
+  EXPECT_EQ(
+      latitudes({-10, 0, 10}, {-15, 5, -5, 15}),
+      Refusal("bound of latitudes 2, -5, is not north of bound of latitudes 1, 5" + throughout, 2));
+  EXPECT_EQ(longitudes({0, 100, 50, 150}),
+            Refusal("longitude 2, 50, is not east of longitude 1, 100" + throughout, 2));
+  EXPECT_EQ(longitudes({20, 10, 15}).second, 1U);
+  EXPECT_EQ(longitudes({0, 60, 60, 120}),
+            Refusal("longitude 2, 60, repeats longitude 1, 60" + throughout, 2));
+  EXPECT_EQ(longitudes({350, 355, -5, 0}).second, 2U);
+  EXPECT_EQ(longitudes({0, 360}).second, 1U);
+  EXPECT_EQ(longitudes({10, 0, -10, -5}),
+            Refusal("longitude 3, -5, is not west of longitude 2, -10" + throughout, 3));
+  EXPECT_EQ(longitudes({0, 150, 300, 90}),
+            Refusal("longitude 3, 90, is more than once around the globe from longitude 0, 0", 3));
+  EXPECT_EQ(longitudes({0, 100, 200}, {-50, 50, 40, 150}).second, 2U);
+  // Steps of half a turn and more, and ends that meet, are in order.
+  for (const Doubles& right : {Doubles{-90, 90, -90}, Doubles{0, 200}, Doubles{0, 1, 300},
+                               Doubles{0, 120, 240, 0}, Doubles{170, -170, -150}}) {
+    EXPECT_EQ(longitudes(right), Refusal()) << right[0] << ' ' << right[1];
+  }
+}
+
+TEST(axes, bounds_that_overlap_say_so) {
+  EXPECT_EQ(refusal_of_axis({-45, 40}, {-90, 0, -10, 90}, false).first,
+            "bounds of cell 1, -10 to 90, overlap those of cell 0, -90 to 0");
+  EXPECT_EQ(refusal_of_axis({45, -40}, {0, 90, -90, 10}, false).first,
+            "bounds of cell 1, -90 to 10, overlap those of cell 0, 0 to 90");
+  EXPECT_EQ(refusal_of_axis({100, 270}, {0, 200, 180, 360}, true).first,
+            "bounds of cell 1, 180 to 360, overlap those of cell 0, 0 to 200");
+  EXPECT_EQ(refusal_of_axis({5, 14}, {0, 10, 8, 20}, true).first,
+            "bounds of cell 1, 8 to 20, overlap those of cell 0, 0 to 10");
+  EXPECT_EQ(refusal_of_axis({5, 16}, {0, 10, 12, 20}, true).first,
+            "bounds leave a gap before cell 1");
+  EXPECT_EQ(refusal_of_axis({60, 180, 300}, {0, 120, 240, 400}, true).first,
+            "bounds of longitudes go around the globe more than once");
+}
+
+TEST(axes, are_within_a_million_degrees) {
+  const auto refusal = [](const Doubles& values, const Doubles& bounds) {
+    return refusal_of_axis(values, bounds, true);
+  };
+  using Refusal = std::pair<std::string, std::size_t>;
+  EXPECT_EQ(refusal({999'999, 1e6}, {}), Refusal());
+  EXPECT_EQ(refusal({999'999, 1'000'001}, {}), Refusal("longitude 1 is too large", 1));
+  EXPECT_EQ(refusal({0, -1'000'001}, {}), Refusal("longitude 1 is too large", 1));
+  EXPECT_EQ(refusal({0, not_there}, {}), Refusal("longitude 1 is not finite", 1));
+  EXPECT_EQ(refusal({0, 1}, {-1, not_there, 2}), Refusal("bound of longitudes 1 is not finite", 1));
 }
 
 }  // namespace

@@ -145,119 +145,6 @@ TEST(conventions, bounds_that_are_not_there_are_told) {
                                                "attribute bounds of 'lon' names"}));
 }
 
-TEST(conventions, lines_of_longitudes) {
-  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
-    return axis_lines(values, bounds, true);
-  };
-  EXPECT_EQ(lines({0, 90, 180, -90}), (Doubles{-45, 45, 135, 225, 315}));
-  EXPECT_EQ(lines({3, 2, 1}), (Doubles{3.5, 2.5, 1.5, 0.5}));
-  EXPECT_EQ(lines({10, 0, 350}), (Doubles{15, 5, -5, -15}));
-  // Where both ends of the circle are there, each has half of the cell.
-  EXPECT_EQ(lines({0, 120, 240, 360}), (Doubles{0, 60, 180, 300, 360}));
-  EXPECT_EQ(lines({180, 60, -60, -180}), (Doubles{180, 120, 0, -120, -180}));
-  EXPECT_EQ(lines({0, 120, 240, 360}, {-60, 60, 60, 180, 180, 300, 300, 420}),
-            (Doubles{0, 60, 180, 300, 360}));
-  // Bounds in either order, rolled, across the meridian where they jump, and decreasing under coordinates that do.
-  EXPECT_EQ(lines({5, 15}, {10, 0, 20, 10}), (Doubles{0, 10, 20}));
-  EXPECT_EQ(lines({-175, -5, 5, 175}, {180, 270, 270, 360, 0, 90, 90, 180}),
-            (Doubles{180, 270, 360, 450, 540}));
-  EXPECT_EQ(lines({355, 5}, {350, 0, 0, 10}), (Doubles{350, 360, 370}));
-  EXPECT_EQ(lines({355, 5}, {0, 350, 10, 0}), (Doubles{350, 360, 370}));
-  EXPECT_EQ(lines({15, 5}, {10, 20, 0, 10}), (Doubles{20, 10, 0}));
-  EXPECT_EQ(lines({15, 5}, {20, 10, 0}), (Doubles{20, 10, 0}));
-  EXPECT_EQ(lines({15, 5}, {0, 10, 20}), (Doubles{20, 10, 0}));
-  EXPECT_EQ(lines({5, 15}, {20, 10, 0}), (Doubles{0, 10, 20}));
-  EXPECT_EQ(lines({180}, {0, 360}), (Doubles{0, 360}));
-  EXPECT_EQ(lines({95, 275}, {0, 190, 190, 360}), (Doubles{0, 190, 360}));
-  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
-  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
-  // A coordinate beside its cell, and one of another cell.
-  EXPECT_EQ(lines({-4, 6}, {0, 10, 20}), (Doubles{0, 10, 20}));
-  EXPECT_EQ(lines({355, 365}, {-10, 0, 10}), (Doubles{-10, 0, 10}));
-  EXPECT_THROW((void)lines({25, 35}, {0, 10, 20}), InvalidInput);
-  EXPECT_THROW((void)lines({-175, -165}, {0, 10, 10, 20}), InvalidInput);
-  EXPECT_THROW((void)lines({5}), InvalidInput);
-  EXPECT_THROW((void)lines({5, not_there}), InvalidInput);
-}
-
-TEST(conventions, lines_of_latitudes) {
-  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
-    return axis_lines(values, bounds, false);
-  };
-  EXPECT_EQ(lines({60, 20, -20, -60}), (Doubles{90, 40, 0, -40, -90}));
-  EXPECT_EQ(lines({-90, 0, 90}), (Doubles{-90, -45, 45, 90}));
-  EXPECT_EQ(lines({5, -5}, {10, 0, 0, -10}), (Doubles{10, 0, -10}));
-  EXPECT_EQ(lines({5, -5}, {0, 10, -10, 0}), (Doubles{10, 0, -10}));
-  // These lines were rounded to single precision as radians.
-  EXPECT_EQ(lines({0}, {-90.0000025, 90.0000025}), (Doubles{-90, 90}));
-}
-
-// What axis_lines() says of an axis, and the index.
-std::pair<std::string, std::size_t> refusal_of_axis(const Doubles& values, const Doubles& bounds,
-                                                    bool is_longitude) {
-  try {
-    (void)axis_lines(values, bounds, is_longitude);
-  } catch (const InvalidInput& error) {
-    return {error.what(), error.index()};
-  }
-  return {};
-}
-
-TEST(conventions, axes_of_cells_are_in_order) {
-  const std::string throughout = ", but an axis of cells must increase or decrease throughout";
-  using Refusal = std::pair<std::string, std::size_t>;
-  const auto latitudes = [](const Doubles& values, const Doubles& bounds = {}) {
-    return refusal_of_axis(values, bounds, false);
-  };
-  const auto longitudes = [](const Doubles& values, const Doubles& bounds = {}) {
-    return refusal_of_axis(values, bounds, true);
-  };
-  EXPECT_EQ(latitudes({-50, 10, -10, 50}),
-            Refusal("latitude 2, -10, is not north of latitude 1, 10" + throughout, 2));
-  EXPECT_EQ(latitudes({50, -10, 10, -50}),
-            Refusal("latitude 2, 10, is not south of latitude 1, -10" + throughout, 2));
-  EXPECT_EQ(latitudes({-50, -10, -10, 50}),
-            Refusal("latitude 2, -10, repeats latitude 1, -10" + throughout, 2));
-  EXPECT_EQ(latitudes({7, 7}), Refusal("latitude 1, 7, repeats latitude 0, 7" + throughout, 1));
-  // Also where bounds are in order, or are lines that are not.
-  EXPECT_EQ(latitudes({-30, 10, -10, 30}, {-40, -20, -20, 0, 0, 20, 20, 40}).second, 2U);
-  EXPECT_EQ(
-      latitudes({-10, 0, 10}, {-15, 5, -5, 15}),
-      Refusal("bound of latitudes 2, -5, is not north of bound of latitudes 1, 5" + throughout, 2));
-  EXPECT_EQ(longitudes({0, 100, 50, 150}),
-            Refusal("longitude 2, 50, is not east of longitude 1, 100" + throughout, 2));
-  EXPECT_EQ(longitudes({20, 10, 15}).second, 1U);
-  EXPECT_EQ(longitudes({0, 60, 60, 120}),
-            Refusal("longitude 2, 60, repeats longitude 1, 60" + throughout, 2));
-  EXPECT_EQ(longitudes({350, 355, -5, 0}).second, 2U);
-  EXPECT_EQ(longitudes({0, 360}).second, 1U);
-  EXPECT_EQ(longitudes({10, 0, -10, -5}),
-            Refusal("longitude 3, -5, is not west of longitude 2, -10" + throughout, 3));
-  EXPECT_EQ(longitudes({0, 150, 300, 90}),
-            Refusal("longitude 3, 90, is more than once around the globe from longitude 0, 0", 3));
-  EXPECT_EQ(longitudes({0, 100, 200}, {-50, 50, 40, 150}).second, 2U);
-  // Steps of half a turn and more, and ends that meet, are in order.
-  for (const Doubles& right : {Doubles{-90, 90, -90}, Doubles{0, 200}, Doubles{0, 1, 300},
-                               Doubles{0, 120, 240, 0}, Doubles{170, -170, -150}}) {
-    EXPECT_EQ(longitudes(right), Refusal()) << right[0] << ' ' << right[1];
-  }
-}
-
-TEST(conventions, bounds_that_overlap_say_so) {
-  EXPECT_EQ(refusal_of_axis({-45, 40}, {-90, 0, -10, 90}, false).first,
-            "bounds of cell 1, -10 to 90, overlap those of cell 0, -90 to 0");
-  EXPECT_EQ(refusal_of_axis({45, -40}, {0, 90, -90, 10}, false).first,
-            "bounds of cell 1, -90 to 10, overlap those of cell 0, 0 to 90");
-  EXPECT_EQ(refusal_of_axis({100, 270}, {0, 200, 180, 360}, true).first,
-            "bounds of cell 1, 180 to 360, overlap those of cell 0, 0 to 200");
-  EXPECT_EQ(refusal_of_axis({5, 14}, {0, 10, 8, 20}, true).first,
-            "bounds of cell 1, 8 to 20, overlap those of cell 0, 0 to 10");
-  EXPECT_EQ(refusal_of_axis({5, 16}, {0, 10, 12, 20}, true).first,
-            "bounds leave a gap before cell 1");
-  EXPECT_EQ(refusal_of_axis({60, 180, 300}, {0, 120, 240, 400}, true).first,
-            "bounds of longitudes go around the globe more than once");
-}
-
 TEST(conventions, places_repeat_along_time) {
   const auto repeated = [](const std::vector<std::string>& names,
                            const std::vector<std::uint64_t>& shape, const Doubles& lon,
@@ -279,7 +166,11 @@ TEST(conventions, places_repeat_along_time) {
   EXPECT_EQ(repeated({"time", "n"}, {2, 1}, {0, 1}, {5, 5}), (Answers{false, false}));
   EXPECT_THROW((void)repeated({"Time", "y", "x"}, {2, 2, 2}, {0, 1, 0, 1, 0, 1, 0, 2}, lat),
                InvalidInput);
+  const Doubles few(4);
   EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, lon, lat), InvalidInput);
+  EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, few, lat), InvalidInput);
+  EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, lon, few), InvalidInput);
+  EXPECT_THROW((void)repeated({"y"}, {2, 2}, few, few), InvalidInput);
 }
 
 using io::NetcdfAttribute;
@@ -459,6 +350,72 @@ TEST(conventions, rotated_coordinates_have_no_unit) {
   EXPECT_THROW((void)degrees_per_unit(rotated), InvalidInput);
   EXPECT_TRUE(is_planar(Texts{{"title", ""}, {"on_a_sphere", "NO      "}}));
   EXPECT_FALSE(is_planar(Texts{{"on_a_sphere", "YES"}}));
+}
+
+// The names of the variables of a file that describe its grid.
+std::string parts_of(const std::vector<std::string>& names) {
+  std::vector<VariableHeader> headers;
+  headers.reserve(names.size());
+  for (const std::string& name : names) headers.push_back(header(name, {"n"}));
+  const std::vector<bool> are_parts = parts_of_grids(headers);
+  std::string parts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (are_parts[i]) parts += (parts.empty() ? "" : " ") + names[i];
+  }
+  return parts;
+}
+
+TEST(conventions, variables_of_grids_are_no_fields) {
+  EXPECT_EQ(parts_of({"tas", "lonCell", "latCell", "elementMask", "atmo.lon", "coordx"}), "");
+  const auto expect_all = [](const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
+    std::vector<std::string> with_field = names;
+    with_field.emplace_back("tas");
+    EXPECT_EQ(parts_of(with_field), all);
+  };
+  expect_all({"elementConn", "nodeCoords", "numElementConn", "centerCoords", "elementMask"});
+  expect_all({"grid_corner_lon", "grid_corner_lat", "grid_center_lon", "grid_center_lat",
+              "grid_imask", "grid_dims"});
+  expect_all({"grid_center_lon", "grid_center_lat", "grid_imask", "grid_dims"});
+  expect_all({"vertex_of_cell", "clon", "clat", "vlon", "vlat", "edge_vertices", "edge_index"});
+  expect_all({"verticesOnCell", "xCell", "yEdge", "zVertex", "lonCell", "latEdge", "lonVertex",
+              "boundaryVertex", "cellsOnEdge", "cellsOnVertex", "nEdgesOnCell"});
+  expect_all({"indexToCellID", "latCell"});
+  EXPECT_EQ(parts_of({"verticesOnCell", "lonCells", "xtimeCell", "Cell", "zmid"}),
+            "verticesOnCell");
+  for (const std::string grid : {"t", "u", "v", "w", "f"}) {
+    expect_all({"glam" + grid, "gphi" + grid});
+  }
+  EXPECT_EQ(parts_of({"glamt", "gphiu", "glamx", "gphix", "glamtt", "gphitt"}), "");
+  // OASIS: a prefix for each grid.
+  expect_all({"atm.lon", "atm.lat", "atm.clo", "atm.cla", "atm.msk", "atm.ang"});
+  EXPECT_EQ(parts_of({"atm.lon", "atm.clo", "atm.cla", "ocn.lat", "ocn.msk"}), "");
+  EXPECT_EQ(parts_of({"atm.lon", "atm.lat", "atm.sst", "lon"}), "atm.lon atm.lat");
+  expect_all({"connect1", "connect2", "coord", "coordx", "global_id1", "edge_type1", "eb_prop1",
+              "elem_num_map"});
+  EXPECT_EQ(parts_of({"coordx", "eb_prop1", "tas"}), "");
+  // Those that a topology of UGRID names.
+  std::vector<VariableHeader> headers = {header("mesh", {},
+                                                {{"cf_role", "mesh_topology"},
+                                                 {"node_coordinates", "nx ny"},
+                                                 {"face_node_connectivity", "faces"},
+                                                 {"long_name", "tas"}}),
+                                         header("nx", {"n"}), header("ny", {"n"}),
+                                         header("faces", {"n"}), header("tas", {"n"})};
+  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{false, true, true, true, false}));
+  headers[0].texts[0] = {"standard_name", "mesh_topology"};
+  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{false, true, true, true, false}));
+  headers[0].texts[0] = {"cf_role", "timeseries_id"};
+  EXPECT_EQ(parts_of_grids(headers), std::vector<bool>(5));
+}
+
+TEST(conventions, planes_are_named_by_an_attribute) {
+  EXPECT_TRUE(is_planar(Texts{{"on_a_sphere", "NO"}}));
+  EXPECT_TRUE(is_planar(Texts{{"title", "no"}, {"on_a_sphere", " no  "}}));
+  EXPECT_FALSE(is_planar(Texts{{"on_a_sphere", "YES"}}));
+  EXPECT_FALSE(is_planar(Texts{{"title", "NO"}}));
+  EXPECT_FALSE(is_planar(Texts{}));
 }
 
 }  // namespace

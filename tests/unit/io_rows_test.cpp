@@ -184,6 +184,17 @@ TEST(npy_rows, that_are_no_positions_or_no_doubles_are_refused) {
   EXPECT_TRUE(message_of_rows(file, 0, 2, 1).starts_with(odd + ": row 1"));
 }
 
+TEST(npy_rows, have_numbers_instead_of_lines) {
+  for (const std::size_t num_columns : {2U, 3U}) {
+    const std::string path = file_of(random_rows<float>(9, num_columns, 80), {});
+    const SiteTable table = read_sites(path);
+    EXPECT_EQ(table.first_line, 0U);
+    EXPECT_TRUE(table.lines.empty());
+    EXPECT_EQ(table.where(0), path + ": row 0");
+    EXPECT_EQ(table.where(8), path + ": row 8");
+  }
+}
+
 TEST(npy_rows, of_a_file_that_is_cut_meanwhile_are_told) {
   const std::vector<std::vector<double>> rows(100, {1, 2, 3});
   const std::string path = file_of(rows, {});
