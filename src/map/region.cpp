@@ -96,7 +96,10 @@ class RegionDrawing {
     if (!chains_.empty()) {
       std::vector<Loop> joined = stitched();
       loops_.insert(loops_.end(), joined.begin(), joined.end());
-    } else if (!loops_.empty() && has_border()) {
+    } else if (loops_.empty()) {
+      // All points of each ring are one on the map: the region is tiny, or its complement is.
+      border_ = BorderKnowledge::seems_outside;
+    } else if (has_border()) {
       loops_.push_back(border_loop());
     }
     return {std::move(loops_), border_};

@@ -52,6 +52,28 @@ TEST(write_bands, has_the_whole_map_where_there_is_one_band) {
             (Ring{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}, {-180, -90}}));
 }
 
+// The lines around a region that is smaller than the distance of equal points are gone: its complement is the map.
+TEST(write_bands, gives_the_map_to_the_band_without_lines_that_has_it) {
+  const std::string path = temporary_path("tiny.geojson");
+  constexpr double tiny = 4e-15;
+  const std::vector<Point> sites = {{1, 0, 0},         {1, tiny, 0},   {1, 0, tiny},
+                                    {1, -tiny, -tiny}, {-1, 0.1, 0.2}, {0, 1, 0.1},
+                                    {0.1, -1, 0},      {0, 0.1, 1},    {0.1, 0.05, -1}};
+  const Triangulation t = delaunay(sites);
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<double> values(sites.size(), 0);
+    values[0] = sign;
+    const Bands found = bands(t, values, std::vector<double>{sign / 2});
+    ASSERT_EQ(found.num_polygons(), 2U);
+    write_bands(path, found);
+    const auto document = read_json(path);
+    const std::size_t rest = sign > 0 ? 0 : 1;
+    EXPECT_EQ(ring_of(document["features"][rest]["geometry"]["coordinates"][0][0]),
+              (Ring{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}, {-180, -90}}));
+    EXPECT_TRUE(document["features"][1 - rest]["geometry"].is_null()) << document.dump();
+  }
+}
+
 // Lines around both poles, and one across the antimeridian.
 TEST(write_isolines, cuts_lines_at_the_antimeridian) {
   const std::string path = temporary_path("lines.geojson");

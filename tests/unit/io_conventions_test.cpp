@@ -305,6 +305,30 @@ TEST(conventions, unsigned_and_packed_numbers) {
   EXPECT_THROW(io::ValueRules{word}, io::BadValue);
 }
 
+// Every type of integers, by the highest bit, which "_Unsigned" gives another meaning.
+TEST(conventions, integers_of_every_type_may_be_unsigned) {
+  const auto expect = [](NetcdfType type, NetcdfType other, double size) {
+    const auto read = [&](NetcdfType of, const char* word, double value) {
+      return meant(of,
+                   {{"_Unsigned", NetcdfType::text, word, {}},
+                    numbers("_FillValue", of, {of == type ? -5 : 5.0})},
+                   {value, 7});
+    };
+    expect_same(read(type, "true", -size / 4), {size * 3 / 4, 7});
+    expect_same(read(type, "TRUE", -5), {not_there, 7});
+    expect_same(read(type, "false", -size / 4), {-size / 4, 7});
+    expect_same(read(other, "false", size * 3 / 4), {-size / 4, 7});
+    expect_same(read(other, "true", size * 3 / 4), {size * 3 / 4, 7});
+  };
+  expect(NetcdfType::int8, NetcdfType::uint8, 0x1p8);
+  expect(NetcdfType::int16, NetcdfType::uint16, 0x1p16);
+  expect(NetcdfType::int32, NetcdfType::uint32, 0x1p32);
+  expect(NetcdfType::int64, NetcdfType::uint64, 0x1p64);
+  for (const NetcdfType type : {NetcdfType::float32, NetcdfType::float64}) {
+    expect_same(meant(type, {{"_Unsigned", NetcdfType::text, "true", {}}}, {-1}), {-1});
+  }
+}
+
 TEST(conventions, dimensions_in_another_order) {
   Doubles values;
   for (double value = 0; value < 24; ++value) values.push_back(value);

@@ -87,6 +87,25 @@ TEST(overlay_written, pieces_cover_the_map_once) {
   EXPECT_NEAR(planar_sum(checked_rings(read_json(path), "pieces")), 360.0 * 180.0, 1e-6);
 }
 
+// All corners of a ring may be one point on the map, which has no lines then.
+TEST(overlay_written, complements_of_tiny_cells_are_the_map) {
+  const std::string path = temporary_path("tiny.geojson");
+  CellRings cells;
+  for (const Point& p : {Point{1, 0, 0}, Point{1, 4e-15, 0}, Point{1, 0, 4e-15}}) {
+    cells.points.push_back(p);
+  }
+  cells.corners = {0, 1, 2, 2, 1, 0};
+  cells.rings = {0, 3, 6};
+  cells.cells = {0, 1, 2};
+  write_regions(path, cells);
+  const auto document = read_json(path);
+  ASSERT_EQ(document["features"].size(), 2U);
+  EXPECT_TRUE(document["features"][0]["geometry"].is_null());
+  EXPECT_EQ(planar_sum(checked_rings(document, "tiny")), 360.0 * 180.0);
+  const LonLatRegions drawn = region_polygons(cells);
+  EXPECT_EQ(drawn.owners, std::vector<Index>{1});
+}
+
 TEST(overlay_written, properties_and_cells_without_rings) {
   const std::string path = temporary_path("properties.geojson");
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 30, 5));
