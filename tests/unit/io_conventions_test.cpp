@@ -116,6 +116,29 @@ TEST(conventions, coordinates_are_found_by_attributes_then_names) {
   EXPECT_THROW((void)find_coordinates({}, {"a", "", ""}), InvalidInput);
 }
 
+// Attributes of both coordinates say more than names, and standard names more than units.
+TEST(conventions, coordinates_are_ranked_by_what_says_that_they_are_some) {
+  const Texts east = {{"units", "degrees_east"}};
+  const Texts north = {{"units", "degrees_north"}};
+  const Texts x_axis = {{"_CoordinateAxisType", "Lon"}};
+  const Texts y_axis = {{"_CoordinateAxisType", "Lat"}};
+  const Texts longitude = {{"standard_name", "longitude"}};
+  const Texts latitude = {{"standard_name", "latitude"}};
+  const auto best_of = [](const Texts& lon, const Texts& lat, const Texts& a, const Texts& b) {
+    return best({header("lon", {"j", "i"}, lon), header("lat", {"j", "i"}, lat),
+                 header("a", {"y", "x"}, a), header("b", {"y", "x"}, b)});
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(best_of({}, {}, east, north), (Names{"a/b"}));
+  EXPECT_EQ(best_of({}, {}, x_axis, y_axis), (Names{"a/b"}));
+  EXPECT_EQ(best_of({}, {}, east, {}), (Names{"lon/lat"}));
+  EXPECT_EQ(best_of(east, north, longitude, latitude), (Names{"a/b"}));
+  EXPECT_EQ(best_of(longitude, latitude, east, north), (Names{"lon/lat"}));
+  EXPECT_EQ(best_of(east, {}, longitude, latitude), (Names{"a/b"}));
+  EXPECT_EQ(best_of(x_axis, y_axis, east, north), (Names{"lon/lat", "a/b"}));
+  EXPECT_EQ(best_of(north, east, {}, {}), (Names{"lat/lon"}));  // whatever their names are
+}
+
 TEST(conventions, listed_coordinates_come_before_axes_that_pretend) {
   const Texts east = {{"units", "degrees_east"}};
   const Texts north = {{"units", "degrees_north"}};

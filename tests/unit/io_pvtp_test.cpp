@@ -117,6 +117,21 @@ TEST(write_pvtp, replaces_pieces_that_were_made_here_and_nothing_else) {
   EXPECT_EQ(directory.num_files(), 2U);
 }
 
+TEST(write_pvtp, escapes_the_names_of_pieces) {
+  const TemporaryDirectory directory;
+  const SiteTable table = random_table(20);
+  const Triangulation t = delaunay(table.sites);
+  for (const auto& [name, escaped] : {std::pair("a\"b", "a&quot;b"), std::pair("<a>", "&lt;a>"),
+                                      std::pair("a&&b", "a&amp;&amp;b"), std::pair("a'b", "a'b")}) {
+    const std::string path = directory.file(std::string(name) + ".pvtp");
+    write_triangles(path, table, t);
+    EXPECT_NE(read_all(path).find("<Piece Source=\"" + std::string(escaped) + "/"),
+              std::string::npos)
+        << read_all(path);
+    EXPECT_TRUE(fs::is_directory(directory.file(name)));
+  }
+}
+
 TEST(write_pvtp, says_what_cannot_be_written) {
   const TemporaryDirectory directory;
   const SiteTable table = random_table(10);

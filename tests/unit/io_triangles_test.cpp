@@ -236,6 +236,30 @@ TEST(write_triangles, geojson_without_faces_has_no_features) {
   EXPECT_EQ(nlohmann::json::parse(read_all(path)).at("features").size(), 0U);
 }
 
+TEST(write_triangles, refuses_the_sites_of_another_triangulation) {
+  const TemporaryDirectory directory;
+  const Case c = random_case(20);
+  const auto refused_at = [&](const SiteTable& table) -> std::size_t {
+    try {
+      write_triangles(directory.file("a.ply"), table, c.triangulation);
+    } catch (const InvalidInput& error) {
+      EXPECT_STREQ(error.what(), "the sites of the table are not those of the triangulation");
+      return error.index();
+    }
+    return no_index;
+  };
+  SiteTable table = c.table;
+  EXPECT_EQ(refused_at(table), no_index);
+  table.sites[7] = {0, 0, 1};
+  EXPECT_EQ(refused_at(table), 7U);
+  table.sites = {c.table.sites.begin(), c.table.sites.end() - 1};
+  EXPECT_EQ(refused_at(table), 19U);
+  table.sites = c.table.sites;
+  table.sites.push_back({0, 0, 1});
+  EXPECT_EQ(refused_at(table), 20U);
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
 TEST(write_triangles, lists_the_endings_that_it_knows) {
   const Case c = random_case(4);
   EXPECT_FALSE(can_write_triangles("a.csv"));
