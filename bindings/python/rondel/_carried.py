@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._coordinates import coordinates_and_parts, lies_elsewhere, parts_of_grids
+from ._coordinates import describes_places, lies_elsewhere, parts_of_grids
 from ._errors import warn_caller
 from ._places import Places
 from ._values import OF_VALUES, missing_marker, unpacked
@@ -124,14 +124,15 @@ def _tell_of_others(
 
 def _tell_of_coordinates(data: Any, source: Places) -> None:
     """Warns of coordinates of the places, such as their areas, which are no fields to carry."""
-    own_names = source.own_names | coordinates_and_parts(data)
     lost = [
         str(name)
         for name, array in data.coords.items()
         if set(source.dims) & set(array.dims)
-        and str(name) not in own_names
+        and str(name) not in source.own_names
         and name not in data.indexes
     ]
+    own = describes_places(data, lost) if lost else set()
+    lost = [name for name in lost if name not in own]
     if lost:
         warn_caller(
             "left out, as they are coordinates of the source's places (reset_coords() makes them "

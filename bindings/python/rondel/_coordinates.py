@@ -166,14 +166,17 @@ def parts_of_grids(data: Any) -> set[str]:
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
 
 
-def coordinates_and_parts(data: Any) -> set[str]:
-    """The variables that are longitudes or latitudes of any places, bounds, or parts of a grid."""
+def describes_places(data: Any, names: list[str]) -> set[str]:
+    """Those of the variables that are longitudes or latitudes of any places, their bounds, or parts
+    of a grid.
+    """
     headers = _headers(data)
-    found = parts_of_grids(data)
-    for k, (name, _, _, _, texts) in enumerate(headers):
-        found |= {text for attribute, text in texts if attribute == "bounds"}
-        pairs = _core.coordinates_of(headers, k)
-        if any(k in pair for pair in pairs):
+    positions = {header[0]: k for k, header in enumerate(headers)}
+    bounds = {dict(header[4]).get("bounds", "") for header in headers}
+    found = (parts_of_grids(data) | bounds) & {*names}
+    for name in names:
+        pairs = _core.coordinates_of(headers, positions[name])
+        if any(positions[name] in pair for pair in pairs):
             found.add(name)
     return found
 

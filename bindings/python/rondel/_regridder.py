@@ -59,10 +59,10 @@ class Regridder(Described):
         points, in degrees, or in radians if the attribute `units` says so. Conservative methods
         take the cells from the coordinates' attribute `bounds`, or from `lon_b` and `lat_b`; cells
         of axes without these end half way between their centers. A variable `mask`, also among the
-        coordinates of a DataArray, is 0 or missing where places take no part, and the masks of
-        SCRIP (`grid_imask`) and OASIS count. Masked elements of NumPy arrays count as NaN. Places without
-        longitude or latitude, and cells with a missing corner, are left out with a warning that
-        counts them.
+        coordinates of a DataArray, is 0 or missing where places take no part. The masks of SCRIP
+        (`grid_imask`) and OASIS are heeded, too. Masked elements of NumPy arrays count as NaN.
+        Places without longitude or latitude, and cells with a missing corner, are left out with a
+        warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in

@@ -74,8 +74,11 @@ def test_coordinates_of_the_places_that_are_left_out_are_told(carry, of):
     )
     data.lon.attrs["bounds"] = "lon_bnds"
     data = data if of == "Dataset" else data.t
+    regridder = rondel.Regridder({"lon": LON, "lat": LAT}, TARGET, "bilinear")
     with pytest.warns(UserWarning, match=r"coordinates of the source's places .*: area, zone$"):
         found = carry(data)
+    with pytest.warns(UserWarning, match=": area, zone$"):
+        regridder(data)
     assert {"run", "day", "time"} <= set(found.coords)
     assert not {"area", "zone", "lon_bnds"} & set(found.coords)
 
