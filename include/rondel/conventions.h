@@ -169,7 +169,7 @@ struct ValueAttribute {
 };
 
 /// Replaces missing values by NaN, by the rules of read_fields(), among values that another reader
-/// has already unpacked. Without `_FillValue`, the number that netCDF writes where no value was
+/// has already unpacked, in double or in single precision. Without `_FillValue`, the number that netCDF writes where no value was
 /// written is missing as well.
 /// \param type  NumPy's name of the type of the numbers in the file, "f4", "i2" ...
 /// \throws InvalidInput for another type, and for a scale_factor or add_offset that is not one

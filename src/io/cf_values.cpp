@@ -238,26 +238,45 @@ void ValueRules::apply(std::span<double> values) const {
   }
 }
 
-// Different integers are a scale_factor apart, and unpacking in single precision moves them by less
-// than a quarter of that, which is the tolerance here.
+// Whoever unpacked the values may have done so in single precision, which rounds three times at
+// most: the scale_factor, the product, the sum.
 void ValueRules::apply_to_unpacked(std::span<double> values) const {
-  const double slack = is_packed() && !is_floating(type_) ? std::abs(scale_) / 4 : 0;
-  const auto unpacked = [&](double value) { return value * scale_ + offset_; };
-  double lowest = has_unpacked_range_ ? lowest_ : unpacked(scale_ < 0 ? highest_ : lowest_);
-  double highest = has_unpacked_range_ ? highest_ : unpacked(scale_ < 0 ? lowest_ : highest_);
-  if (!has_unpacked_range_) {
-    lowest -= slack;
-    highest += slack;
-  }
   for (double& value : values) {
-    const auto is_one = [&](double missing) {
-      return is_packed() ? std::abs(value - unpacked(missing)) <= slack : value == missing;
-    };
-    const bool is_lost = std::ranges::any_of(missing_, is_one) ||
-                         std::ranges::any_of(rounded_missing_, is_one) ||
-                         (!is_packed() && is_missing(value));
-    if (is_lost || value < lowest || value > highest) value = no_number;
+    const bool is_single = std::abs(value) <= std::numeric_limits<float>::max() &&
+                           static_cast<double>(static_cast<float>(value)) == value;
+    const double rounding =
+        3 * (is_single ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                       : std::numeric_limits<double>::epsilon());
+    if (is_lost(value, is_packed() ? rounding : 0)) value = no_number;
   }
+}
+
+// Different integers are a scale_factor apart, so that an unpacked value nearer to one of them than a
+// quarter of that is that integer, and the rules of the file hold for it.
+bool ValueRules::is_lost(double value, double rounding) const {
+  const auto slack = [&](double number) {
+    return rounding * (std::abs(number * scale_) + std::abs(offset_));
+  };
+  const double quarter = is_packed() && !is_floating(type_) ? std::abs(scale_) / 4 : 0;
+  const auto is_one = [&](double missing) {
+    const double away = std::abs(value - (missing * scale_ + offset_));
+    return is_packed() ? away <= std::max(quarter, slack(missing)) : value == missing;
+  };
+  if (std::ranges::any_of(missing_, is_one) || std::ranges::any_of(rounded_missing_, is_one) ||
+      (!is_packed() && is_missing(value)))
+    return true;
+  double number = is_packed() ? (value - offset_) / scale_ : value;
+  const double integer = std::nearbyint(number);
+  const bool is_integer = quarter > 0 && std::abs(number - integer) <= 0.25;
+  if (is_integer) number = integer;
+  if (has_unpacked_range_) {
+    const double unpacked = is_integer ? integer * scale_ + offset_ : value;
+    return unpacked < lowest_ || unpacked > highest_;
+  }
+  const auto beyond = [&](double bound) {
+    return std::abs(value - (bound * scale_ + offset_)) > slack(bound);
+  };
+  return (number < lowest_ && beyond(lowest_)) || (number > highest_ && beyond(highest_));
 }
 
 }  // namespace rondel::io

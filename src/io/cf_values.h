@@ -50,6 +50,7 @@ class RONDEL_API ValueRules {
                   const std::string& what);
   [[nodiscard]] double as_type(double value) const;
   [[nodiscard]] bool is_missing(double value) const;
+  [[nodiscard]] bool is_lost(double value, double rounding) const;
 
   NetcdfType type_;
   double wrapped_ =

@@ -13,6 +13,9 @@ from ._types import ArrayLike, FloatArray
 from ._weights import Weights
 
 _CYCLIC_DEG = 1e-4  # a turn in float32 is known so well
+# How far from a row or column a target is still at it: what is lost where coordinates are shifted
+# by turns, in double and in single precision.
+_ROUNDING_DEG, _SINGLE_DEG = 1e-9, 1e-4
 
 
 def bilinear_weights(
@@ -22,7 +25,8 @@ def bilinear_weights(
 
     Beyond the last row of a grid that goes around the globe the mean of that row is at the pole.
     A column that repeats the first one a turn later takes no part. Axes that decrease give what
-    the same places give in increasing order.
+    the same places give in increasing order. Targets that are apart from a row or column by no
+    more than the rounding of coordinates are at it, also beyond the last one.
 
     Parameters
     ----------
@@ -43,8 +47,9 @@ def bilinear_weights(
     columns, rows_of_grid = _increasing(every_lon), _increasing(every_lat)
     columns = columns[every_lon[columns] < every_lon[columns[0]] + 360 - _CYCLIC_DEG]
     lons, lats = every_lon[columns], every_lat[rows_of_grid]
-    west, east, across, is_in = _between_meridians(lons, x)
-    south, along = _between(lats, y)
+    slack = _slack(lons, lats, (lon, lat, to_lon, to_lat))
+    west, east, across, is_in = _between_meridians(lons, x, slack)
+    south, along = _between(lats, y, slack)
     inside = (along >= 0) & (along <= 1) & is_in
     nlon, rows = len(lons), np.arange(len(x))
     parts = [
@@ -110,19 +115,32 @@ def _is_around(lons: FloatArray) -> bool:
 
 
 # The row of an increasing axis before each value, and how far it is from there to the next one,
-# in steps.
-def _between(axis: FloatArray, values: FloatArray) -> tuple[Any, FloatArray]:
+# in steps; 0 or 1 where it is no farther than the slack from one of the two.
+def _between(axis: FloatArray, values: FloatArray, slack: float) -> tuple[Any, FloatArray]:
     first = np.searchsorted(axis, values, side="right") - 1
     first = np.clip(first, 0, len(axis) - 2)
-    return first, (values - axis[first]) / (axis[first + 1] - axis[first])
+    share = (values - axis[first]) / (axis[first + 1] - axis[first])
+    for end, place in ((0.0, axis[first]), (1.0, axis[first + 1])):
+        share = np.where(np.abs(values - place) <= slack, end, share)
+    return first, share
+
+
+def _slack(lons: FloatArray, lats: FloatArray, given: Any) -> float:
+    """The rounding of the coordinates, but never more than a thousandth of a step."""
+    kinds = [np.asarray(each).dtype for each in given]
+    is_single = any(kind.kind == "f" and kind.itemsize < 8 for kind in kinds)
+    step = min(float(np.diff(lons).min()), float(np.diff(lats).min()))
+    return min(_SINGLE_DEG if is_single else _ROUNDING_DEG, step / 1000)
 
 
 # The columns on both sides of each longitude, the share of the second, and whether it is between.
-def _between_meridians(lons: FloatArray, x: FloatArray) -> tuple[Any, Any, FloatArray, Any]:
+def _between_meridians(
+    lons: FloatArray, x: FloatArray, slack: float
+) -> tuple[Any, Any, FloatArray, Any]:
     axis = np.append(lons, lons[0] + 360) if _is_around(lons) else lons
     wrapped = lons[0] + np.mod(x - lons[0], 360)
-    wrapped = np.where(wrapped > axis[-1], wrapped - 360, wrapped)
-    west, across = _between(axis, wrapped)
+    wrapped = np.where(wrapped > axis[-1] + slack, wrapped - 360, wrapped)
+    west, across = _between(axis, wrapped, slack)
     return west, (west + 1) % len(lons), across, (across >= 0) & (across <= 1)
 
 

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._coordinates import lies_elsewhere, missing_marker, parts_of_grids, unpacked
+from ._coordinates import describes_places, lies_elsewhere, parts_of_grids
 from ._errors import warn_caller
 from ._places import Places
+from ._values import OF_VALUES, missing_marker, unpacked
 from ._weights import Weights
 
 _AWAY = "as their longitudes and latitudes are not those of the source"
@@ -25,12 +26,15 @@ def carried(
     *,
     skipna: bool,
     most_missing: float,
-    fill: float = np.nan,
+    unmapped: float = np.nan,
     keep_attrs: bool = True,
 ) -> Any:
-    """A Dataset or DataArray at other places."""
+    """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
+    contributes to, while those that need a missing value have NaN.
+    """
     data = unpacked(data)
     source.require_same(data)
+    without_source = np.diff(weights.indptr) == 0
 
     def applied(values: Any, marker: Any) -> Any:
         dtype = _kind(values)
@@ -38,7 +42,9 @@ def carried(
             values = marker(values)
         leading = values.shape[: values.ndim - len(source.dims)]
         fields = values.reshape(*leading, source.lon.size)
-        found = weights.apply(fields, skipna=skipna, most_missing=most_missing, fill=fill)
+        found = weights.apply(fields, skipna=skipna, most_missing=most_missing)
+        if not np.isnan(unmapped):
+            found[..., without_source] = unmapped
         shape = (*found.shape[:-1], *wanted.shape)
         return found.reshape(shape).astype(dtype, copy=False)
 
@@ -64,8 +70,11 @@ def carried(
                 "allow_rechunk": True,
             },
         )
+        # These are of the numbers in a file, and may be of packed ones.
+        found.attrs = {name: text for name, text in found.attrs.items() if name not in OF_VALUES}
         return found.assign_coords(wanted.coordinates)
 
+    _tell_of_coordinates(data, source)
     if isinstance(data, xarray.DataArray):
         return moved(data)
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
@@ -110,6 +119,24 @@ def _tell_of_others(
     if parts:
         warn_caller(
             f"left out, as they have only some of the dimensions {names}: {', '.join(parts)}"
+        )
+
+
+def _tell_of_coordinates(data: Any, source: Places) -> None:
+    """Warns of coordinates of the places, such as their areas, which are no fields to carry."""
+    lost = [
+        str(name)
+        for name, array in data.coords.items()
+        if set(source.dims) & set(array.dims)
+        and str(name) not in source.own_names
+        and name not in data.indexes
+    ]
+    own = describes_places(data, lost) if lost else set()
+    lost = [name for name in lost if name not in own]
+    if lost:
+        warn_caller(
+            "left out, as they are coordinates of the source's places (reset_coords() makes them "
+            f"variables): {', '.join(lost)}"
         )
 
 

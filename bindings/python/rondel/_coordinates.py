@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Coordinates, bounds and missing values of a Dataset, as the C++ library finds them."""
+"""Coordinates and bounds of a Dataset, as the C++ library finds them."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import xarray
@@ -13,6 +13,8 @@ import xarray
 from . import _core
 from ._types import FloatArray
 
+# What to do with dimensions along which places do not change: drop all, those called time, or none.
+Repeats: TypeAlias = Literal["drop", "drop_times", "keep"]
 MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
 
 
@@ -43,7 +45,13 @@ _VALUES = "values of a DataArray"
 class Coordinates:
     """Longitudes and latitudes of a Dataset or DataArray, by the rules of the C++ library."""
 
-    def __init__(self, data: Any, lon: Hashable | None, lat: Hashable | None) -> None:
+    def __init__(
+        self,
+        data: Any,
+        lon: Hashable | None,
+        lat: Hashable | None,
+        repeats: Repeats = "drop",
+    ) -> None:
         headers = _headers(data)
         attributes = [(str(key), text) for key, text in data.attrs.items() if isinstance(text, str)]
         if lon is None and lat is None and _core.is_planar(attributes):
@@ -75,7 +83,10 @@ class Coordinates:
         self.remarks = [text for text in remarks if self.lon_name in text or self.lat_name in text]
         self.lon = self._read(self.lon_name, units[0])
         self.lat = self._read(self.lat_name, units[1])
-        self._drop_repeated()
+        if not self.are_axes and self.lon.ndim >= 2:
+            self.lat = self.lat.transpose(*self.lon.dims)
+            if repeats != "keep":
+                self._drop_repeated(are_times=repeats == "drop_times")
 
     def _read(self, name: str, unit: float) -> xarray.Variable:
         variable = self._data[name].variable
@@ -86,18 +97,19 @@ class Coordinates:
         attrs = {**variable.attrs, "standard_name": standard_name, "units": units}
         return xarray.Variable(variable.dims, degrees, attrs)
 
-    def _drop_repeated(self) -> None:
+    def _drop_repeated(self, *, are_times: bool) -> None:
         """Takes the first along dimensions in which places do not change, as time of WRF."""
-        if self.are_axes or self.lon.ndim < 2:
-            return
-        self.lat = self.lat.transpose(*self.lon.dims)
         flat = [
             np.ascontiguousarray(array.values, np.float64).reshape(-1)
             for array in (self.lon, self.lat)
         ]
         names = [str(dim) for dim in self.lon.dims]
         repeated = _core.repeated_dimensions(names, list(self.lon.shape), *flat)
-        first = {dim: 0 for dim, is_same in zip(self.lon.dims, repeated, strict=True) if is_same}
+        first = {
+            dim: 0
+            for dim, is_same in zip(self.lon.dims, repeated, strict=True)
+            if is_same and (_is_time(str(dim)) or not are_times)
+        }
         self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
 
     def is_same(self, other: Coordinates) -> bool:
@@ -142,11 +154,31 @@ class Coordinates:
         return made
 
 
-def parts_of_grids(data: xarray.Dataset) -> set[str]:
+def _is_time(name: str) -> bool:
+    """Whether the library takes a dimension of this name for time: it drops one place of it."""
+    return _core.repeated_dimensions([name, "place"], [1, 2], np.array([0.0, 1]), np.zeros(2))[0]
+
+
+def parts_of_grids(data: Any) -> set[str]:
     """The variables that describe a mesh or grid, as the numbers of neighbors: no fields."""
     headers = _headers(data)
     parts = _core.parts_of_grids(headers)
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
+
+
+def describes_places(data: Any, names: list[str]) -> set[str]:
+    """Those of the variables that are longitudes or latitudes of any places, their bounds, or parts
+    of a grid.
+    """
+    headers = _headers(data)
+    positions = {header[0]: k for k, header in enumerate(headers)}
+    bounds = {dict(header[4]).get("bounds", "") for header in headers}
+    found = (parts_of_grids(data) | bounds) & {*names}
+    for name in names:
+        pairs = _core.coordinates_of(headers, positions[name])
+        if any(positions[name] in pair for pair in pairs):
+            found.add(name)
+    return found
 
 
 def pairs_of_values(data: xarray.DataArray) -> list[tuple[str, str]]:
@@ -204,77 +236,30 @@ def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashab
     )
 
 
-def unpacked(data: Any) -> Any:
-    """The Dataset or DataArray with integers unpacked whose attributes say that they are packed or
-    of the other sign, as after ``open_dataset(mask_and_scale=False)``.
+def with_dimensions(data: Any, names: dict[Hashable, Hashable]) -> Any:
+    """The Dataset or DataArray with other names of dimensions, while coordinates keep theirs; those
+    along several dimensions that have the new name of one are left out.
     """
-    is_array = isinstance(data, xarray.DataArray)
-    variables = data.coords.variables if is_array else data.variables
-    packed = {name: item for name, item in variables.items() if _is_packed(item)}
-    own = [data.variable] if is_array and _is_packed(data) else []
-    if not packed and not own:
-        return data
-    parts = {f"packed_{k}": part for k, part in enumerate((*packed.values(), *own))}
-    found = list(
-        xarray.decode_cf(
-            xarray.Dataset(parts), decode_times=False, decode_coords=False, concat_characters=False
-        ).variables.values()
-    )
-    if own:
-        data = data.copy(data=found[-1].data)
-        data.attrs, data.encoding = found[-1].attrs, found[-1].encoding
-    taken = {name: found[k] for k, name in enumerate(packed)}
-    coords = {name: taken.pop(name) for name in list(taken) if name in data.coords}
-    data = data.assign_coords(coords) if coords else data
-    return data.assign(taken) if taken else data
+    kept = set(data.dims) - set(names)
+    for new in names.values():
+        if new in kept:
+            raise ValueError(
+                f"the data have a dimension {new!r} that is not the source's: rename it"
+            )
 
+    def renamed(variable: Any) -> Any:
+        made = variable.to_base_variable()
+        made.dims = tuple(names.get(dim, dim) for dim in made.dims)
+        return made
 
-def _is_packed(item: Any) -> bool:
-    """Whether numbers of a file are integers that xarray can unpack and has not."""
-    factors = [np.asarray(item.attrs[name]) for name in _PACKING if name in item.attrs]
-    are_numbers = all(f.size == 1 and f.dtype.kind in "iuf" and np.isfinite(f) for f in factors)
-    return item.dtype.kind in "iu" and are_numbers and (bool(factors) or "_Unsigned" in item.attrs)
-
-
-_OF_VALUES = ("_FillValue", "missing_value", "valid_min", "valid_max", "valid_range", "_Unsigned")
-_PACKING = ("scale_factor", "add_offset")
-
-
-def _code(dtype: Any) -> str | None:
-    """The name of a type that netCDF has, such as "f4"."""
-    is_known = dtype.kind in "iu" or (dtype.kind == "f" and dtype.itemsize in (4, 8))
-    return f"{dtype.kind}{dtype.itemsize}" if is_known else None
-
-
-def missing_marker(array: xarray.DataArray) -> Any:
-    """A function that makes NaN of what the attributes call missing, or None; xarray heeds
-    `_FillValue` and `missing_value` when it opens a file, but no `valid_range`, nor the numbers
-    that netCDF writes where nobody wrote.
-    """
-    of_file = array.encoding.get("dtype")
-    stored = np.dtype(of_file if isinstance(of_file, (np.dtype, type)) else array.dtype)
-    texts = {**array.encoding, **array.attrs}
-    # xarray remembers in `encoding` how it unpacked the values.
-    known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
-    known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
-    stored_kind = _code(stored)
-    if stored_kind is None or (of_file is None and not known):
-        return None
-    attributes: list[tuple[str, str, str, list[float]]] = []
-    for name, value in known.items():
-        if isinstance(value, str):
-            attributes.append((name, "", value, []))
-            continue
-        numbers = np.atleast_1d(np.asarray(value))
-        kind = _code(numbers.dtype)
-        if kind is not None:
-            attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
-    if of_file is None and "_FillValue" not in known:
-        attributes.append(("_FillValue", "f8", "", [np.nan]))
-
-    def marked(values: Any) -> Any:
-        found = np.array(values, np.float64, order="C")
-        _core.mark_missing(found.reshape(-1), stored_kind, attributes)
-        return found
-
-    return marked
+    known = (data.coords if isinstance(data, xarray.DataArray) else data).variables
+    variables = {name: renamed(item) for name, item in known.items()}
+    taken = {
+        name: item
+        for name, item in variables.items()
+        if name not in names.values() or item.dims == (name,)
+    }
+    if isinstance(data, xarray.DataArray):
+        return xarray.DataArray(renamed(data.variable), coords=taken, name=data.name)
+    made = xarray.Dataset(taken, attrs=data.attrs)
+    return made.set_coords([name for name in data.coords if name in made])

@@ -10,14 +10,23 @@ from typing import Any
 import numpy as np
 import xarray
 
-from ._arrays import as_mask, degrees_of, in_words, point_set_hash, unit_vectors, unmasked
-from ._coordinates import MARKS, Coordinates, is_away, pairs_of_values, unpacked
+from ._arrays import in_words, point_set_hash, unit_vectors, unmasked
+from ._coordinates import (
+    MARKS,
+    Coordinates,
+    Repeats,
+    is_away,
+    pairs_of_values,
+    with_dimensions,
+)
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
+from ._masks import mask_of_convention, mask_of_variable
 from ._partition import Partition, axis_lines
 from ._types import BoolArray, FloatArray
-from ._weight_files import MOST_APART, Side
+from ._values import unpacked
+from ._weight_files import MOST_APART, Side, are_near
 from ._weights import Weights
 
 # The names of columns that tables usually have.
@@ -35,6 +44,7 @@ class Places:
         *,
         are_points: bool = False,
         are_pairs: bool = False,
+        are_targets: bool = False,
     ) -> None:
         given = data
         self._partition = data if isinstance(data, Partition) else None
@@ -56,11 +66,13 @@ class Places:
                 "places are a Dataset, a DataArray, a dictionary or table with lon and lat, a "
                 f"tuple (lon, lat) or a Partition, not {type(data).__name__}"
             )
+        # Places of a Dataset may repeat along time; in arrays each of them counts.
+        repeats: Repeats = "drop_times" if are_targets else "drop"
         if data is not given:
-            lon, lat = "lon", "lat"
+            lon, lat, repeats = "lon", "lat", "keep"
         data = unpacked(data)
         self._data = data
-        self._found = Coordinates(data, lon, lat)
+        self._found = Coordinates(data, lon, lat, repeats)
         lons, lats = self._found.lon, self._found.lat
         # Two axes of a grid: the latitudes come first, as usual.
         south, west = xarray.broadcast(xarray.DataArray(lats), xarray.DataArray(lons))
@@ -73,11 +85,18 @@ class Places:
                 raise TypeError(f"{name!r} must be numbers, not {in_words(values)}")
         located = np.isfinite(self.lon) & np.isfinite(self.lat)
         self._located = None if located.all() else located.reshape(-1)
+        self._used = self._located
         if self._located is not None:
             count = int(np.count_nonzero(~self._located))
             warn_caller(
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
             )
+        found = mask_of_convention(data, self._found.lon_name, self.dims)
+        if found is not None:
+            name, mask = found
+            count = int(np.count_nonzero(~mask))
+            warn_caller(f"{count} of {mask.size} cells are masked by {name!r}")
+            self._used = mask if self._located is None else mask & self._located
 
     def require_same(self, data: Any) -> None:
         """Refuses data that have coordinates of the same names with other values."""
@@ -115,6 +134,38 @@ class Places:
                 f"{name} are at {elsewhere}, which are not the places of the source "
                 f"({self._found.lon_name} and {self._found.lat_name})"
             )
+
+    def are_at(self, pairs: FloatArray) -> bool:
+        """Whether the places are those of a file, shape (n, 2) in degrees, NaN for none; true if
+        the file has none.
+        """
+        if len(pairs) == 0:
+            return True
+        used = np.isfinite(pairs).all(axis=1)
+        if self._used is not None:
+            used &= self._used
+        return bool(are_near(self.pairs(), pairs)[used].all())
+
+    def along_cells(self, data: Any) -> tuple[Any, Places]:
+        """The data and these places, or, if the places are the cells of a partition, which the data
+        have along one dimension of any name, both along that.
+        """
+        n = self.lon.size
+        if self._partition is None or set(self.dims) <= set(data.dims):
+            return data, self
+        is_array = isinstance(data, xarray.DataArray)
+        if is_array and data.shape[-len(self.shape) :] == self.shape:
+            return data, self
+        found = [
+            dim for dim in (data.dims[-1:] if is_array else data.sizes) if data.sizes[dim] == n
+        ]
+        if len(found) != 1:
+            return data, self
+        flat = Partition._of(
+            self._partition._partition, self._partition._mask, file_centers=self.pairs()
+        )
+        places = Places(flat)
+        return with_dimensions(data, {found[0]: places.dims[0]}), places
 
     def _are_here(self, lon: Any, lat: Any) -> bool:
         east = np.asarray(lon, np.float64) - np.asarray(self.lon, np.float64)
@@ -162,21 +213,15 @@ class Places:
         return self._found.lon.values, self._found.lat.values
 
     def mask(self) -> BoolArray | None:
-        """Which take part: those with a place where `mask` is neither 0 nor missing."""
+        """Which take part: those with a place, where no mask of a convention leaves it out and
+        `mask` is neither 0 nor missing.
+        """
         if self._partition is not None:
             return self._partition.mask
-        if isinstance(self._data, xarray.DataArray) or "mask" not in self._data:
-            return self._located
-        given = self._data["mask"]
-        others = [dim for dim in given.dims if dim not in self.dims]
-        if len(given.dims) != len(others) + len(self.dims):
-            raise ValueError(f"mask has the dimensions {given.dims}, not {self.dims}")
-        masks = as_mask(given.transpose(*others, *self.dims).values, "mask")
-        masks = masks.reshape(-1, np.prod(masks.shape[len(others) :], dtype=int))
-        if len(masks) == 0 or not (masks == masks[0]).all():
-            raise ValueError(f"mask changes along {', '.join(map(str, others))}: choose one")
-        mask = masks[0]
-        return mask if self._located is None else mask & self._located
+        mask = mask_of_variable(self._data, self.dims)
+        if mask is None or self._used is None:
+            return self._used if mask is None else mask
+        return mask & self._used
 
     def side(self) -> Side:
         """What a file of weights says of the places."""
@@ -196,10 +241,10 @@ class Places:
         return delaunay_lonlat(lon, lat, threads=threads), numbers
 
     def weights_to(self, target: Places, method: Any, **options: Any) -> Weights:
-        """Weights for the places that take part; the other targets have no entries."""
-        tri, numbers = self.triangulated(self._located, options.get("threads"))
+        """Weights of the places that take part; targets that are nowhere have no entries."""
+        tri, numbers = self.triangulated(self._used, options.get("threads"))
         made = tri.weights(target.points(), method, **options)
-        if self._located is None and target._located is None:
+        if self._used is None and target._located is None:
             return made
         offsets, columns, data = made.indptr, numbers[made.indices], made.data
         if target._located is not None:
@@ -328,9 +373,9 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 
 
 def _centers(partition: Partition) -> xarray.Dataset:
-    """The cells' centers of mass; dimensions as the partition has them."""
+    """The places of the cells: those of the file or the axes, or else the centers of mass."""
     dims = ("y", "x") if len(partition.shape) == 2 else ("cell",)
-    degrees = degrees_of(partition.centers).reshape(*partition.shape, 2)
+    degrees = partition._degrees().reshape(*partition.shape, 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 

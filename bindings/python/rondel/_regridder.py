@@ -14,7 +14,7 @@ from ._bilinear import bilinear_weights
 from ._geo import Path
 from ._remap import Remap, remap
 from ._repr import Described, count
-from ._reuse import reused
+from ._reuse import reused, said_method
 from ._types import BoolArray, Progress
 from ._weight_files import write_weights
 from ._weights import Weights
@@ -58,10 +58,11 @@ class Regridder(Described):
         names (docs/guide/formats.md); they are axes of a grid, curvilinear coordinates, or those of
         points, in degrees, or in radians if the attribute `units` says so. Conservative methods
         take the cells from the coordinates' attribute `bounds`, or from `lon_b` and `lat_b`; cells
-        of axes without these end half way between their centers. A variable `mask` is 0 or missing
-        where places take no part. Masked elements of NumPy arrays count as NaN. Places without
-        longitude or latitude, and cells with a missing corner, are left out with a warning that
-        counts them.
+        of axes without these end half way between their centers. A variable `mask`, also among the
+        coordinates of a DataArray, is 0 or missing where places take no part. The masks of SCRIP
+        (`grid_imask`) and OASIS are heeded, too. Masked elements of NumPy arrays count as NaN.
+        Places without longitude or latitude, and cells with a missing corner, are left out with a
+        warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in
@@ -75,11 +76,14 @@ class Regridder(Described):
     extrap_method : {None, 'nearest_s2d'}, optional
         The value of targets that no source covers: none (default), or that of the nearest source.
     unmapped_to_nan : bool, optional
-        Whether targets without a value are NaN (default True) or 0.
+        Whether targets to which no source contributes are NaN (default True) or 0. As in xESMF, a
+        target that needs a missing value is NaN in any case, and so are all targets without a value
+        where a mask leaves out some; unlike there, 0 stays 0 with `skipna`, too.
     weights : path-like or Weights, optional
-        Those of `to_netcdf` of a former one, with the same grids, masks and method; others are
-        refused where the file or the entries say so: the places of both sides, and with
-        conservative methods the corners of the cells, may be 1e-4 degrees off.
+        Those of `to_netcdf` of a former one, with the same grids, masks, method and
+        `extrap_method`; others are refused where the file or the entries say so: the places of both
+        sides, and with conservative methods the corners of the cells, may be 1e-4 degrees off.
+        Those without extrapolation get the one that is wanted.
     overlap : {'error', 'first', 'share'}, optional
         What conservative methods do if cells of one grid overlap; as in `remap`, by default
         'error'.
@@ -171,18 +175,21 @@ class Regridder(Described):
                 )
             weights = filename
         self.filename = filename
+        self._extrap_method = extrap_method
         self._remap: Remap | None = None  # what a file says of conservative weights
         self.method = method
         self._source = Places(ds_in, lon, lat, are_points=locstream_in)
-        self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out)
-        self._fill = np.nan if unmapped_to_nan else 0.0
+        self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True)
+        mask = self._target.mask()
+        is_nan = unmapped_to_nan or (mask is not None and not mask.all())
+        self._unmapped = np.nan if is_nan else 0.0
         if weights is None:
             found = _made(self._source, self._target, method, overlap, threads, progress)
             made = found.weights if isinstance(found, Remap) else found
             if extrap_method is None and isinstance(found, Remap):
                 self._remap = found
         else:
-            made = reused(weights, method, self._source, self._target, threads)
+            made = reused(weights, method, extrap_method, self._source, self._target, threads)
         if extrap_method is not None:
             made = _filled(made, self._source, self._target)
         if weights is None:
@@ -210,9 +217,11 @@ class Regridder(Described):
         data : array_like, DataArray or Dataset
             Fields on the source grid; integers that their attributes call packed are unpacked. The
             last axes of an array have the shape `shape_in`; a
-            DataArray has the dimensions of the source, or last dimensions of that shape.
+            DataArray has the dimensions of the source, or last dimensions of that shape. Data for
+            the cells of a `Partition` may have them along one dimension of any name.
         keep_attrs : bool, optional
-            Whether to keep attributes; by default False.
+            Whether to keep attributes, but for those that say which numbers are missing; by default
+            False.
         skipna : bool, optional
             Whether to leave out missing values; by default False, with which a target that needs a
             missing value is missing.
@@ -225,7 +234,8 @@ class Regridder(Described):
         ndarray, DataArray or Dataset
             The fields on the target grid, in the type of `data`; booleans become 0 and 1. Variables
             of a Dataset that depend on place and are no numbers, or have only some of the source's
-            dimensions, are left out with a warning that names them. Arrays of Dask stay lazy.
+            dimensions, and coordinates of the places are left out with a warning that names them.
+            Arrays of Dask stay lazy.
 
         Raises
         ------
@@ -239,54 +249,40 @@ class Regridder(Described):
         import xarray
 
         from ._carried import carried
-        from ._coordinates import unpacked
+        from ._coordinates import with_dimensions
+        from ._values import unpacked
 
-        options: Any = {"skipna": skipna, "most_missing": na_thres, "fill": self._fill}
-        dims = self._source.dims
+        options: Any = {
+            "skipna": skipna,
+            "most_missing": na_thres,
+            "unmapped": self._unmapped,
+            "keep_attrs": keep_attrs,
+        }
+        source = self._source
         if isinstance(data, xarray.Dataset):
-            return carried(
-                data, self.weights, self._source, self._target, keep_attrs=keep_attrs, **options
-            )
+            data, source = source.along_cells(data)
+            return carried(data, self.weights, source, self._target, **options)
         is_labeled = isinstance(data, xarray.DataArray)
         if not is_labeled and not hasattr(data, "__dask_graph__"):
             data = np.ma.asanyarray(data) if np.ma.isMaskedArray(data) else np.asarray(data)
-        self._require_shape(data, is_labeled)
-        if not is_labeled or not set(dims) <= set(data.dims):
-            leading = data.dims[: -len(dims)] if is_labeled else None
-            if leading is None:
-                leading = tuple(f"axis_{k}" for k in range(data.ndim - len(dims)))
-                data = _labeled(data, (*leading, *dims))
-            else:
-                self._require_order(data)
-                data = data.rename(dict(zip(data.dims[-len(dims) :], dims, strict=True)))
+        if is_labeled:
+            data, source = source.along_cells(data)
+        dims = source.dims
+        _require_shape(data, source, is_labeled)
+        if not is_labeled:
+            leading = tuple(f"axis_{k}" for k in range(data.ndim - len(dims)))
+            data = _labeled(data, (*leading, *dims))
+        elif not set(dims) <= set(data.dims):
+            _require_order(data, source)
+            names = dict(zip(data.dims[-len(dims) :], dims, strict=True))
+            source.require_places_of(with_dimensions(data, names))
+            data = data.rename(names)
         if is_labeled:
             data = unpacked(data)
-            self._source.require_same(data)
-            self._source.require_places_of(data)
-        found = carried(
-            data, self.weights, self._source, self._target, keep_attrs=keep_attrs, **options
-        )
+            source.require_same(data)
+            source.require_places_of(data)
+        found = carried(data, self.weights, source, self._target, **options)
         return found if is_labeled else found.data
-
-    def _require_shape(self, data: Any, is_labeled: bool) -> None:
-        wanted, dims = self._source.shape, self._source.dims
-        shape = tuple(data.shape[-len(wanted) :])
-        if is_labeled and set(dims) <= set(data.dims):
-            shape = tuple(data.sizes[name] for name in dims)
-        if shape != wanted:
-            raise ValueError(f"data must have shape (..., {str(wanted)[1:]}, not {data.shape}")
-
-    def _require_order(self, data: Any) -> None:
-        """Refuses a square field whose dimensions have names of the other order."""
-        last = [str(dim).lower() for dim in data.dims[-2:]]
-        is_turned = last[0] in ("lon", "longitude", "x") or last[-1] in ("lat", "latitude", "y")
-        is_square = len(set(self._source.shape)) == 1
-        if self._source.are_axes and is_square and is_turned:
-            raise ValueError(
-                f"the last dimensions of the data are {data.dims[-2]} and {data.dims[-1]}, those "
-                f"of the source are {' and '.join(map(str, self._source.dims))}: rename "
-                "or transpose them"
-            )
 
     def to_netcdf(self, path: Path | None = None) -> None:
         """Writes the weights in the format of ESMF, which `weights` and other programs read.
@@ -305,7 +301,9 @@ class Regridder(Described):
             self._remap.to_netcdf(path)
         else:
             source, target = self._source.side(), self._target.side()
-            write_weights(path, "esmf", self.weights, source, target, self.method, "none")
+            method = said_method(self.method, self._extrap_method)
+            norm = _CONSERVATIVE[self.method][1] if self.method in _CONSERVATIVE else "none"
+            write_weights(path, "esmf", self.weights, source, target, method, norm)
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:
@@ -316,6 +314,26 @@ class Regridder(Described):
             ("method", self.method),
             ("entries", count(len(self.weights.data), "weight")),
         ]
+
+
+def _require_shape(data: Any, source: Places, is_labeled: bool) -> None:
+    shape = tuple(data.shape[-len(source.shape) :])
+    if is_labeled and set(source.dims) <= set(data.dims):
+        shape = tuple(data.sizes[name] for name in source.dims)
+    if shape != source.shape:
+        raise ValueError(f"data must have shape (..., {str(source.shape)[1:]}, not {data.shape}")
+
+
+def _require_order(data: Any, source: Places) -> None:
+    """Refuses a square field whose dimensions have names of the other order."""
+    last = [str(dim).lower() for dim in data.dims[-2:]]
+    is_turned = last[0] in ("lon", "longitude", "x") or last[-1] in ("lat", "latitude", "y")
+    if source.are_axes and len(set(source.shape)) == 1 and is_turned:
+        raise ValueError(
+            f"the last dimensions of the data are {data.dims[-2]} and {data.dims[-1]}, those "
+            f"of the source are {' and '.join(map(str, source.dims))}: rename "
+            "or transpose them"
+        )
 
 
 def _labeled(data: Any, dims: tuple[Any, ...]) -> Any:

@@ -15,15 +15,28 @@ from ._arrays import degrees_of, point_set_hash
 from ._errors import warn_caller
 from ._geo import Path
 from ._types import BoolArray, FloatArray, IntArray
-from ._weight_files import MOST_APART
+from ._weight_files import are_near
 from ._weights import Weights
 
 if TYPE_CHECKING:
     from ._places import Places
 
 
+_EXTRAPOLATED = "extrapolated by"
+
+
+def said_method(method: str, extrap_method: str | None) -> str:
+    """What a file says of the method of its weights."""
+    return method if extrap_method is None else f"{method}, {_EXTRAPOLATED} {extrap_method}"
+
+
 def reused(
-    weights: Path | Weights, method: str, source: Places, target: Places, threads: int | None
+    weights: Path | Weights,
+    method: str,
+    extrap_method: str | None,
+    source: Places,
+    target: Places,
+    threads: int | None,
 ) -> Weights:
     """The weights, or those of a file, if they fit."""
     text, norm = "", ""
@@ -31,6 +44,7 @@ def reused(
     name = "the weights"
     if isinstance(weights, Weights):
         made = weights
+        of_file = [_FileSide(centers=centers) for centers in made._places]
     else:
         name = os.fspath(weights)
         found, text, norm, remarks, *sides = _core.read_weight_file(name)
@@ -49,6 +63,11 @@ def reused(
         raise ValueError(
             f"{name} holds weights of the method {_said(text, norm)!r}, not {method!r}; "
             "read_weights() reads them as those of any method"
+        )
+    if _EXTRAPOLATED in text and extrap_method is None:
+        raise ValueError(
+            f"{name} holds weights of the method {text!r}, but extrap_method is None: the values "
+            "outside of the source would be those of the nearest one"
         )
     masks = source.mask(), target.mask()
     hashes = made.sites_hash, made.targets_hash
@@ -100,11 +119,11 @@ def _require_places(
         own = cells._degrees()
     if len(side.centers):
         located = used & np.isfinite(side.centers).all(axis=1)  # empty cells have no center
-        apart = located & ~_are_near(own, side.centers)
+        apart = located & ~are_near(own, side.centers)
         if apart.any() and cells is not None:
             # Files of former versions have the centers of mass.
             masses = degrees_of(cells.centers)
-            apart = apart if (located & ~_are_near(masses, side.centers)).any() else used & False
+            apart = apart if (located & ~are_near(masses, side.centers)).any() else used & False
         if apart.any():
             first = int(np.flatnonzero(apart)[0])
             here, there = own[first].tolist(), side.centers[first].tolist()
@@ -121,20 +140,12 @@ def _require_places(
                 _refuse_places(name, f": {what} {first} has other corners")
 
 
-def _are_near(a: FloatArray, b: FloatArray) -> BoolArray:
-    """Whether places are the same, in degrees, but for what files lose."""
-    east = np.abs(np.remainder(a[..., 0] - b[..., 0] + 180, 360) - 180)
-    north = np.abs(a[..., 1] - b[..., 1])
-    near: BoolArray = (east * np.cos(np.radians(a[..., 1])) <= MOST_APART) & (north <= MOST_APART)
-    return near
-
-
 def _have_the_same(a: FloatArray, b: FloatArray) -> BoolArray:
     """Whether cells, shapes (n, k, 2) and (n, m, 2), have the same corners, wherever they begin."""
     near_a, near_b = np.zeros(a.shape[:2], bool), np.zeros(b.shape[:2], bool)
     for i in range(a.shape[1]):
         for j in range(b.shape[1]):
-            near = _are_near(a[:, i], b[:, j])
+            near = are_near(a[:, i], b[:, j])
             near_a[:, i] |= near
             near_b[:, j] |= near
     return near_a.all(axis=1) & near_b.all(axis=1)
@@ -153,7 +164,7 @@ def _said(text: str, norm: str) -> str:
 
 def _methods_of(text: str, norm: str, are_axes: bool) -> Any:
     """The methods of a `Regridder` that the words of a file can mean; None if they say nothing."""
-    words = text.lower()
+    words = text.lower().split(_EXTRAPOLATED)[0]
     is_second = any(word in words for word in ("second", "2nd", "higher", "order 2"))
     first = re.split(r"[^a-z0-9_]", words)[0]
     if first in ("conservative_normed", "conservative_2nd", "nearest_d2s", "nearest_s2d"):

@@ -16,7 +16,7 @@ from . import _core
 from ._arrays import as_floats, degrees_of
 from ._errors import InvalidInput
 from ._geo import Path
-from ._types import ArrayLike, FloatArray, IntArray
+from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 # How far a place may be from the same in a file, in degrees: float32 is off by up to 8e-6.
 MOST_APART = 1e-4
@@ -102,6 +102,14 @@ class Side(NamedTuple):
     mask: IntArray | None = None
     corners: FloatArray | None = None
     columns: _core.CellColumns | None = None
+
+
+def are_near(a: FloatArray, b: FloatArray) -> BoolArray:
+    """Whether places are the same, in degrees, but for what files lose."""
+    east = np.abs(np.remainder(a[..., 0] - b[..., 0] + 180, 360) - 180)
+    north = np.abs(a[..., 1] - b[..., 1])
+    near: BoolArray = (east * np.cos(np.radians(a[..., 1])) <= MOST_APART) & (north <= MOST_APART)
+    return near
 
 
 def write_weights(

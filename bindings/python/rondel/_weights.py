@@ -61,6 +61,9 @@ class Weights(Described):
 
     """
 
+    # Longitudes and latitudes of sites and targets, shape (n, 2), of a file; empty if not known.
+    _places: tuple[FloatArray, FloatArray] = (np.zeros((0, 2)), np.zeros((0, 2)))
+
     def __init__(
         self,
         indptr: ArrayLike,
@@ -96,7 +99,8 @@ class Weights(Described):
 
     def __reduce__(self) -> Any:
         hashes = {"sites_hash": self.sites_hash, "targets_hash": self.targets_hash}
-        return _unpickled, (self.indptr, self.indices, self.data, self.shape, hashes)
+        arrays = self.indptr, self.indices, self.data, self.shape
+        return _unpickled, (*arrays, hashes, self._places)
 
     @property
     def indptr(self) -> npt.NDArray[np.int64]:
@@ -303,9 +307,16 @@ class Weights(Described):
 
 
 def _unpickled(
-    indptr: Any, indices: Any, data: Any, shape: tuple[int, int], hashes: dict[str, int]
+    indptr: Any,
+    indices: Any,
+    data: Any,
+    shape: tuple[int, int],
+    hashes: dict[str, int],
+    places: Any = Weights._places,
 ) -> Weights:
-    return Weights(indptr, indices, data, shape, **hashes)
+    made = Weights(indptr, indices, data, shape, **hashes)
+    made._places = places
+    return made
 
 
 def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
@@ -332,7 +343,8 @@ def read_weights(path: Path) -> Weights:
     Returns
     -------
     Weights
-        The weights. Entries may have any order in the file; within a row they keep it.
+        The weights. Entries may have any order in the file; within a row they keep it. They know
+        the places that the file has: `ds.rondel.interpolate` and `Regridder` refuse others.
 
     Raises
     ------
@@ -347,7 +359,9 @@ def read_weights(path: Path) -> Weights:
 
     """
     name = os.fspath(path)
-    weights, remarks = _core.read_weights(name)
+    weights, _, _, remarks, sites, targets = _core.read_weight_file(name)
     for remark in remarks:
         warn_caller(f"{name}: {remark}")
-    return Weights._of(weights)
+    made = Weights._of(weights)
+    made._places = sites[1], targets[1]
+    return made

@@ -14,6 +14,7 @@ from typing import Any
 
 import xarray
 
+from ._arrays import point_set_hash
 from ._carried import carried
 from ._errors import warn_caller
 from ._interpolation import Method
@@ -77,7 +78,8 @@ class RondelAccessor:
     ) -> Any:
         """Interpolates values at other places.
 
-        Attributes and other dimensions, such as time, are kept.
+        Attributes and other dimensions, such as time, are kept; the attributes that say which
+        numbers are missing, such as `valid_range`, are not.
 
         Parameters
         ----------
@@ -108,9 +110,10 @@ class RondelAccessor:
         Dataset or DataArray
             As the source: numbers are interpolated, in their type if it is a floating one, and
             booleans as 0 and 1; what does not depend on place stays; other variables of the
-            places, such as texts, and those whose attribute `coordinates` names other places are
-            left out with a warning that names them. What describes a mesh, as the numbers of
-            neighbors, is left out. Arrays of Dask stay lazy.
+            places, such as texts, those whose attribute `coordinates` names other places, and
+            coordinates of the places, such as areas, are left out with a warning that names them.
+            What describes a mesh, as the numbers of neighbors, is left out. Arrays of Dask stay
+            lazy.
 
         Raises
         ------
@@ -148,14 +151,20 @@ for _register in _REGISTERS:
 
 
 def _target(target: Any, *, grid: bool) -> Places:
-    return Places(target, are_pairs=not grid)
+    return Places(target, are_pairs=not grid, are_targets=True)
 
 
 def _fits(weights: Weights, source: Places, wanted: Places) -> bool:
-    """Whether they have the shape and, where these are known, the hashes."""
+    """Whether they have the shape and, where these are known, the hashes, or else the places that
+    their file has.
+    """
     if weights.shape != (wanted.lon.size, source.lon.size):
         return False
-    return weights.is_of(
-        source.points() if weights.sites_hash else None,
-        wanted.points() if weights.targets_hash else None,
-    )
+    hashes = weights.sites_hash, weights.targets_hash
+    for places, known, pairs in zip((source, wanted), hashes, weights._places, strict=True):
+        if known:
+            if point_set_hash(places.points()) != known:
+                return False
+        elif not places.are_at(pairs):
+            return False
+    return True

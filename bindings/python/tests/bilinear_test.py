@@ -80,6 +80,34 @@ def test_columns_that_repeat_the_first_ones(lon):
     assert np.array_equal(regridded(lon[::-1], lat, repeated[:, ::-1], target), wanted)
 
 
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_places_of_the_grid_have_its_values_whatever_turns_they_are_shifted_by(kind):
+    """Also beside places without a value, and where the last digits differ."""
+    rng = np.random.default_rng(8)
+    for _ in range(25):
+        step, first = rng.choice([0.1, 0.25, 0.7, 0.05, 1 / 3]), np.round(rng.uniform(-180, 300), 1)
+        lon, lat = first + step * np.arange(20), step * np.arange(-5, 5) - 0.05
+        field = rng.normal(size=(10, 20))
+        field[rng.random((10, 20)) < 0.3] = np.nan
+        source = {"lon": lon.astype(kind), "lat": lat.astype(kind)}
+        around = (lon + 180) % 360 - 180
+        for to_lon in (lon, lon + 360, lon - 360, *([around] if around.argmin() == 0 else [])):
+            target = {"lon": to_lon, "lat": np.linspace(lat[0], lat[-1], 10)}
+            found = rondel.Regridder(source, target, "bilinear")(field)
+            assert np.array_equal(found, field, equal_nan=True)
+
+
+def test_targets_outside_have_no_value():
+    lon, lat = np.arange(190.3, 220, 0.7), np.arange(-10.0, 10)
+    for far in (1e-6, 1e-3, 0.1):
+        outside = {
+            "lon": [lon[0] - far, 200.0, lon[-1] + far - 360],
+            "lat": [-10 - far, 0, 9 + far],
+        }
+        found = regridded(lon, lat, np.ones((len(lat), len(lon))), outside)
+        assert np.flatnonzero(np.isfinite(found)).tolist() == [4]
+
+
 def test_rows_have_one_entry_of_a_place():
     weights = rondel.Regridder({"lon": LON, "lat": LAT}, TARGETS, "bilinear").weights
     row = np.repeat(np.arange(weights.shape[0]), np.diff(weights.indptr))

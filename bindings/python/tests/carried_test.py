@@ -62,6 +62,28 @@ def test_variables_that_are_left_out_are_told(carry):
 
 
 @WAYS
+@pytest.mark.parametrize("of", ["Dataset", "DataArray"])
+def test_coordinates_of_the_places_that_are_left_out_are_told(carry, of):
+    shape = (len(LAT), len(LON))
+    data = dataset().assign_coords(
+        area=(EVERYWHERE, np.ones(shape)),
+        zone=("lat", list("abcdefghijkl")),
+        run=7,
+        day=("time", ["a", "b"]),
+        lon_bnds=(("lon", "two"), LON[:, None] + [-7.5, 7.5]),
+    )
+    data.lon.attrs["bounds"] = "lon_bnds"
+    data = data if of == "Dataset" else data.t
+    regridder = rondel.Regridder({"lon": LON, "lat": LAT}, TARGET, "bilinear")
+    with pytest.warns(UserWarning, match=r"coordinates of the source's places .*: area, zone$"):
+        found = carry(data)
+    with pytest.warns(UserWarning, match=": area, zone$"):
+        regridder(data)
+    assert {"run", "day", "time"} <= set(found.coords)
+    assert not {"area", "zone", "lon_bnds"} & set(found.coords)
+
+
+@WAYS
 def test_what_is_no_field_is_not_told(carry):
     data = dataset(lat_bnds=(("lat", "two"), np.stack([LAT - 7.5, LAT + 7.5], axis=1)))
     data["lat"].attrs = {"bounds": "lat_bnds", "units": "degrees_north"}

@@ -3,6 +3,7 @@
 """Weights that a Regridder takes are of its places and cells, which the files it writes have."""
 
 import os
+import pickle
 import subprocess
 
 import numpy as np
@@ -270,3 +271,35 @@ def test_netcdf_has_its_endings(tmp_path, name):
         with pytest.raises(ValueError, match=r"netCDF is written to \.nc"):
             writer.to_netcdf(tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_weights_of_files_know_their_places(tmp_path):
+    """Also without the hashes that files of other programs lack."""
+    netcdf = pytest.importorskip("netCDF4")
+    import rondel.xarray  # needs xarray
+
+    lon, lat = np.arange(0.0, 360, 30), np.arange(-75.0, 90, 30)
+    ds = xarray.Dataset(
+        {"t": (("lat", "lon"), np.add.outer(lat, 0 * lon))}, {"lon": lon, "lat": lat}
+    )
+    target = {"lon": lon + 3, "lat": lat + 1}
+    wanted = (target["lon"], target["lat"])
+    rondel.Regridder(ds, target, "nearest_s2d").to_netcdf(tmp_path / "w.nc")
+    with netcdf.Dataset(tmp_path / "w.nc", "a") as file:
+        for name in [name for name in file.ncattrs() if "hash" in name]:
+            file.delncattr(name)
+    weights = rondel.read_weights(tmp_path / "w.nc")
+    assert weights.sites_hash == weights.targets_hash == 0
+    turned = ds.isel(lat=slice(None, None, -1))
+    for read in (weights, pickle.loads(pickle.dumps(weights))):
+        found = ds.rondel.interpolate(wanted, weights=read, grid=True)
+        assert np.array_equal(found.t, ds.t)
+        shifted = ds.assign_coords(lon=lon - 360)
+        assert np.array_equal(shifted.rondel.interpolate(wanted, weights=read, grid=True).t, ds.t)
+        for data, places in ((turned, wanted), (ds, (wanted[0], wanted[1][::-1]))):
+            with pytest.raises(ValueError, match="weights are of other places"):
+                data.rondel.interpolate(places, weights=read, grid=True)
+        taken = rondel.Regridder(ds, target, "nearest_s2d", weights=read)
+        assert np.array_equal(taken(ds.t), ds.t)
+        with pytest.raises(ValueError, match="weights are of other places"):
+            rondel.Regridder(turned, target, "nearest_s2d", weights=read)

@@ -126,6 +126,32 @@ def test_targets_outside_are_filled_again(tmp_path):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_extrapolated_weights_are_none_without_extrapolation(tmp_path, method):
+    source = {"lon": np.arange(0, 50, 5.0), "lat": np.arange(0, 50, 5.0)}
+    target = {"lon": np.arange(-20.0, 70, 10), "lat": np.arange(-20.0, 70, 10)}
+    path, options = tmp_path / "w.nc", {"extrap_method": "nearest_s2d"}
+    values = np.random.default_rng(1).normal(size=(10, 10))
+    made = written(path, source, target, method, **options)
+    assert not np.isnan(made(values)).any()
+    with pytest.raises(ValueError, match="extrapolated by nearest_s2d', but extrap_method is None"):
+        again(path, source, target, method)
+    for other in METHODS:
+        if other != method:
+            with pytest.raises(ValueError, match=f"by nearest_s2d.*, not '{other}'"):
+                again(path, source, target, other, **options)
+    found = again(path, source, target, method, **options)
+    assert np.array_equal(found(values), made(values))
+    # Written again they are still told from others.
+    found.to_netcdf(path)
+    with pytest.raises(ValueError, match="extrap_method is None"):
+        again(path, source, target, method)
+    plain = written(path, source, target, method)
+    for wanted, how in ((plain, {}), (made, options)):
+        found = again(path, source, target, method, **how)
+        assert np.array_equal(found(values), wanted(values), equal_nan=True)
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_files_have_the_shapes_places_and_masks_of_grids(tmp_path, method):
     written(tmp_path / "w.nc", {**SOURCE, "mask": MASK}, {**TARGET, "mask": HALF}, method)
     with xarray.open_dataset(tmp_path / "w.nc") as file:

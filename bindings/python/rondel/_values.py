@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Packed and missing values of what xarray holds, by the rules of the C++ library."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray
+
+from . import _core
+from ._errors import warn_caller
+
+
+def unpacked(data: Any) -> Any:
+    """The Dataset or DataArray with integers unpacked whose attributes say that they are packed or
+    of the other sign, as after ``open_dataset(mask_and_scale=False)``.
+    """
+    is_array = isinstance(data, xarray.DataArray)
+    variables = data.coords.variables if is_array else data.variables
+    packed = {name: item for name, item in variables.items() if _is_packed(item)}
+    own = [data.variable] if is_array and _is_packed(data) else []
+    if not packed and not own:
+        return data
+    parts = {f"packed_{k}": part for k, part in enumerate((*packed.values(), *own))}
+    found = list(
+        xarray.decode_cf(
+            xarray.Dataset(parts), decode_times=False, decode_coords=False, concat_characters=False
+        ).variables.values()
+    )
+    if own:
+        data = data.copy(data=found[-1].data)
+        data.attrs, data.encoding = found[-1].attrs, found[-1].encoding
+    taken = {name: found[k] for k, name in enumerate(packed)}
+    coords = {name: taken.pop(name) for name in list(taken) if name in data.coords}
+    data = data.assign_coords(coords) if coords else data
+    return data.assign(taken) if taken else data
+
+
+def _is_packed(item: Any) -> bool:
+    """Whether numbers of a file are integers that xarray can unpack and has not."""
+    factors = [np.asarray(item.attrs[name]) for name in _PACKING if name in item.attrs]
+    are_numbers = all(f.size == 1 and f.dtype.kind in "iuf" and np.isfinite(f) for f in factors)
+    return item.dtype.kind in "iu" and are_numbers and (bool(factors) or "_Unsigned" in item.attrs)
+
+
+_BOUNDS = ("valid_min", "valid_max", "valid_range")
+OF_VALUES = ("_FillValue", "missing_value", *_BOUNDS, "_Unsigned")
+_PACKING = ("scale_factor", "add_offset")
+
+
+def _code(dtype: Any) -> str | None:
+    """The name of a type that netCDF has, such as "f4"."""
+    is_known = dtype.kind in "iu" or (dtype.kind == "f" and dtype.itemsize in (4, 8))
+    return f"{dtype.kind}{dtype.itemsize}" if is_known else None
+
+
+def missing_marker(array: xarray.DataArray) -> Any:
+    """A function that makes NaN of what the attributes call missing, or None; xarray heeds
+    `_FillValue` and `missing_value` when it opens a file, but no `valid_range`, nor the numbers
+    that netCDF writes where nobody wrote.
+    """
+    of_file = array.encoding.get("dtype")
+    stored = np.dtype(of_file if isinstance(of_file, (np.dtype, type)) else array.dtype)
+    texts = {**array.encoding, **array.attrs}
+    # xarray remembers in `encoding` how it unpacked the values.
+    known = {name: texts[name] for name in OF_VALUES if texts.get(name) is not None}
+    known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
+    if of_file is None and array.dtype.kind == "f":
+        _drop_packed_bounds(array, known)
+    stored_kind = _code(stored)
+    if stored_kind is None or (of_file is None and not known):
+        return None
+    attributes = _attributes_of(known)
+    if of_file is None and "_FillValue" not in known:
+        attributes.append(("_FillValue", "f8", "", [np.nan]))
+    without_bounds = [item for item in attributes if item[0] not in _BOUNDS]
+    name = _name(array)
+
+    def marked(values: Any) -> Any:
+        found = np.array(values, np.float64, order="C")
+        _core.mark_missing(found.reshape(-1), stored_kind, attributes)
+        if np.isnan(found).all() and len(without_bounds) < len(attributes):
+            others = np.array(values, np.float64, order="C")
+            _core.mark_missing(others.reshape(-1), stored_kind, without_bounds)
+            if not np.isnan(others).all():
+                bounds = " and ".join(name for name in _BOUNDS if name in known)
+                warn_caller(
+                    f"{name}: no number is within {bounds}, so that all are missing; "
+                    "remove the attribute if the numbers were changed"
+                )
+        return found
+
+    return marked
+
+
+def _name(array: xarray.DataArray) -> str:
+    return "the data" if array.name is None else repr(array.name)
+
+
+def _drop_packed_bounds(array: xarray.DataArray, known: dict[str, Any]) -> None:
+    """Removes bounds that are integers where the values are none: a mean of a variable, for
+    example, keeps them, but nothing says how the numbers that they bound were packed.
+    """
+    packed = [
+        name
+        for name in _BOUNDS
+        if name in known
+        and np.asarray(known[name]).dtype.kind in "iu"
+        and not {*_PACKING} & {*known}
+    ]
+    for name in packed:
+        del known[name]
+    if packed:
+        warn_caller(
+            f"{_name(array)}: {' and '.join(packed)} are not heeded: they are integers, as of "
+            f"packed numbers, while the values are {array.dtype} and no file says how they were "
+            "packed; "
+            "make them floating-point numbers, or remove them"
+        )
+
+
+def _attributes_of(known: dict[str, Any]) -> list[tuple[str, str, str, list[float]]]:
+    """Name, type, text and numbers of each attribute, for the library."""
+    attributes: list[tuple[str, str, str, list[float]]] = []
+    for name, value in known.items():
+        if isinstance(value, str):
+            attributes.append((name, "", value, []))
+            continue
+        numbers = np.atleast_1d(np.asarray(value))
+        kind = _code(numbers.dtype)
+        if kind is not None:
+            attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
+    return attributes
