@@ -25,7 +25,7 @@ from ._geometries import (
 )
 from ._partition import Partition
 from ._plot import plot_regions
-from ._properties import checked_properties, is_missing, json_cells
+from ._properties import checked_properties, frame_column, is_missing, json_columns
 from ._repr import Described, count
 from ._types import ArrayLike, Divided, FloatArray, Progress
 
@@ -220,7 +220,7 @@ class Regions(Described):
         named = {**self._own, **values}
         if radius_km is not None:
             named["area_km2"] = self.areas_km2(radius_km)
-        columns = [(name, json_cells(column)) for name, column in named.items()]
+        columns = json_columns(named)
         tolerance = float(tolerance_deg)
         return written(path, lambda name: self._rings.write(name, columns, tolerance))
 
@@ -260,8 +260,6 @@ class Regions(Described):
             If GeoPandas is not installed.
 
         """
-        import pandas
-
         given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
         owners = polygons[3]
@@ -271,7 +269,7 @@ class Regions(Described):
         if radius_km is not None:
             columns["area_km2"] = self.areas_km2(radius_km)[rows]
         for name, values in given.items():
-            columns[name] = pandas.Series(values).array[rows]
+            columns[name] = frame_column(values)[rows]
         return polygon_frame(columns, polygons, rows)
 
     plot = plot_regions
