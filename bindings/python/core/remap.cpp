@@ -3,11 +3,14 @@
 
 #include "rondel/remap.h"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -104,10 +107,25 @@ std::vector<double> numbers_of(const NumbersIn& array) {
   return {array.data(), array.data() + array.size()};
 }
 
-Partition corner_partition(const PairsIn& corners, std::size_t of_each, unsigned threads) {
+// Returns the cells; the number of centers outside of them, of how many, and the first one; and
+// whether most are. There may be no centers.
+std::tuple<Partition, std::array<std::size_t, 3>, bool> corner_partition(const PairsIn& corners,
+                                                                         std::size_t of_each,
+                                                                         const PairsIn& centers,
+                                                                         unsigned threads) {
   return unlocked([&] {
-    return Partition(cells_of_corners(rows_of<LonLat>(corners), of_each), {.threads = threads});
+    const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), of_each);
+    CentersOutside found;
+    if (centers.shape(0) > 0) found = centers_outside(cells, rows_of<LonLat>(centers));
+    return std::tuple(Partition(cells, {.threads = threads}),
+                      std::array{found.number, found.of, found.first}, found.are_most());
   });
+}
+
+ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 2> node_shape,
+                                  const PairsIn& centers, std::array<std::size_t, 2> shape) {
+  return to_array<double>(corners_of_grid(rows_of<LonLat>(nodes), {node_shape[0], node_shape[1]},
+                                          rows_of<LonLat>(centers), {shape[0], shape[1]}));
 }
 
 RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
@@ -180,7 +198,9 @@ void add_remap(nb::module_& module) {
   module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
              nb::arg("threads"));
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
-             nb::arg("of_each"), nb::arg("threads"));
+             nb::arg("of_each"), nb::arg("centers").noconvert(), nb::arg("threads"));
+  module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
+             nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
              nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("groups").noconvert().none(),
              nb::arg("threads"));

@@ -265,12 +265,24 @@ class Partition(FileCells, Described):
             If a corner is not finite, or has a latitude outside [-90, 90]. Its `index` is the cell.
 
         """
+        return cls._around(lon, lat, np.zeros((0, 2)), threads)[0]
+
+    @classmethod
+    def _around(
+        cls, lon: ArrayLike, lat: ArrayLike, centers: FloatArray, threads: int | None
+    ) -> tuple[Partition, tuple[int, int, int, bool]]:
+        """Cells with these corners; and how many centers (n, 2), if there are some, are outside of
+        them, of how many, the first of these cells, and whether most centers are.
+        """
         degrees = as_lonlat(lon, lat)
         shape = np.shape(lon)
         if len(shape) < 2:
             raise ValueError(f"lon must have shape (..., k), not {shape}")
-        made = _core.corner_partition(degrees, shape[-1], as_threads(threads))
-        return cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
+        made, (number, of, first), are_most = _core.corner_partition(
+            degrees, shape[-1], centers, as_threads(threads)
+        )
+        cells = cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
+        return cells, (number, of, first, are_most)
 
     @property
     def num_cells(self) -> int:
