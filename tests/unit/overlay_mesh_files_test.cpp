@@ -415,6 +415,36 @@ TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
   }
 }
 
+TEST(overlay_mesh_files, given_rings_make_the_same_cells) {
+  // Rings that begin anywhere: of a diagram, and of a hole in a box.
+  const MeshOfDiagram mesh(11);
+  CellRings rings;
+  for (std::size_t k = 0; k < mesh.lon.size(); ++k) {
+    rings.points.push_back(unit_vector({mesh.lon[k], mesh.lat[k]}));
+  }
+  for (std::size_t i = 0; i < num_sites; ++i) {
+    for (std::size_t k = 0; k < mesh.rings[i].size(); ++k) {
+      const std::size_t corner = mesh.rings[i][(k + i) % mesh.rings[i].size()];
+      rings.corners.push_back(static_cast<Index>(corner));
+    }
+    rings.rings.push_back(rings.corners.size());
+    rings.cells.push_back(rings.rings.size() - 1);
+  }
+  const Partition cells(rings);
+  const CellRings given = cells.given_rings();
+  ASSERT_EQ(given.corners.size(), rings.corners.size());
+  for (std::size_t k = 0; k < rings.corners.size(); ++k) {
+    EXPECT_EQ(given.points[given.corners[k]].x, rings.points[rings.corners[k]].x) << k;
+  }
+  const Partition again(given);
+  const std::span<const double> areas = cells.areas();
+  EXPECT_TRUE(std::ranges::equal(again.areas(), areas));
+  // The areas depend on where the rings begin.
+  const Partition turned(cells.rings());
+  EXPECT_FALSE(std::ranges::equal(turned.areas(), areas));
+  EXPECT_THROW((void)Partition::lonlat_grid({{0, 90}, {0, 45}}).given_rings(), InvalidInput);
+}
+
 // A curvilinear grid of n x n cells, which is turned against the axes: its centers, and the nodes
 // around them, (n + 1) x (n + 1).
 struct TurnedGrid {

@@ -53,8 +53,7 @@ CellRings rings_of(const OffsetsIn& cells, const OffsetsIn& rings, const Indices
           .whole = {named.begin(), named.end()}};
 }
 
-RingsOut rings_out(const Partition& partition) {
-  CellRings rings = unlocked([&] { return partition.rings(); });
+RingsOut rings_out(CellRings rings) {
   return {offsets_out(std::move(rings.cells)), offsets_out(std::move(rings.rings)),
           indices_out(std::move(rings.corners)), points_out(std::move(rings.points)),
           indices_out(std::move(rings.whole))};
@@ -64,19 +63,21 @@ GridSides sides_of(bool are_arcs) {
   return are_arcs ? GridSides::great_circles : GridSides::parallels;
 }
 
-// Returns the partition, its mask, its shape, the centers of the file in degrees, and the remarks
-// of the reader.
+// Returns the partition, its mask, its shape, the centers of the file in degrees, the remarks of the
+// reader, and the meridians and parallels between the cells, if it is a grid.
 nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
   auto [partition, table] = unlocked([&] {
     CellTable read = read_cells(path);
     Partition made = partition_of(read, sides_of(are_arcs), {.threads = threads});
     return std::tuple(std::move(made), std::move(read));
   });
+  LonLatGrid lines = table.grid.value_or(LonLatGrid{});
   nb::list lengths;
   for (const std::uint64_t length : table.shape) lengths.append(length);
   return nb::make_tuple(std::move(partition), to_array<std::int32_t>(std::move(table.mask)),
                         nb::tuple(lengths), to_array<double>(std::move(table.centers)),
-                        table.remarks);
+                        table.remarks, to_array<double>(std::move(lines.lon_deg)),
+                        to_array<double>(std::move(lines.lat_deg)));
 }
 
 std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
@@ -101,6 +102,25 @@ std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partit
     return std::tuple(Partition(table.cells, {.threads = threads}),
                       CellColumns{std::move(table.columns)}, std::move(table.remarks));
   });
+}
+
+// The members of a column.
+using ColumnText =
+    std::tuple<std::string, bool, std::string, std::vector<std::uint64_t>, std::vector<bool>>;
+
+std::vector<ColumnText> texts_of_columns(const CellColumns& self) {
+  std::vector<ColumnText> made;
+  for (const Column& column : self.columns) {
+    made.emplace_back(column.name, column.is_numeric, column.text, column.ends, column.is_json);
+  }
+  return made;
+}
+
+void set_columns(CellColumns& self, const std::vector<ColumnText>& texts) {
+  self.columns.clear();
+  for (const auto& [name, is_numeric, text, ends, is_json] : texts) {
+    self.columns.push_back({name, is_numeric, text, ends, is_json});
+  }
 }
 
 std::vector<double> numbers_of(const NumbersIn& array) {
@@ -150,7 +170,9 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
 }  // namespace
 
 void add_remap(nb::module_& module) {
-  [[maybe_unused]] const nb::class_<CellColumns> columns(module, "CellColumns");
+  nb::class_<CellColumns>(module, "CellColumns")
+      .def(nb::init<>())
+      .def_prop_rw("columns", &texts_of_columns, &set_columns);
   nb::class_<Partition>(module, "Partition")
       .def_static(
           "voronoi",
@@ -191,7 +213,12 @@ void add_remap(nb::module_& module) {
                      return array_of<double>(self, nb::cast<const Partition&>(self).areas());
                    })
       .def("centers", [](const Partition& self) { return points_out(self.centers()); })
-      .def("rings", &rings_out)
+      .def("rings",
+           [](const Partition& self) { return rings_out(unlocked([&] { return self.rings(); })); })
+      .def("given_rings",
+           [](const Partition& self) {
+             return rings_out(unlocked([&] { return self.given_rings(); }));
+           })
       .def("weight_corners", [](const Partition& self) {
         return to_array<double>(unlocked([&] { return weight_corners(self); }));
       });

@@ -72,8 +72,9 @@ class Partition(FileCells, Described):
             If `sites` is neither a triangulation nor a diagram.
 
         """
-        made = _core.Partition.voronoi(_triangulation_of(sites), as_threads(threads))
-        return cls._of(made, has_corners=False)
+        owner = _triangulated_of(sites)
+        made = _core.Partition.voronoi(owner._triangulation, as_threads(threads))
+        return cls._of(made, has_corners=False, origin=("voronoi", owner))
 
     @classmethod
     def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
@@ -98,8 +99,9 @@ class Partition(FileCells, Described):
             If `sites` is neither a triangulation nor a diagram.
 
         """
-        made = _core.Partition.triangles(_triangulation_of(sites), as_threads(threads))
-        return cls._of(made, has_corners=False)
+        owner = _triangulated_of(sites)
+        made = _core.Partition.triangles(owner._triangulation, as_threads(threads))
+        return cls._of(made, has_corners=False, origin=("triangles", owner))
 
     @classmethod
     def lonlat_grid(
@@ -144,11 +146,11 @@ class Partition(FileCells, Described):
 
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        made = _core.Partition.lonlat_grid(
-            meridians, parallels, are_arcs(sides), as_threads(threads)
-        )
+        lines = meridians, parallels, are_arcs(sides)
+        made = _core.Partition.lonlat_grid(*lines, as_threads(threads))
         axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
-        return cls._of(made, shape=(len(axes[1]), len(axes[0])), axes=axes)
+        shape = len(axes[1]), len(axes[0])
+        return cls._of(made, shape=shape, axes=axes, origin=("lonlat_grid", *lines))
 
     @classmethod
     def lonlat_centers(
@@ -394,9 +396,9 @@ def _as_lines(values: ArrayLike, name: str) -> FloatArray:
     return lines
 
 
-def _triangulation_of(sites: Any) -> _core.Triangulation:
+def _triangulated_of(sites: Any) -> Any:
+    """The object that holds the triangulation."""
     for owner in (sites, getattr(sites, "delaunay", None)):
-        triangulation = getattr(owner, "_triangulation", None)
-        if isinstance(triangulation, _core.Triangulation):
-            return triangulation
+        if isinstance(getattr(owner, "_triangulation", None), _core.Triangulation):
+            return owner
     raise TypeError(f"sites must be a triangulation or a diagram, not {type(sites).__name__}")

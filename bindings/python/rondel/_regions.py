@@ -24,6 +24,7 @@ from ._geometries import (
     read_polygons,
 )
 from ._partition import Partition
+from ._pickled import arrays_of, with_arrays
 from ._plot import plot_regions
 from ._properties import checked_properties, frame_column, is_missing, json_columns
 from ._repr import Described, count
@@ -80,6 +81,13 @@ class Regions(Described):
         self.values = values
         self._kind = kind
         return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_rings": arrays_of(self._rings)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        rings = with_arrays(_core.CellRings(), state["_rings"])
+        self.__dict__.update({**state, "_rings": rings})
 
     def __len__(self) -> int:
         return self._rings.num_cells
