@@ -67,6 +67,7 @@ void test_corners(std::string_view bytes) {
         corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(cells.num_cells()));
     const CentersOutside outside = centers_outside(cells, centers);
     require(outside.number <= outside.of && outside.of <= cells.num_cells(), "centers are counted");
+    require(outside.number > 0 || !outside.are_most(), "no most of none");
     require(Partition(cells).num_cells() == cells.num_cells(), "which are a partition");
   } catch (const InvalidInput&) {
   }

@@ -292,14 +292,14 @@ class Places:
                 "bounds of the coordinates"
             )
         if lon.shape[: len(self.shape)] != self.shape:
-            lon, lat = _four(lon, lat, self.shape, self._centers(None))
+            lon, lat = _four(lon, lat, self.shape, self._pairs_with_gaps(None))
         mask = self.mask()
-        centers = self._centers(mask)
+        centers = self._pairs_with_gaps(mask)
         made, mask, outside = _cells_of_corners(lon, lat, mask, centers, threads)
         self._require_inside(*outside)
         return made.with_places(self.pairs()), mask
 
-    def _centers(self, mask: BoolArray | None) -> FloatArray:
+    def _pairs_with_gaps(self, mask: BoolArray | None) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2); NaN where there is none or no part is taken."""
         centers = np.stack([self.lon, self.lat], axis=-1).reshape(-1, 2).astype(np.float64)
         if mask is not None:
