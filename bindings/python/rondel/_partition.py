@@ -293,8 +293,8 @@ class Partition(FileCells, Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only. `InvalidInput`
-        is raised if a cell crosses or overlaps itself.
+        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only.
+        `InvalidInput` is raised if a cell crosses or overlaps itself.
         """
         return self._partition.areas
 

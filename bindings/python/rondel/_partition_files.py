@@ -76,7 +76,8 @@ class FileCells:
         columns = state["_columns"]
         self._columns = columns and with_arrays(_core.CellColumns(), columns)
         if self._origin is None:
-            self._partition = _core.Partition.from_rings(*state["_partition"], 0)
+            cells, rings, corners, points, whole = state["_partition"]
+            self._partition = _core.Partition.from_rings(cells, rings, corners, points, whole, 0)
             return
         name, *given = self._origin
         if name != "lonlat_grid":

@@ -176,8 +176,11 @@ def frame_column(values: Any) -> Any:
     else:
         return pandas.Series(values).array
     known = [value for value in given if not _is_gap(value)]
-    numbers = [value for value in known if isinstance(value, (int, np.integer))]
-    numbers = [int(value) for value in numbers if not isinstance(value, bool)]
+    numbers = [
+        int(value)
+        for value in known
+        if isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    ]
     if len(numbers) == len(known) < len(given) and numbers:
         for kind, low, high in (("Int64", -(2**63), 2**63), ("UInt64", 0, 2**64)):
             if low <= min(numbers) and max(numbers) < high:
