@@ -49,6 +49,45 @@ RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<con
 ///         cell) if a corner is no place.
 RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each);
 
+/// The lengths of both dimensions of an array.
+struct GridShape {
+  std::size_t rows;
+  std::size_t columns;
+};
+
+/// Returns four corners for each cell of a grid, in their order around it, from the nodes between
+/// the cells. The two dimensions of the nodes may be in the other order than those of the cells.
+/// Where their lengths do not say which order it is, it is the one in which the centers are nearer
+/// to the middles of their cells.
+/// \param nodes       one row and one column more than cells, in one grid or several
+/// \param node_shape  the shape of the nodes of one grid
+/// \param centers     of the cells, NaN where they are missing
+/// \param shape       the shape of the cells of one grid
+/// \throws InvalidInput if these numbers do not fit.
+RONDEL_API std::vector<LonLat> corners_of_grid(std::span<const LonLat> nodes, GridShape node_shape,
+                                               std::span<const LonLat> centers, GridShape shape);
+
+/// Centers that lie outside of their cells.
+struct CentersOutside {
+  std::size_t number = 0;  ///< how many there are
+  std::size_t of = 0;      ///< the number of cells with a center that have been looked at
+  std::size_t first = 0;   ///< the first such cell
+  /// How many of `number` are at longitude and latitude 0, as files have it under land.
+  std::size_t zeros = 0;
+
+  /// True if more than half of the centers are outside, but for zeros: corners and centers are of
+  /// different places, or have different orders.
+  [[nodiscard]] bool are_most() const { return 2 * (number - zeros) > of - zeros; }
+};
+
+/// Finds the centers that are farther from the middle of their cell than all of its corners, which
+/// no point of the cell is. (A center may be outside of a cell and nearer than this.)
+/// \param centers  one for each cell; those that are no places are not looked at
+/// \param mask     0: the cell is not looked at; empty: all are
+/// \throws InvalidInput if there are not as many centers, or numbers of the mask, as cells.
+RONDEL_API CentersOutside centers_outside(const CellRings& cells, std::span<const LonLat> centers,
+                                          std::span<const std::int32_t> mask = {});
+
 /// Reads the cells of a netCDF file of any format. Its variables and attributes tell which
 /// convention it follows:
 ///
@@ -74,6 +113,8 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 ///    is less than a cell away.
 /// 4. A cell that the file masks has a mask of 0. So has a cell with a corner that is missing (NaN,
 ///    a fill value); it has no ring.
+///    Centers of CF that are outside of their cells (centers_outside()) are an error if they are
+///    more than half (zeros under land do not count); otherwise, and with other conventions, there is a remark.
 /// 5. `FILE.nc:NAME` chooses one of several grids by one of its variables: a coordinate, a UGRID
 ///    topology, or values on the grid.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.

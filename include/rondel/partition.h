@@ -74,6 +74,9 @@ class RONDEL_API Partition {
   [[nodiscard]] std::vector<Point> centers() const;
   /// Returns the cells. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
+  /// Returns the same as rings(), but rings begin where those of the input did: Partition() of them
+  /// has the same areas and centers, bit by bit, which depend on it in the last digit.
+  [[nodiscard]] CellRings given_rings() const;
   /// True if the cells cover the sphere, each with one ring that is convex or nearly so, and share
   /// their edges; or if they are a grid of parallels that covers the sphere. An overlay in which
   /// one partition is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).

@@ -228,16 +228,32 @@ void require_repeated(const MeshVariable& bounds, std::span<const double> values
   }
 }
 
+// The lengths of the last two dimensions.
+GridShape last_two_of(std::span<const std::uint64_t> lengths) {
+  return {lengths[lengths.size() - 2], lengths[lengths.size() - 1]};
+}
+
+// True if bounds are the nodes of a grid, (ny + 1, nx + 1), in either order.
+bool is_of_nodes(const MeshVariable& bounds, const io::PlaceArrays& places) {
+  const std::size_t rank = places.shape.size();
+  if (rank < 2 || bounds.shape.size() != rank ||
+      !std::equal(bounds.shape.begin(), bounds.shape.end() - 2, places.shape.begin())) {
+    return false;
+  }
+  const auto [rows, columns] = last_two_of(bounds.shape);
+  const auto [ny, nx] = last_two_of(places.shape);
+  return (rows == ny + 1 && columns == nx + 1) || (rows == nx + 1 && columns == ny + 1);
+}
+
 // Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
-// in `of_each`. The bounds have one more dimension than the coordinate, or they are the corners of
-// a grid, (ny + 1, nx + 1).
+// in `of_each`. The bounds have one more dimension than the coordinate, or they are the nodes of a
+// grid: then the nodes are returned, and `of_each` is 0.
 std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
                                       const MeshVariable& other, const MeshVariable& bounds,
                                       const io::PlaceArrays& places, std::size_t& of_each) {
   std::vector<double> values =
       io::degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
   const std::size_t num_cells = places.lon.size();
-  const std::size_t rank = places.dimensions.size();
   const auto is_of_bounds = [&](std::size_t dimension) {
     return std::ranges::count(bounds.dimensions, dimension) == 1;
   };
@@ -262,24 +278,9 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
       return values;
     }
   }
-  const auto lengths = std::span(bounds.shape);
-  if (rank >= 2 && lengths.size() == rank && lengths[rank - 1] == places.shape[rank - 1] + 1 &&
-      lengths[rank - 2] == places.shape[rank - 2] + 1) {
-    std::vector<double> corners;
-    const std::size_t nx = places.shape[rank - 1];
-    const std::size_t ny = places.shape[rank - 2];
-    of_each = 4;
-    for (std::size_t tile = 0; tile < num_cells / (nx * ny); ++tile) {
-      for (std::size_t j = 0; j < ny; ++j) {
-        for (std::size_t i = 0; i < nx; ++i) {
-          const std::size_t at = (tile * (ny + 1) + j) * (nx + 1) + i;
-          for (const std::size_t k : {at, at + 1, at + nx + 2, at + nx + 1}) {
-            corners.push_back(values.at(k));
-          }
-        }
-      }
-    }
-    return corners;
+  if (is_of_nodes(bounds, places)) {
+    of_each = 0;
+    return values;
   }
   if (num_cells == 0 || values.size() % num_cells != 0) {
     throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
@@ -302,8 +303,11 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   std::size_t of_each = 0;
   std::size_t of_each_lat = 0;
   const std::vector<double> lons = corners_of_bounds(file, lon, lat, lon_bounds, places, of_each);
-  const std::vector<double> lats =
-      corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
+  std::vector<double> lats = corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
+  if (of_each_lat == 0 &&
+      std::ranges::is_permutation(lon_bounds.dimensions, lat_bounds.dimensions)) {
+    lats = io::in_order(lat_bounds, lon_bounds.dimensions, std::move(lats));
+  }
   if (of_each != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
                    io::in_quotes(lat_bounds.name) + " have not as many corners");
@@ -311,10 +315,15 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   for (std::size_t i = 0; i < lons.size(); ++i) mesh.nodes.push_back({lons[i], lats[i]});
   mesh.names = io::in_quotes(lon_bounds.name) + " and " + io::in_quotes(lat_bounds.name);
   mesh.is_single = lon_bounds.type == io::NetcdfType::float32;
-  end_cells_of_nodes(of_each, places.dimensions.size() < 2, mesh);
   for (std::size_t i = 0; i < places.lon.size(); ++i) {
     mesh.centers.push_back({places.lon[i], places.lat[i]});
   }
+  if (of_each == 0) {
+    of_each = 4;
+    mesh.nodes = corners_of_grid(mesh.nodes, last_two_of(lon_bounds.shape), mesh.centers,
+                                 last_two_of(places.shape));
+  }
+  end_cells_of_nodes(of_each, places.dimensions.size() < 2, mesh);
   if (places.shape.size() > 1) mesh.shape = places.shape;
   return mesh;
 }

@@ -142,6 +142,28 @@ void require_centers(overlay::MeshContent& mesh) {
   }
 }
 
+// Compares the centers with the cells. If more than half of the cells of CF do not contain their
+// center, the corners are those of other places: throws BadValue. Other conventions may have
+// centers that are no means, and users who need none.
+void require_centers_in_cells(const overlay::MeshContent& mesh, CellTable& table) {
+  if (mesh.grid || table.centers.empty()) return;
+  const CentersOutside outside = centers_outside(table.cells, table.centers, table.mask);
+  const bool is_most = outside.are_most();
+  const bool is_cf = table.convention == "CF";
+  if (outside.number == 0 || (!is_most && !is_cf)) return;
+  const LonLat& center = table.centers[outside.first];
+  const std::string text = std::to_string(outside.number) + " of " + std::to_string(outside.of) +
+                           " cells with the corners " + mesh.names +
+                           " do not contain their centers, the first one cell " +
+                           std::to_string(outside.first) + " with the center " +
+                           system::shortest_text(center.lon_deg) + " " +
+                           system::shortest_text(center.lat_deg);
+  if (is_most && is_cf) {
+    throw io::BadValue(text + ": corners and centers are of different places or orders");
+  }
+  table.remarks.push_back(text);
+}
+
 }  // namespace
 
 std::size_t CellTable::num_cells() const {
@@ -190,6 +212,7 @@ CellTable overlay::cells_in(const io::NetcdfReader& file, const std::string& fil
   table.mask = std::move(mesh.mask);
   table.shape = std::move(mesh.shape);
   table.remarks = std::move(mesh.remarks);
+  require_centers_in_cells(mesh, table);
   return table;
 }
 

@@ -130,6 +130,21 @@ CellRings rings_of(const Subdivision& cells) {
   return result;
 }
 
+CellRings given_rings_of(const PartitionData& data) {
+  CellRings result = rings_of(data);
+  const Subdivision& cells = data.subdivision();
+  if (cells.given_starts.empty()) return result;
+  for (Index c = 0; c < cells.num_cells(); ++c) {
+    std::uint64_t r = result.cells[cells.names[c]];
+    for (Index ring = cells.cells[c]; ring < cells.cells[c + 1]; ++ring, ++r) {
+      const auto begin = result.corners.begin() + static_cast<std::ptrdiff_t>(result.rings[r]);
+      const auto end = result.corners.begin() + static_cast<std::ptrdiff_t>(result.rings[r + 1]);
+      std::rotate(begin, end - static_cast<std::ptrdiff_t>(cells.given_starts[ring]), end);
+    }
+  }
+  return result;
+}
+
 void require_arcs(const PartitionData& cells) {
   if (cells.grid() == nullptr) return;
   throw InvalidInput("cells between parallels have no sides on great circles");
@@ -296,6 +311,10 @@ std::vector<Point> Partition::centers() const {
 CellRings Partition::rings() const {
   overlay::require_arcs(*data_);
   return overlay::rings_of(*data_);
+}
+CellRings Partition::given_rings() const {
+  overlay::require_arcs(*data_);
+  return overlay::given_rings_of(*data_);
 }
 bool Partition::is_cover() const { return data_->is_cover(); }
 

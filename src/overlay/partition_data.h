@@ -79,6 +79,8 @@ class PartitionData {
 // Returns the cells in the order of the input.
 CellRings rings_of(const PartitionData& data);
 CellRings rings_of(const Subdivision& cells);
+// Returns the same with rings that begin where those of the input did.
+CellRings given_rings_of(const PartitionData& data);
 
 // Throws InvalidInput if the cells are those of a grid, whose sides are no great circles.
 void require_arcs(const PartitionData& cells);

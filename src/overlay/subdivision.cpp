@@ -145,6 +145,7 @@ void Subdivision::take_rings(const CellRings& input) {
       const std::size_t begin = input.rings[r];
       const std::size_t size = input.rings[r + 1] - begin;
       const std::size_t start = least_corner(input, r);
+      given_starts.push_back(static_cast<Index>(start - begin));
       for (std::size_t k = 0; k < size; ++k) {
         const Index p = input.corners[begin + (start - begin + k) % size];
         if (new_points[p] == no_index) {
@@ -204,6 +205,7 @@ void Subdivision::merge_disordered() {
     }
   }
   if (!has_any) return;
+  given_starts.clear();
   std::vector<Index> final_points(points.size());
   for (Index p = 0; p < points.size(); ++p) final_points[p] = merged[p];
   take_merged(final_points);

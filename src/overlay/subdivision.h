@@ -46,6 +46,8 @@ struct Subdivision {
   std::vector<Point> points;  // in the order of their first use
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
   LargeVector<Index> rings;   // ring r has the halfedges rings[r] ... rings[r+1]-1
+  // The corner of the input's ring at which each ring begins here; empty if corners were merged.
+  LargeVector<Index> given_starts;
   LargeVector<Index> begins;  // the halfedges of cell i are begins[i] ... begins[i+1]-1
   // The point at the origin of each halfedge.
   LargeVector<Index> corners;

@@ -63,7 +63,21 @@ void test_corners(std::string_view bytes) {
   try {
     const CellRings cells = cells_of_corners(corners, of_each);
     require(cells.num_cells() == corners.size() / of_each, "corners make their cells");
+    const std::vector<LonLat> centers(
+        corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(cells.num_cells()));
+    const CentersOutside outside = centers_outside(cells, centers);
+    require(outside.number <= outside.of && outside.of <= cells.num_cells(), "centers are counted");
+    require(outside.number > 0 || !outside.are_most(), "no most of none");
     require(Partition(cells).num_cells() == cells.num_cells(), "which are a partition");
+  } catch (const InvalidInput&) {
+  }
+  try {
+    const std::size_t rows = corners.size() / of_each;
+    const std::size_t num_cells = rows == 0 ? 0 : (rows - 1) * (of_each - 1);
+    const std::vector<LonLat> centers(num_cells, corners.front());
+    require(corners_of_grid(corners, {rows, of_each}, centers, {of_each - 1, rows - 1}).size() ==
+                4 * num_cells,
+            "four corners for each cell");
   } catch (const InvalidInput&) {
   }
   try {

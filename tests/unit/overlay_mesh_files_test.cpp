@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <string>
 
+#include "exact/vector.h"
 #include "mesh_writer.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
@@ -27,6 +29,7 @@ struct MeshOfDiagram {
   std::vector<std::vector<std::size_t>> rings;
   std::size_t most = 0;
   std::vector<double> areas;
+  std::vector<double> center_lon, center_lat;
 
   explicit MeshOfDiagram(std::uint64_t seed) {
     const auto sites = triangulation_of("uniform", num_sites, seed);
@@ -42,6 +45,10 @@ struct MeshOfDiagram {
     }
     const Partition partition = Partition::voronoi(sites);
     areas = {partition.areas().begin(), partition.areas().end()};
+    for (const LonLat& center : lonlats(partition.centers())) {
+      center_lon.push_back(center.lon_deg);
+      center_lat.push_back(center.lat_deg);
+    }
   }
 
   // Entry k of cell i, or `missing`.
@@ -299,10 +306,8 @@ TEST(overlay_mesh_files, cf_cells_with_bounds) {
   MeshWriter file;
   const MeshWriter::Dimensions cell = {{"cell", num_sites}};
   const MeshWriter::Dimensions corners = {{"cell", num_sites}, {"nv", mesh.most}};
-  file.add("clon", cell, std::vector<double>(num_sites),
-           {{"units", "degrees_east"}, {"bounds", "clon_bnds"}});
-  file.add("clat", cell, std::vector<double>(num_sites),
-           {{"units", "degrees_north"}, {"bounds", "clat_bnds"}});
+  file.add("clon", cell, mesh.center_lon, {{"units", "degrees_east"}, {"bounds", "clon_bnds"}});
+  file.add("clat", cell, mesh.center_lat, {{"units", "degrees_north"}, {"bounds", "clat_bnds"}});
   for (const auto& [name, values] : {std::pair{"clon_bnds", &mesh.lon}, {"clat_bnds", &mesh.lat}}) {
     file.add(name, corners,
              mesh.corners([&v = *values](std::size_t node) { return v[node]; },
@@ -408,6 +413,166 @@ TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
   } catch (const InvalidInput& error) {
     EXPECT_EQ(error.index(), 2U);
   }
+}
+
+TEST(overlay_mesh_files, given_rings_make_the_same_cells) {
+  // Rings that begin anywhere: of a diagram, and of a hole in a box.
+  const MeshOfDiagram mesh(11);
+  CellRings rings;
+  for (std::size_t k = 0; k < mesh.lon.size(); ++k) {
+    rings.points.push_back(unit_vector({mesh.lon[k], mesh.lat[k]}));
+  }
+  for (std::size_t i = 0; i < num_sites; ++i) {
+    for (std::size_t k = 0; k < mesh.rings[i].size(); ++k) {
+      const std::size_t corner = mesh.rings[i][(k + i) % mesh.rings[i].size()];
+      rings.corners.push_back(static_cast<Index>(corner));
+    }
+    rings.rings.push_back(rings.corners.size());
+    rings.cells.push_back(rings.rings.size() - 1);
+  }
+  const Partition cells(rings);
+  const CellRings given = cells.given_rings();
+  ASSERT_EQ(given.corners.size(), rings.corners.size());
+  for (std::size_t k = 0; k < rings.corners.size(); ++k) {
+    EXPECT_EQ(given.points[given.corners[k]].x, rings.points[rings.corners[k]].x) << k;
+  }
+  const Partition again(given);
+  const std::span<const double> areas = cells.areas();
+  EXPECT_TRUE(std::ranges::equal(again.areas(), areas));
+  // The areas depend on where the rings begin.
+  const Partition turned(cells.rings());
+  EXPECT_FALSE(std::ranges::equal(turned.areas(), areas));
+  EXPECT_THROW((void)Partition::lonlat_grid({{0, 90}, {0, 45}}).given_rings(), InvalidInput);
+}
+
+// A curvilinear grid of n x n cells, which is turned against the axes: its centers, and the nodes
+// around them, (n + 1) x (n + 1).
+struct TurnedGrid {
+  std::vector<double> lon, lat, node_lon, node_lat;
+
+  explicit TurnedGrid(std::size_t n) {
+    for (std::size_t j = 0; j <= n; ++j) {
+      for (std::size_t i = 0; i <= n; ++i) {
+        const auto add = [](std::vector<double>& lons, std::vector<double>& lats, double x,
+                            double y) {
+          lons.push_back(170 + 3 * x + y);
+          lats.push_back(-20 + 2 * y - x / 2);
+        };
+        const auto x = static_cast<double>(i);
+        const auto y = static_cast<double>(j);
+        add(node_lon, node_lat, x, y);
+        if (i < n && j < n) add(lon, lat, x + 0.5, y + 0.5);
+      }
+    }
+  }
+
+  // Returns a file in which the nodes have these dimensions.
+  [[nodiscard]] MeshWriter file(std::size_t n, const MeshWriter::Dimensions& lon_dimensions,
+                                const MeshWriter::Dimensions& lat_dimensions) const {
+    MeshWriter file;
+    const MeshWriter::Dimensions cells = {{"y", n}, {"x", n}};
+    file.add("lon", cells, lon, {{"units", "degrees_east"}});
+    file.add("lat", cells, lat, {{"units", "degrees_north"}});
+    file.add("t", cells, lat, {{"coordinates", "lon lat"}});
+    file.add("lon_b", lon_dimensions, node_lon);
+    file.add("lat_b", lat_dimensions, node_lat);
+    return file;
+  }
+};
+
+TEST(overlay_mesh_files, nodes_of_a_square_grid_in_any_order) {
+  constexpr std::size_t n = 7;
+  const MeshWriter::Dimensions by_rows = {{"y_b", n + 1}, {"x_b", n + 1}};
+  const MeshWriter::Dimensions by_columns = {{"x_b", n + 1}, {"y_b", n + 1}};
+  const TurnedGrid grid(n);
+  const CellTable straight = table_of(grid.file(n, by_rows, by_rows));
+  const std::vector<Point> centers = partition_of(straight).centers();
+  for (std::size_t i = 0; i < n * n; ++i) {
+    const LonLat middle = lonlats(std::vector{centers[i]}).front();
+    EXPECT_NEAR(std::remainder(middle.lon_deg - grid.lon[i], 360), 0, 1e-2);
+    EXPECT_NEAR(middle.lat_deg, grid.lat[i], 1e-2);
+  }
+  TurnedGrid turned = grid;
+  turned.node_lon = transposed_of(grid.node_lon, n + 1);
+  const TurnedGrid lon_turned = turned;
+  turned.node_lat = transposed_of(grid.node_lat, n + 1);
+  for (const CellTable& table : {table_of(turned.file(n, by_columns, by_columns)),
+                                 table_of(lon_turned.file(n, by_columns, by_rows))}) {
+    EXPECT_TRUE(table.remarks.empty());
+    const std::vector<Point> found = partition_of(table).centers();
+    for (std::size_t i = 0; i < n * n; ++i) EXPECT_NEAR(dot(found[i], centers[i]), 1, 1e-12);
+  }
+}
+
+TEST(overlay_mesh_files, nodes_with_rows_and_columns_of_different_lengths) {
+  const std::vector<LonLat> nodes = {{0, 0}, {0, 1}, {0, 2}, {5, 0}, {5, 1}, {5, 2}};
+  const std::vector<LonLat> centers = {{2, 0.5}, {2, 1.5}};
+  // The nodes of two rows and one column, which go northward first.
+  const std::vector<LonLat> corners = corners_of_grid(nodes, {2, 3}, centers, {2, 1});
+  const std::vector<LonLat> expected = {{0, 0}, {5, 0}, {5, 1}, {0, 1},
+                                        {0, 1}, {5, 1}, {5, 2}, {0, 2}};
+  ASSERT_EQ(corners.size(), expected.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    EXPECT_EQ(corners[k].lon_deg, expected[k].lon_deg) << k;
+    EXPECT_EQ(corners[k].lat_deg, expected[k].lat_deg) << k;
+  }
+  EXPECT_THROW((void)corners_of_grid(nodes, {2, 3}, centers, {1, 3}), InvalidInput);
+  EXPECT_THROW((void)corners_of_grid(nodes, {2, 3}, centers, {1, 1}), InvalidInput);
+  EXPECT_THROW((void)corners_of_grid(nodes, {0, 0}, {}, {1, 1}), InvalidInput);
+}
+
+TEST(overlay_mesh_files, centers_outside_of_their_cells) {
+  constexpr std::size_t n = 7;
+  const MeshWriter::Dimensions nodes = {{"y_b", n + 1}, {"x_b", n + 1}};
+  const TurnedGrid grid(n);
+  TurnedGrid other = grid;
+  std::ranges::reverse(other.node_lat);
+  EXPECT_NE(
+      refusal_of([&] { (void)table_of(other.file(n, nodes, nodes)); })
+          .find("cells with the corners \"lon_b\" and \"lat_b\" do not contain their centers, "
+                "the first one cell 0 with the center 172 -19.25"),
+      std::string::npos);
+  other = grid;
+  for (double& lon : other.node_lon) lon += 100;
+  EXPECT_EQ(refusal_of([&] { (void)table_of(other.file(n, nodes, nodes)); }).substr(0, 8),
+            "49 of 49");
+  // Land has no coordinates here but zeros.
+  other = grid;
+  other.lon[3] = other.lat[3] = 0;
+  const CellTable told = table_of(other.file(n, nodes, nodes));
+  ASSERT_EQ(told.remarks.size(), 1U);
+  EXPECT_EQ(told.remarks[0],
+            "1 of 49 cells with the corners \"lon_b\" and \"lat_b\" do not contain their centers, "
+            "the first one cell 3 with the center 0 0");
+  for (std::size_t i = 0; i < n * n; ++i) {
+    if (i % n >= 2) other.lon[i] = other.lat[i] = 0;
+  }
+  const CellTable zeros = table_of(other.file(n, nodes, nodes));
+  ASSERT_EQ(zeros.remarks.size(), 1U);
+  EXPECT_TRUE(zeros.remarks[0].starts_with("35 of 49 cells")) << zeros.remarks[0];
+}
+
+TEST(overlay_mesh_files, sound_centers_are_inside) {
+  // A cap around a pole, a cell with a corner at the pole, a triangle with the center at a corner, a
+  // cell across the antimeridian, an empty cell, and one as large as a hemisphere.
+  const std::vector<LonLat> corners = {
+      {0, 80},  {90, 80}, {180, 80}, {-90, 80}, {0, 89},  {90, 89}, {90, 90},  {0, 90},
+      {10, 10}, {12, 10}, {10, 12},  {10, 12},  {179, 0}, {181, 0}, {-179, 1}, {-181, 1},
+      {0, 0},   {0, 0},   {0, 0},    {0, 0},    {0, 0},   {90, 0},  {180, 0},  {-90, 0}};
+  const CellRings cells = cells_of_corners(corners, 4);
+  std::vector<LonLat> centers = {{77, 90}, {45, 89.5}, {10, 10}, {180, 0.5}, {50, 50}, {0, 89}};
+  EXPECT_EQ(centers_outside(cells, centers).number, 0U);
+  EXPECT_EQ(centers_outside(cells, centers).of, 5U);
+  centers = {{77, 79}, {225, 88}, {8, 10}, {178, 0.5}, {50, 50}, {0, -89}};
+  const CentersOutside outside = centers_outside(cells, centers);
+  EXPECT_EQ(outside.number, 4U);
+  EXPECT_EQ(outside.first, 0U);
+  EXPECT_EQ(centers_outside(cells, centers, std::vector{0, 1, 1, 0, 1, 1}).number, 2U);
+  EXPECT_EQ(centers_outside(cells, centers, std::vector{0, 1, 1, 0, 1, 1}).first, 1U);
+  centers[1].lat_deg = std::nan("");
+  EXPECT_EQ(centers_outside(cells, centers).of, 4U);
+  centers.pop_back();
+  EXPECT_THROW((void)centers_outside(cells, centers), InvalidInput);
 }
 
 TEST(overlay_mesh_files, a_grid_around_its_centers) {

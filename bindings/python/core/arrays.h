@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -85,6 +86,25 @@ ArrayOut<T> to_array(std::vector<Row>&& rows) {
 template <class T, class Row>
 ArrayOut<const T> array_of(const nb::object& owner, std::span<const Row> rows) {
   return make_array<const T, Row>(rows.data(), rows.size(), owner);
+}
+
+// Adds a vector of an object as an array that refers to it. An assignment copies an array into the
+// vector; it is for objects that nobody has seen yet, as they are made of what was pickled.
+template <class T, auto member, class Object>
+void add_array(nb::class_<Object>& type, const char* name) {
+  using Rows = std::remove_cvref_t<decltype(std::declval<Object&>().*member)>;
+  using Row = typename Rows::value_type;
+  using Given = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
+  type.def_prop_rw(
+      name,
+      [](const nb::object& self) {
+        const Rows& rows = nb::cast<const Object&>(self).*member;
+        return array_of<T>(self, std::span<const Row>(rows));
+      },
+      [](Object& self, const Given& given) {
+        const auto* const rows = reinterpret_cast<const Row*>(given.data());
+        (self.*member).assign(rows, rows + given.size() * sizeof(T) / sizeof(Row));
+      });
 }
 
 inline ArrayOut<std::int32_t> indices_out(std::vector<Index>&& indices) {

@@ -4,7 +4,6 @@
 #include "rondel/contours.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "arrays.h"
@@ -13,15 +12,6 @@
 
 namespace rondel::python {
 namespace {
-
-// Returns a getter of an array of the object `self`, which is of the class Contours.
-template <class T, class Contours, auto member>
-auto contour_array() {
-  return [](const nb::object& self) {
-    const auto& rows = nb::cast<const Contours&>(self).*member;
-    return array_of<T>(self, std::span(rows));
-  };
-}
 
 template <class Contours, auto trace>
 Contours traced(const Triangulation& t, const NumbersIn& values, const NumbersIn& levels,
@@ -41,19 +31,20 @@ void write_contours(const std::string& path, const Contours& contours, double to
 }  // namespace
 
 void add_contours(nb::module_& module) {
-  nb::class_<Isolines>(module, "Isolines")
-      .def_prop_ro("levels", contour_array<double, Isolines, &Isolines::levels>())
-      .def_prop_ro("level_offsets",
-                   contour_array<std::int64_t, Isolines, &Isolines::level_offsets>())
-      .def_prop_ro("line_offsets", contour_array<std::int64_t, Isolines, &Isolines::line_offsets>())
-      .def_prop_ro("is_closed", contour_array<std::uint8_t, Isolines, &Isolines::is_closed>())
-      .def_prop_ro("points", contour_array<double, Isolines, &Isolines::points>());
-  nb::class_<Bands>(module, "Bands")
-      .def_prop_ro("levels", contour_array<double, Bands, &Bands::levels>())
-      .def_prop_ro("band_offsets", contour_array<std::int64_t, Bands, &Bands::band_offsets>())
-      .def_prop_ro("polygon_offsets", contour_array<std::int64_t, Bands, &Bands::polygon_offsets>())
-      .def_prop_ro("ring_offsets", contour_array<std::int64_t, Bands, &Bands::ring_offsets>())
-      .def_prop_ro("points", contour_array<double, Bands, &Bands::points>());
+  nb::class_<Isolines> lines(module, "Isolines");
+  lines.def(nb::init<>());
+  add_array<double, &Isolines::levels>(lines, "levels");
+  add_array<std::int64_t, &Isolines::level_offsets>(lines, "level_offsets");
+  add_array<std::int64_t, &Isolines::line_offsets>(lines, "line_offsets");
+  add_array<std::uint8_t, &Isolines::is_closed>(lines, "is_closed");
+  add_array<double, &Isolines::points>(lines, "points");
+  nb::class_<Bands> regions(module, "Bands");
+  regions.def(nb::init<>());
+  add_array<double, &Bands::levels>(regions, "levels");
+  add_array<std::int64_t, &Bands::band_offsets>(regions, "band_offsets");
+  add_array<std::int64_t, &Bands::polygon_offsets>(regions, "polygon_offsets");
+  add_array<std::int64_t, &Bands::ring_offsets>(regions, "ring_offsets");
+  add_array<double, &Bands::points>(regions, "points");
   module.def("isolines", &traced<Isolines, isolines>, nb::arg("triangulation"),
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
   module.def("bands", &traced<Bands, bands>, nb::arg("triangulation"),

@@ -64,39 +64,30 @@ WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
           to_array<double>(std::move(found.weights))};
 }
 
-// Adds a member of MeshArrays as an array that refers to it.
-template <class T, auto member>
-void add_member(nb::class_<MeshArrays>& type, const char* name) {
-  type.def_prop_ro(name, [](const nb::object& self) {
-    const auto& rows = nb::cast<const MeshArrays&>(self).*member;
-    using Row = typename std::remove_cvref_t<decltype(rows)>::value_type;
-    return array_of<T>(self, std::span<const Row>(rows));
-  });
-}
-
 }  // namespace
 
 void add_mesh(nb::module_& module) {
   nb::class_<MeshArrays> type(module, "MeshArrays");
-  type.def_ro("radius", &MeshArrays::radius);
-  add_member<double, &MeshArrays::cell_points>(type, "cell_points");
-  add_member<double, &MeshArrays::cell_areas>(type, "cell_areas");
-  add_member<double, &MeshArrays::density>(type, "density");
-  add_member<std::int64_t, &MeshArrays::offsets>(type, "offsets");
-  add_member<std::int32_t, &MeshArrays::edges_on_cell>(type, "edges_on_cell");
-  add_member<std::int32_t, &MeshArrays::cells_on_cell>(type, "cells_on_cell");
-  add_member<std::int32_t, &MeshArrays::vertices_on_cell>(type, "vertices_on_cell");
-  add_member<double, &MeshArrays::edge_points>(type, "edge_points");
-  add_member<std::int32_t, &MeshArrays::cells_on_edge>(type, "cells_on_edge");
-  add_member<std::int32_t, &MeshArrays::vertices_on_edge>(type, "vertices_on_edge");
-  add_member<double, &MeshArrays::cell_distances>(type, "cell_distances");
-  add_member<double, &MeshArrays::vertex_distances>(type, "vertex_distances");
-  add_member<double, &MeshArrays::normal_angles>(type, "normal_angles");
-  add_member<double, &MeshArrays::vertex_points>(type, "vertex_points");
-  add_member<std::int32_t, &MeshArrays::cells_on_vertex>(type, "cells_on_vertex");
-  add_member<std::int32_t, &MeshArrays::edges_on_vertex>(type, "edges_on_vertex");
-  add_member<double, &MeshArrays::kite_areas>(type, "kite_areas");
-  add_member<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
+  type.def(nb::init<>());
+  type.def_rw("radius", &MeshArrays::radius);
+  add_array<double, &MeshArrays::cell_points>(type, "cell_points");
+  add_array<double, &MeshArrays::cell_areas>(type, "cell_areas");
+  add_array<double, &MeshArrays::density>(type, "density");
+  add_array<std::int64_t, &MeshArrays::offsets>(type, "offsets");
+  add_array<std::int32_t, &MeshArrays::edges_on_cell>(type, "edges_on_cell");
+  add_array<std::int32_t, &MeshArrays::cells_on_cell>(type, "cells_on_cell");
+  add_array<std::int32_t, &MeshArrays::vertices_on_cell>(type, "vertices_on_cell");
+  add_array<double, &MeshArrays::edge_points>(type, "edge_points");
+  add_array<std::int32_t, &MeshArrays::cells_on_edge>(type, "cells_on_edge");
+  add_array<std::int32_t, &MeshArrays::vertices_on_edge>(type, "vertices_on_edge");
+  add_array<double, &MeshArrays::cell_distances>(type, "cell_distances");
+  add_array<double, &MeshArrays::vertex_distances>(type, "vertex_distances");
+  add_array<double, &MeshArrays::normal_angles>(type, "normal_angles");
+  add_array<double, &MeshArrays::vertex_points>(type, "vertex_points");
+  add_array<std::int32_t, &MeshArrays::cells_on_vertex>(type, "cells_on_vertex");
+  add_array<std::int32_t, &MeshArrays::edges_on_vertex>(type, "edges_on_vertex");
+  add_array<double, &MeshArrays::kite_areas>(type, "kite_areas");
+  add_array<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
   type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
   type.def("write", &write_mesh, nb::arg("path"), nb::arg("format"), nb::arg("is_cdf2"),
            nb::arg("threads"));

@@ -86,7 +86,13 @@ void add_region_functions(nb::module_& module) {
 }  // namespace
 
 void add_regions(nb::module_& module) {
-  nb::class_<CellRings>(module, "CellRings")
+  nb::class_<CellRings> rings(module, "CellRings");
+  add_array<std::int64_t, &CellRings::cells>(rings, "cells");
+  add_array<std::int64_t, &CellRings::rings>(rings, "rings");
+  add_array<std::int32_t, &CellRings::corners>(rings, "corners");
+  add_array<double, &CellRings::points>(rings, "points");
+  add_array<std::int32_t, &CellRings::whole>(rings, "whole");
+  rings.def(nb::init<>())
       .def_prop_ro("num_cells", &CellRings::num_cells)
       .def("areas",
            [](const CellRings& self) {

@@ -3,11 +3,14 @@
 
 #include "rondel/remap.h"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -50,8 +53,7 @@ CellRings rings_of(const OffsetsIn& cells, const OffsetsIn& rings, const Indices
           .whole = {named.begin(), named.end()}};
 }
 
-RingsOut rings_out(const Partition& partition) {
-  CellRings rings = unlocked([&] { return partition.rings(); });
+RingsOut rings_out(CellRings rings) {
   return {offsets_out(std::move(rings.cells)), offsets_out(std::move(rings.rings)),
           indices_out(std::move(rings.corners)), points_out(std::move(rings.points)),
           indices_out(std::move(rings.whole))};
@@ -61,19 +63,21 @@ GridSides sides_of(bool are_arcs) {
   return are_arcs ? GridSides::great_circles : GridSides::parallels;
 }
 
-// Returns the partition, its mask, its shape, the centers of the file in degrees, and the remarks
-// of the reader.
+// Returns the partition, its mask, its shape, the centers of the file in degrees, the remarks of the
+// reader, and the meridians and parallels between the cells, if it is a grid.
 nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
   auto [partition, table] = unlocked([&] {
     CellTable read = read_cells(path);
     Partition made = partition_of(read, sides_of(are_arcs), {.threads = threads});
     return std::tuple(std::move(made), std::move(read));
   });
+  LonLatGrid lines = table.grid.value_or(LonLatGrid{});
   nb::list lengths;
   for (const std::uint64_t length : table.shape) lengths.append(length);
   return nb::make_tuple(std::move(partition), to_array<std::int32_t>(std::move(table.mask)),
                         nb::tuple(lengths), to_array<double>(std::move(table.centers)),
-                        table.remarks);
+                        table.remarks, to_array<double>(std::move(lines.lon_deg)),
+                        to_array<double>(std::move(lines.lat_deg)));
 }
 
 std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
@@ -100,14 +104,48 @@ std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partit
   });
 }
 
+// The members of a column.
+using ColumnText =
+    std::tuple<std::string, bool, std::string, std::vector<std::uint64_t>, std::vector<bool>>;
+
+std::vector<ColumnText> texts_of_columns(const CellColumns& self) {
+  std::vector<ColumnText> made;
+  for (const Column& column : self.columns) {
+    made.emplace_back(column.name, column.is_numeric, column.text, column.ends, column.is_json);
+  }
+  return made;
+}
+
+void set_columns(CellColumns& self, const std::vector<ColumnText>& texts) {
+  self.columns.clear();
+  for (const auto& [name, is_numeric, text, ends, is_json] : texts) {
+    self.columns.push_back({name, is_numeric, text, ends, is_json});
+  }
+}
+
 std::vector<double> numbers_of(const NumbersIn& array) {
   return {array.data(), array.data() + array.size()};
 }
 
-Partition corner_partition(const PairsIn& corners, std::size_t of_each, unsigned threads) {
+// Returns the cells; the number of centers outside of them, of how many, and the first one; and
+// whether most are. There may be no centers.
+std::tuple<Partition, std::array<std::size_t, 3>, bool> corner_partition(const PairsIn& corners,
+                                                                         std::size_t of_each,
+                                                                         const PairsIn& centers,
+                                                                         unsigned threads) {
   return unlocked([&] {
-    return Partition(cells_of_corners(rows_of<LonLat>(corners), of_each), {.threads = threads});
+    const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), of_each);
+    CentersOutside found;
+    if (centers.shape(0) > 0) found = centers_outside(cells, rows_of<LonLat>(centers));
+    return std::tuple(Partition(cells, {.threads = threads}),
+                      std::array{found.number, found.of, found.first}, found.are_most());
   });
+}
+
+ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 2> node_shape,
+                                  const PairsIn& centers, std::array<std::size_t, 2> shape) {
+  return to_array<double>(corners_of_grid(rows_of<LonLat>(nodes), {node_shape[0], node_shape[1]},
+                                          rows_of<LonLat>(centers), {shape[0], shape[1]}));
 }
 
 RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
@@ -132,7 +170,9 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
 }  // namespace
 
 void add_remap(nb::module_& module) {
-  [[maybe_unused]] const nb::class_<CellColumns> columns(module, "CellColumns");
+  nb::class_<CellColumns>(module, "CellColumns")
+      .def(nb::init<>())
+      .def_prop_rw("columns", &texts_of_columns, &set_columns);
   nb::class_<Partition>(module, "Partition")
       .def_static(
           "voronoi",
@@ -173,14 +213,21 @@ void add_remap(nb::module_& module) {
                      return array_of<double>(self, nb::cast<const Partition&>(self).areas());
                    })
       .def("centers", [](const Partition& self) { return points_out(self.centers()); })
-      .def("rings", &rings_out)
+      .def("rings",
+           [](const Partition& self) { return rings_out(unlocked([&] { return self.rings(); })); })
+      .def("given_rings",
+           [](const Partition& self) {
+             return rings_out(unlocked([&] { return self.given_rings(); }));
+           })
       .def("weight_corners", [](const Partition& self) {
         return to_array<double>(unlocked([&] { return weight_corners(self); }));
       });
   module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
              nb::arg("threads"));
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
-             nb::arg("of_each"), nb::arg("threads"));
+             nb::arg("of_each"), nb::arg("centers").noconvert(), nb::arg("threads"));
+  module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
+             nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
              nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("groups").noconvert().none(),
              nb::arg("threads"));

@@ -13,13 +13,14 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import InvalidInput
-from ._properties import is_missing
+from ._properties import is_double, is_missing, plain, stacked
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray, Model, Path
 
 Number = TypeVar("Number", bound=np.generic)
 
 MODELS = ("projected", "weighted")
 ORIGIN = (0.0, 0.0, 0.0)
+EXACT = 2**53  # up to this number all integers are doubles
 
 HINT_OF_DEGREES = "rondel.unit_vectors(lon, lat) makes them of longitudes and latitudes"
 
@@ -33,6 +34,9 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
     array = np.asarray(values)
     if array.dtype.kind not in "biufO":
         raise TypeError(f"{name} must be real numbers, not {in_words(array)}")
+    is_list = isinstance(values, (list, tuple)) and array.dtype.kind == "f"
+    if is_list and np.any(np.abs(array) >= EXACT):  # NumPy has rounded integers beside others
+        _require_doubles(np.asarray(values, object), name)
     _require_doubles(array, name)
     try:
         return np.require(array, np.float64, ["C", "A"])
@@ -43,17 +47,28 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
 
 
 def _require_doubles(array: npt.NDArray[Any], name: str) -> None:
-    """Refuses integers of 64 bits that no double is equal to."""
-    if array.dtype.kind not in "iu" or array.dtype.itemsize < 8 or array.size == 0:
-        return
-    exact = 2**53
-    if int(array.max()) <= exact and int(array.min()) >= -exact:
-        return
-    for index in np.flatnonzero((array > exact) | (array < -exact)).tolist():
+    """Refuses integers of 64 bits, or more in arrays of objects, that no double is equal to."""
+    for index in _large_integers(array):
         value = int(array.flat[index])
-        if int(float(value)) != value:
+        if not is_double(value):
             at = int(np.unravel_index(index, array.shape)[-1]) if array.ndim else 0
             raise InvalidInput(f"{name} have the integer {value}, which is no double", at)
+
+
+def _large_integers(array: npt.NDArray[Any]) -> list[int]:
+    """Where the integers are that may be no doubles, in the flat array."""
+    if array.dtype.kind == "O":
+        return [k for k, value in enumerate(array.flat) if _is_large(value)]
+    if array.dtype.kind not in "iu" or array.dtype.itemsize < 8 or array.size == 0:
+        return []
+    if int(array.max()) <= EXACT and int(array.min()) >= -EXACT:
+        return []
+    found: list[int] = np.flatnonzero((array > EXACT) | (array < -EXACT)).tolist()
+    return found
+
+
+def _is_large(value: Any) -> bool:
+    return isinstance(value, (int, np.integer)) and abs(int(value)) > EXACT
 
 
 def require_finite_or_nan(array: FloatArray, name: str) -> None:
@@ -314,19 +329,22 @@ def degrees_of(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=-1))
 
 
-def unmasked(values: Any) -> Any:
+def unmasked(values: Any, name: str = "values") -> Any:
     """The same; where numbers are masked, None or pandas' NA as float64 with NaN there."""
     if isinstance(values, (list, tuple)) and any(map(np.ma.isMaskedArray, values)):
-        values = np.ma.stack(values)
+        values = stacked(values)
     if np.ma.isMaskedArray(values):
+        if values.dtype.kind in "iuO":
+            _require_doubles(np.ma.filled(values, 0), name)
         return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
-    array = np.asarray(values)
+    array = plain(values)
     if array.dtype.kind != "O":
         # Arrays of pandas have a mask also where they miss nothing.
         return array if np.ma.is_masked(values) else values
     missing = np.array(np.frompyfunc(is_missing, 1, 1)(array), bool)
     if any(isinstance(value, str) for value in array.flat):
         return values
+    _require_doubles(array, name)
     try:
         return np.where(missing, np.nan, array).astype(np.float64)
     except (TypeError, ValueError):
@@ -335,7 +353,7 @@ def unmasked(values: Any) -> Any:
 
 def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
     """Values of shape (..., n) as float64; what is masked or missing is NaN."""
-    array = as_floats(unmasked(values), name)
+    array = as_floats(unmasked(values, name), name)
     if array.ndim == 0 or array.shape[-1] != num_sites:
         shape = array.shape
         hint = "; the sites are the last axis" if num_sites in shape[:-1] else ""

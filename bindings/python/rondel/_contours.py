@@ -14,6 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_fields, as_floats, as_threads, frozen
 from ._geo import written
+from ._pickled import arrays_of, with_arrays
 from ._plot import draw_arcs
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, Triangulated
@@ -135,6 +136,12 @@ class Isolines(Described):
         self.is_closed: BoolArray = frozen(found.is_closed.astype(bool))
         self.points: FloatArray = found.points
 
+    def __getstate__(self) -> dict[str, Any]:
+        return arrays_of(self._found)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        Isolines.__init__(self, with_arrays(_core.Isolines(), state))
+
     def lines(self, level: int) -> list[FloatArray]:
         """Returns the lines of a level, each of shape (k, 3); a closed one ends where it begins."""
         found = []
@@ -221,6 +228,12 @@ class Bands(Described):
         self.polygon_offsets: OffsetArray = found.polygon_offsets
         self.ring_offsets: OffsetArray = found.ring_offsets
         self.points: FloatArray = found.points
+
+    def __getstate__(self) -> dict[str, Any]:
+        return arrays_of(self._found)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        Bands.__init__(self, with_arrays(_core.Bands(), state))
 
     def polygons(self, band: int) -> list[list[FloatArray]]:
         """The polygons of a band, each a list of rings (k, 3); without rings it is the sphere."""

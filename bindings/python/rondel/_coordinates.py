@@ -132,6 +132,11 @@ class Coordinates:
         return {name for name in (*self._bounds, *named.values()) if name is not None}
 
     @property
+    def corner_names(self) -> list[str]:
+        """The quoted names of the bounds."""
+        return [repr(name) for name in self._bounds if name is not None]
+
+    @property
     def have_bounds(self) -> bool:
         """Whether both have bounds."""
         return None not in self._bounds
@@ -140,6 +145,7 @@ class Coordinates:
         """Bounds of longitudes and of latitudes in degrees; the dimensions of places come first."""
         made: list[FloatArray | None] = []
         places = (self.lon, self.lat)
+        first_dims: tuple[Hashable, ...] | None = None  # those of the longitudes' bounds
         for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
             if name is None:
                 made.append(None)
@@ -150,6 +156,9 @@ class Coordinates:
                 first = dict.fromkeys(dims[: len(dims) - 1], 0)
                 variable = variable.isel(first)
                 variable = variable.transpose(*own.dims, *dims[len(dims) - 1 :])
+            elif first_dims is not None and set(first_dims) == set(variable.dims):
+                variable = variable.transpose(*first_dims)
+            first_dims = variable.dims
             made.append(np.asarray(variable.values, np.float64) * unit)
         return made
 

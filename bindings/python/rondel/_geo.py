@@ -20,7 +20,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import degrees_of
-from ._properties import checked_properties, json_cells, with_gaps
+from ._properties import checked_properties, frame_column, json_columns, with_gaps
 from ._types import Divided, FloatArray, IntArray, Triangulated
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def cells_to_geojson(
 
     """
     values = checked_properties(properties, ("site", "area"), len(self.points), as_json=True)
-    columns = [(name, json_cells(column)) for name, column in values.items()]
+    columns = json_columns(values)
 
     def write(name: str) -> None:
         _core.write_cells(
@@ -200,13 +200,11 @@ def cells_to_geopandas(
         If GeoPandas is not installed.
 
     """
-    import pandas
-
     given = checked_properties(properties, ("site", "area", "geometry"), len(self.points))
     sites = self.delaunay.vertices
     columns: dict[str, Any] = {"site": sites, "area": self._diagram.areas[sites]}
     for name, values in given.items():
-        columns[name] = pandas.Series(values).array[sites]
+        columns[name] = frame_column(values)[sites]
     polygons = _core.cell_polygons(
         self.delaunay._triangulation, self._diagram, float(tolerance_deg)
     )

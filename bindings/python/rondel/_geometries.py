@@ -130,7 +130,7 @@ def _collection(geometries: Any, edges: Edges) -> dict[str, Any]:
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
     if _is_box(geometries):
         return _box(*map(float, geometries))
-    known = _interface(geometries)
+    known = _without_box(_interface(geometries))
     if properties:
         return {**known, "features": [*map(_with_properties, known["features"], properties)]}
     if known is not None:
@@ -186,6 +186,20 @@ def _properties(frame: Any) -> list[dict[str, Any]]:
     ]
 
 
+def _without_box(known: Any) -> Any:
+    """GeoJSON without `bbox`, which no reader asks for and which is NaN where nothing is in it."""
+    if isinstance(known, (list, tuple)):
+        return [_without_box(part) for part in known]
+    if not isinstance(known, Mapping):
+        return known
+    nested = ("features", "geometry", "geometries")
+    return {
+        name: _without_box(part) if name in nested else part
+        for name, part in known.items()
+        if name != "bbox"
+    }
+
+
 def _with_properties(feature: Mapping[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
     return {**feature, "properties": properties}
 
@@ -234,6 +248,7 @@ def _feature(geometry: Any) -> dict[str, Any]:
     known = None if geometry is None else _interface(geometry)
     if known is None and geometry is not None:
         raise TypeError(f"{type(geometry).__name__} is no geometry: it has no __geo_interface__")
+    known = _without_box(known)
     if known is not None and known.get("type") == "Feature":
         return dict(known)
     return {"type": "Feature", "properties": {}, "geometry": known}

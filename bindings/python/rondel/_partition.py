@@ -72,8 +72,9 @@ class Partition(FileCells, Described):
             If `sites` is neither a triangulation nor a diagram.
 
         """
-        made = _core.Partition.voronoi(_triangulation_of(sites), as_threads(threads))
-        return cls._of(made, has_corners=False)
+        owner = _triangulated_of(sites)
+        made = _core.Partition.voronoi(owner._triangulation, as_threads(threads))
+        return cls._of(made, has_corners=False, origin=("voronoi", owner))
 
     @classmethod
     def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
@@ -98,8 +99,9 @@ class Partition(FileCells, Described):
             If `sites` is neither a triangulation nor a diagram.
 
         """
-        made = _core.Partition.triangles(_triangulation_of(sites), as_threads(threads))
-        return cls._of(made, has_corners=False)
+        owner = _triangulated_of(sites)
+        made = _core.Partition.triangles(owner._triangulation, as_threads(threads))
+        return cls._of(made, has_corners=False, origin=("triangles", owner))
 
     @classmethod
     def lonlat_grid(
@@ -144,11 +146,11 @@ class Partition(FileCells, Described):
 
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        made = _core.Partition.lonlat_grid(
-            meridians, parallels, are_arcs(sides), as_threads(threads)
-        )
+        lines = meridians, parallels, are_arcs(sides)
+        made = _core.Partition.lonlat_grid(*lines, as_threads(threads))
         axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
-        return cls._of(made, shape=(len(axes[1]), len(axes[0])), axes=axes)
+        shape = len(axes[1]), len(axes[0])
+        return cls._of(made, shape=shape, axes=axes, origin=("lonlat_grid", *lines))
 
     @classmethod
     def lonlat_centers(
@@ -265,12 +267,24 @@ class Partition(FileCells, Described):
             If a corner is not finite, or has a latitude outside [-90, 90]. Its `index` is the cell.
 
         """
+        return cls._around(lon, lat, np.zeros((0, 2)), threads)[0]
+
+    @classmethod
+    def _around(
+        cls, lon: ArrayLike, lat: ArrayLike, centers: FloatArray, threads: int | None
+    ) -> tuple[Partition, tuple[int, int, int, bool]]:
+        """Cells with these corners; and how many centers (n, 2), if there are some, are outside of
+        them, of how many, the first of these cells, and whether most centers are.
+        """
         degrees = as_lonlat(lon, lat)
         shape = np.shape(lon)
         if len(shape) < 2:
             raise ValueError(f"lon must have shape (..., k), not {shape}")
-        made = _core.corner_partition(degrees, shape[-1], as_threads(threads))
-        return cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
+        made, (number, of, first), are_most = _core.corner_partition(
+            degrees, shape[-1], centers, as_threads(threads)
+        )
+        cells = cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
+        return cells, (number, of, first, are_most)
 
     @property
     def num_cells(self) -> int:
@@ -279,8 +293,8 @@ class Partition(FileCells, Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only. `InvalidInput`
-        is raised if a cell crosses or overlaps itself.
+        """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only.
+        `InvalidInput` is raised if a cell crosses or overlaps itself.
         """
         return self._partition.areas
 
@@ -382,9 +396,9 @@ def _as_lines(values: ArrayLike, name: str) -> FloatArray:
     return lines
 
 
-def _triangulation_of(sites: Any) -> _core.Triangulation:
+def _triangulated_of(sites: Any) -> Any:
+    """The object that holds the triangulation."""
     for owner in (sites, getattr(sites, "delaunay", None)):
-        triangulation = getattr(owner, "_triangulation", None)
-        if isinstance(triangulation, _core.Triangulation):
-            return triangulation
+        if isinstance(getattr(owner, "_triangulation", None), _core.Triangulation):
+            return owner
     raise TypeError(f"sites must be a triangulation or a diagram, not {type(sites).__name__}")

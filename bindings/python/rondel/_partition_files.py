@@ -14,6 +14,7 @@ from . import _core
 from ._arrays import as_threads
 from ._geo import Path, write_named
 from ._geometries import Edges, PolygonOverlap, Polygons, polygons_of, read_polygons
+from ._pickled import arrays_of, with_arrays
 from ._types import FloatArray, IntArray
 
 Sides: TypeAlias = Literal["parallels", "great_circles"]
@@ -36,6 +37,9 @@ class FileCells:
     _file_centers: FloatArray | None
     _has_corners: bool  # which files of weights get
     _columns: _core.CellColumns | None  # the properties of polygons
+    # The name of the function of the library that made the cells, and what it got; None if they are
+    # made of their rings.
+    _origin: tuple[Any, ...] | None
 
     @classmethod
     def _of(
@@ -47,6 +51,7 @@ class FileCells:
         file_centers: FloatArray | None = None,
         has_corners: bool = True,
         columns: _core.CellColumns | None = None,
+        origin: tuple[Any, ...] | None = None,
     ) -> Made:
         self = cls.__new__(cls)
         self._partition = partition
@@ -56,7 +61,28 @@ class FileCells:
         self._file_centers = file_centers
         self._has_corners = has_corners
         self._columns = columns
+        self._origin = origin
         return self
+
+    # Cells of a triangulation or a grid are made again, so that they are the same bit by bit.
+    def __getstate__(self) -> dict[str, Any]:
+        state = dict(self.__dict__)
+        state["_partition"] = None if self._origin else self._partition.given_rings()
+        state["_columns"] = self._columns and arrays_of(self._columns)
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        columns = state["_columns"]
+        self._columns = columns and with_arrays(_core.CellColumns(), columns)
+        if self._origin is None:
+            cells, rings, corners, points, whole = state["_partition"]
+            self._partition = _core.Partition.from_rings(cells, rings, corners, points, whole, 0)
+            return
+        name, *given = self._origin
+        if name != "lonlat_grid":
+            given = [given[0]._triangulation]
+        self._partition = getattr(_core.Partition, name)(*given, 0)
 
     @classmethod
     def _of_polygons(cls: type[Made], polygons: Polygons) -> Made:
@@ -123,10 +149,12 @@ class FileCells:
                 _core.read_partition(name, are_arcs(sides), count_of_threads)
             ),
         )
-        partition, mask, shape, centers, remarks = found
+        partition, mask, shape, centers, remarks, *lines = found
+        origin = ("lonlat_grid", *lines, are_arcs(sides)) if len(lines[0]) else None
         for remark in remarks:
             warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
-        return cls._of(partition, mask, shape, file_centers=centers if len(centers) else None)
+        places = centers if len(centers) else None
+        return cls._of(partition, mask, shape, file_centers=places, origin=origin)
 
     @classmethod
     def from_geometries(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray
 
+from . import _core
 from ._arrays import in_words, point_set_hash, unit_vectors, unmasked
 from ._coordinates import (
     MARKS,
@@ -291,9 +292,32 @@ class Places:
                 "bounds of the coordinates"
             )
         if lon.shape[: len(self.shape)] != self.shape:
-            lon, lat = _four(lon, self.shape), _four(lat, self.shape)
-        made, mask = _cells_of_corners(lon, lat, self.mask(), threads)
+            lon, lat = _four(lon, lat, self.shape, self._pairs_with_gaps(None))
+        mask = self.mask()
+        centers = self._pairs_with_gaps(mask)
+        made, mask, outside = _cells_of_corners(lon, lat, mask, centers, threads)
+        self._require_inside(*outside)
         return made.with_places(self.pairs()), mask
+
+    def _pairs_with_gaps(self, mask: BoolArray | None) -> FloatArray:
+        """Longitudes and latitudes, shape (n, 2); NaN where there is none or no part is taken."""
+        centers = np.stack([self.lon, self.lat], axis=-1).reshape(-1, 2).astype(np.float64)
+        if mask is not None:
+            centers[~mask] = np.nan
+        return np.ascontiguousarray(centers)
+
+    def _require_inside(self, number: int, of: int, first: int, are_most: bool) -> None:
+        """Refuses cells most of which do not contain their centers: their corners are others'."""
+        if number == 0:
+            return
+        text = (
+            f"{number} of {of} cells with the corners {' and '.join(self._found.corner_names)} do "
+            f"not contain their centers, the first one cell {first} with the center "
+            f"{self.lon.flat[first]:g} {self.lat.flat[first]:g}"
+        )
+        if are_most:
+            raise ValueError(f"{text}: corners and centers are of different places or orders")
+        warn_caller(text)
 
 
 def _paired(lon: Any, lat: Any) -> xarray.Dataset:
@@ -342,15 +366,22 @@ def _of_table(table: Any) -> xarray.Dataset:
 
 
 def _cells_of_corners(
-    lon: FloatArray, lat: FloatArray, mask: BoolArray | None, threads: int | None
-) -> tuple[Partition, BoolArray | None]:
-    """Cells with a corner that is nowhere are left out, with a warning unless they are masked."""
+    lon: FloatArray,
+    lat: FloatArray,
+    mask: BoolArray | None,
+    centers: FloatArray,
+    threads: int | None,
+) -> tuple[Partition, BoolArray | None, tuple[int, int, int, bool]]:
+    """Cells with a corner that is nowhere are left out, with a warning unless they are masked.
+    Tells of centers that are outside, too.
+    """
     missing = ~(np.isfinite(lon) & np.isfinite(lat))
     if lon.ndim == 2:  # Cells with fewer corners than others end with missing ones.
         lon, lat, missing = _filled_up(lon, lat, missing)
     lacking = missing.any(axis=-1).reshape(-1)
     if not lacking.any():
-        return Partition.corners(lon, lat, threads=threads), mask
+        made, outside = Partition._around(lon, lat, centers, threads)
+        return made, mask, outside
     untold = int(np.count_nonzero(lacking if mask is None else lacking & mask))
     if lacking.all():
         raise ValueError("no cell has corners: they are missing")
@@ -359,8 +390,10 @@ def _cells_of_corners(
             f"{untold} of {lacking.size} cells have corners that are missing and are left out"
         )
     nowhere = lacking.reshape(lon.shape[:-1])[..., None]
-    made = Partition.corners(np.where(nowhere, 0, lon), np.where(nowhere, 0, lat), threads=threads)
-    return made, ~lacking if mask is None else mask & ~lacking
+    made, outside = Partition._around(
+        np.where(nowhere, 0, lon), np.where(nowhere, 0, lat), centers, threads
+    )
+    return made, ~lacking if mask is None else mask & ~lacking, outside
 
 
 def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[Any, Any, Any]:
@@ -379,8 +412,21 @@ def _centers(partition: Partition) -> xarray.Dataset:
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 
+def _named(arrays: dict[Any, Any]) -> dict[Any, Any]:
+    """The same with the names lon and lat for the longitudes and latitudes."""
+    made = dict(arrays)
+    for kind, names in _COLUMNS.items():
+        found = [name for name in arrays if str(name).lower() in names]
+        if len(found) != 1:
+            texts = ", ".join(map(str, arrays)) or "nothing"
+            raise ValueError(f"a dictionary of a grid has {kind}, in degrees; this one has {texts}")
+        made[kind] = made.pop(found[0])
+    return made
+
+
 def _dataset(arrays: dict[Any, Any], are_points: bool) -> xarray.Dataset:
     """Longitudes and latitudes (and lon_b, lat_b, mask), as axes, of points, or curvilinear."""
+    arrays = _named(arrays)
     rank = np.ndim(arrays["lon"])
     for kind in ("lat", "lon"):
         if rank not in (1, 2) or np.ndim(arrays[kind]) != rank:
@@ -417,15 +463,16 @@ def _marked(variables: dict[Any, Any]) -> xarray.Dataset:
     return made
 
 
-def _four(corners: Any, shape: tuple[int, ...]) -> FloatArray:
+def _four(
+    lon: FloatArray, lat: FloatArray, shape: tuple[int, ...], centers: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """The corners of each cell, from arrays of the corners of a curvilinear grid."""
-    wanted = (*shape[:-2], *(length + 1 for length in shape[-2:]))
-    if len(shape) < 2 or corners.shape != wanted:
-        raise ValueError(f"corners of cells of shape {shape} cannot have shape {corners.shape}")
-    around = (
-        corners[..., :-1, :-1],
-        corners[..., :-1, 1:],
-        corners[..., 1:, 1:],
-        corners[..., 1:, :-1],
-    )
-    return np.stack(around, axis=-1)
+    wanted = tuple(length + 1 for length in shape[-2:])
+    for corners in (lon, lat):
+        fits = corners.shape[:-2] == shape[:-2] and corners.shape[-2:] in (wanted, wanted[::-1])
+        if len(shape) < 2 or not fits or lon.shape != lat.shape:
+            raise ValueError(f"corners of cells of shape {shape} cannot have shape {corners.shape}")
+    nodes = np.ascontiguousarray(np.stack([lon, lat], axis=-1).reshape(-1, 2))
+    found = _core.corners_of_grid(nodes, lon.shape[-2:], centers, shape[-2:])
+    corners = found.reshape(*shape, 4, 2)
+    return corners[..., 0], corners[..., 1]

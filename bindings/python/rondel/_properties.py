@@ -7,6 +7,7 @@ from __future__ import annotations
 import datetime
 import json
 import math
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -48,13 +49,41 @@ def _num_infinite(values: Any) -> int:
     return sum(map(math.isinf, numbers))
 
 
+def json_columns(named: Mapping[str, Any]) -> list[tuple[str, list[str]]]:
+    """Columns of JSON with their names; refuses what no file of GeoJSON may have."""
+    columns = []
+    for name, values in named.items():
+        try:
+            cells = json_cells(values)
+        except ValueError as error:
+            raise ValueError(f"the property {name!r}: {error}") from None
+        bad = next((text for text in (name, *cells) if not _is_text(text)), None)
+        if bad is not None:
+            raise ValueError(
+                f"the property {name!r} has the text {bad!a}, which has the character U+0000 or is "
+                "not UTF-8"
+            )
+        columns.append((name, cells))
+    return columns
+
+
+def _is_text(text: str) -> bool:
+    if "\0" in text or re.search(r"(?<!\\)(\\\\)*\\u0000", text):
+        return False
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def json_cells(values: Any) -> list[str]:
     """Each value as JSON; an empty text is null."""
     if np.ma.is_masked(values):
         masked = np.ma.getmaskarray(values).reshape(len(values), -1).all(axis=1)
         cells = json_cells(np.ma.getdata(values))
         return ["" if gone else cell for cell, gone in zip(cells, masked.tolist(), strict=True)]
-    array = np.asarray(values if hasattr(values, "dtype") else [])
+    array = plain(values if hasattr(values, "dtype") else [])
     kind = array.dtype.kind if array.shape == (len(values),) else "O"
     if kind in "iu":
         return [str(value) for value in array.tolist()]
@@ -85,17 +114,36 @@ def is_missing(value: Any) -> bool:
     return value is None or value is np.ma.masked or type(value).__name__ in ("NaTType", "NAType")
 
 
+def plain(values: Any) -> Any:
+    """An array of NumPy; of pandas' integers, some of which are missing, an array of objects."""
+    dtype = getattr(values, "dtype", None)
+    is_of_pandas = hasattr(dtype, "na_value") and getattr(dtype, "kind", "") in "iu"
+    return np.asarray(values, object if is_of_pandas and values.isna().any() else None)
+
+
+def stacked(values: Any) -> Any:
+    """A masked array of a list whose elements are numbers or `masked`, or masked arrays."""
+    lost = [value is np.ma.masked for value in values]
+    if all(lost) or any(np.ndim(value) > 0 for value in values):
+        return np.ma.stack(values)
+    known = values[lost.index(False)]  # in place of what is masked
+    return np.ma.array(
+        [known if gone else value for value, gone in zip(values, lost, strict=True)], mask=lost
+    )
+
+
 def with_gaps(values: Any) -> Any:
     """An array; what is masked is NaN or NaT, or None where the values are no numbers or times."""
     if isinstance(values, (list, tuple)) and any(value is np.ma.masked for value in values):
-        values = np.ma.stack(values)
-    array = np.asarray(values)
+        values = stacked(values)
+    array = plain(values)
     if not np.ma.is_masked(values):
         return array
     masked = np.ma.getmaskarray(values)
     if array.dtype.kind in "mM":
         return np.where(masked, np.array("NaT", array.dtype), array)
-    if array.dtype.kind in "biuf":
+    is_wide = array.dtype.kind in "iu" and not are_doubles(array[~masked])
+    if array.dtype.kind in "biuf" and not is_wide:
         kind = array.dtype if array.dtype.kind == "f" else np.float64
         return np.where(masked, np.nan, array).astype(kind)
     found = array.astype(object)
@@ -103,7 +151,51 @@ def with_gaps(values: Any) -> Any:
     return found
 
 
-def _as_text(value: Any) -> str:
+def are_doubles(integers: Any) -> bool:
+    """Whether each of the integers is equal to a double."""
+    return all(is_double(value) for value in integers.tolist() if abs(value) > 2**53)
+
+
+def is_double(value: int) -> bool:
+    try:
+        return int(float(value)) == value
+    except OverflowError:
+        return False
+
+
+def frame_column(values: Any) -> Any:
+    """An array for a GeoDataFrame in which values keep their types: integers of which some are
+    missing are those of pandas, which have a mask, where NumPy's would be doubles.
+    """
+    import pandas
+
+    if np.ma.isMaskedArray(values) and values.dtype.kind in "iu":
+        given = values.tolist()  # None where it is masked
+    elif isinstance(values, (list, tuple)):
+        given = list(values)
+    else:
+        return pandas.Series(values).array
+    known = [value for value in given if not _is_gap(value)]
+    numbers = [
+        int(value)
+        for value in known
+        if isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    ]
+    if len(numbers) == len(known) < len(given) and numbers:
+        for kind, low, high in (("Int64", -(2**63), 2**63), ("UInt64", 0, 2**64)):
+            if low <= min(numbers) and max(numbers) < high:
+                return pandas.array([None if _is_gap(v) else int(v) for v in given], dtype=kind)
+    are_exact = all(map(is_double, numbers)) or len(numbers) == len(given)
+    return pandas.Series(given, dtype=None if are_exact else object).array
+
+
+def _is_gap(value: Any) -> bool:
+    return is_missing(value) or (isinstance(value, (float, np.floating)) and bool(np.isnan(value)))
+
+
+def _as_text(value: Any) -> Any:
+    if isinstance(value, (np.ndarray, np.generic)) and value.dtype.kind in "biuf":
+        return value.tolist()
     if isinstance(value, (datetime.date, datetime.time)):
         return value.isoformat()
     return str(value)

@@ -24,8 +24,9 @@ from ._geometries import (
     read_polygons,
 )
 from ._partition import Partition
+from ._pickled import arrays_of, with_arrays
 from ._plot import plot_regions
-from ._properties import checked_properties, is_missing, json_cells
+from ._properties import checked_properties, frame_column, is_missing, json_columns
 from ._repr import Described, count
 from ._types import ArrayLike, Divided, FloatArray, Progress
 
@@ -80,6 +81,13 @@ class Regions(Described):
         self.values = values
         self._kind = kind
         return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_rings": arrays_of(self._rings)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        rings = with_arrays(_core.CellRings(), state["_rings"])
+        self.__dict__.update({**state, "_rings": rings})
 
     def __len__(self) -> int:
         return self._rings.num_cells
@@ -220,7 +228,7 @@ class Regions(Described):
         named = {**self._own, **values}
         if radius_km is not None:
             named["area_km2"] = self.areas_km2(radius_km)
-        columns = [(name, json_cells(column)) for name, column in named.items()]
+        columns = json_columns(named)
         tolerance = float(tolerance_deg)
         return written(path, lambda name: self._rings.write(name, columns, tolerance))
 
@@ -260,8 +268,6 @@ class Regions(Described):
             If GeoPandas is not installed.
 
         """
-        import pandas
-
         given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
         owners = polygons[3]
@@ -271,7 +277,7 @@ class Regions(Described):
         if radius_km is not None:
             columns["area_km2"] = self.areas_km2(radius_km)[rows]
         for name, values in given.items():
-            columns[name] = pandas.Series(values).array[rows]
+            columns[name] = frame_column(values)[rows]
         return polygon_frame(columns, polygons, rows)
 
     plot = plot_regions

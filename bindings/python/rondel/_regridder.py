@@ -232,7 +232,8 @@ class Regridder(Described):
         Returns
         -------
         ndarray, DataArray or Dataset
-            The fields on the target grid, in the type of `data`; booleans become 0 and 1. Variables
+            The fields on the target grid, as what `data` are, with their floating-point type or, of
+            integers and booleans, as float64. Variables
             of a Dataset that depend on place and are no numbers, or have only some of the source's
             dimensions, and coordinates of the places are left out with a warning that names them.
             Arrays of Dask stay lazy.
@@ -340,7 +341,8 @@ def _labeled(data: Any, dims: tuple[Any, ...]) -> Any:
     import xarray
 
     if np.ma.isMaskedArray(data):
-        data = np.ma.filled(data.astype(np.float64), np.nan)
+        kind = data.dtype if data.dtype.kind == "f" else np.float64
+        data = np.ma.filled(data.astype(kind), np.nan)
     return xarray.DataArray(data, dims=dims)
 
 

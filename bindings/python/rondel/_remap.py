@@ -222,8 +222,9 @@ def _as_partition(cells: Any, threads: int | None) -> Partition:
         return cells
     if isinstance(cells, Mesh):
         each = np.arange(len(cells.offsets))
+        points = cells.vertex_points / cells.radius
         return Partition.polygons(
-            each, cells.offsets, cells.vertices_on_cell, cells.vertex_points, threads=threads
+            each, cells.offsets, cells.vertices_on_cell, points, threads=threads
         )
     if isinstance(cells, Diagram):
         return Partition.voronoi(cells, threads=threads)

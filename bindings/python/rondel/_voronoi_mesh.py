@@ -18,6 +18,7 @@ from ._geometries import Edges
 from ._mesh_making import ScvtReport
 from ._mesh_parts import plot_mesh, removed_cells
 from ._mpas_dataset import dataset_of
+from ._pickled import arrays_of, with_arrays
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
 if TYPE_CHECKING:
@@ -87,6 +88,14 @@ class Mesh:
 
     def __init__(self, arrays: _core.MeshArrays) -> None:
         self._arrays = arrays
+
+    def __getstate__(self) -> dict[str, Any]:
+        known = {name: self.__dict__[name] for name in ("report", "fixed") if name in self.__dict__}
+        return {"arrays": arrays_of(self._arrays), "known": known}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._arrays = with_arrays(_core.MeshArrays(), state["arrays"])
+        self.__dict__.update(state["known"])
 
     def __repr__(self) -> str:
         return (

@@ -482,3 +482,27 @@ def test_options_without_effect_are_refused(tmp_path):
         tri.k_nearest([1, 0, 0], 2.5)
     with pytest.raises(rondel.InvalidInput, match="level 1, 1, is not above the one before it, 3"):
         tri.isolines(np.arange(6), [3, 1])
+
+
+def test_integers_beside_missing_values_are_not_rounded():
+    pandas = pytest.importorskip("pandas")
+    wide = 2**53 + 1
+    tri = rondel.delaunay(clouds.uniform(6))
+    for values in (
+        [wide, None, 1, 1, 1, 1],
+        [wide, 0.5, 1, 1, 1, 1],
+        np.array([wide, None, 1, 1, 1, 1], object),
+        np.ma.array([wide, 1, 1, 1, 1, 1], mask=[0, 1, 0, 0, 0, 0]),
+        [wide, np.ma.masked, 1, 1, 1, 1],
+        pandas.array([wide, None, 1, 1, 1, 1], dtype="Int64"),
+        pandas.Series([wide, None, 1, 1, 1, 1], dtype="Int64"),
+    ):
+        with pytest.raises(
+            rondel.InvalidInput, match=f"values have the integer {wide}, which"
+        ) as e:
+            tri.interpolate(values, tri.points, "nearest")
+        assert e.value.index == 0
+    for values in ([wide - 1, None, 1, 1, 1, 1], [1e300, None, 2.5, 1, 1, 2**70]):
+        found = tri.interpolate(values, tri.points, "nearest")
+        assert found[0] == values[0]
+        assert np.isnan(found[1])

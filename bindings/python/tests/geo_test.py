@@ -291,3 +291,77 @@ def test_uxarray_opens_diagrams_with_duplicates():
     assert grid.n_face == 100
     assert np.allclose(grid.face_lon, tri.lonlat[:100, 0])
     grid.to_polycollection()
+
+
+WIDE = 2**60 + 1
+COLUMNS = {
+    "None": [WIDE, None, 3, 4, 5, 6],
+    "pandas": lambda pandas: pandas.array([WIDE, None, 3, 4, 5, 6], dtype="Int64"),
+    "series": lambda pandas: pandas.Series([WIDE, None, 3, 4, 5, 6], dtype="Int64"),
+    "masked": np.ma.array([WIDE, 2, 3, 4, 5, 6], mask=[0, 1, 0, 0, 0, 0]),
+    "masked elements": [WIDE, np.ma.masked, 3, 4, 5, 6],
+    "unsigned": [2**63 + 1, None, 3, 4, 5, 6],
+    "NaN": [WIDE, float("nan"), 3, 4, 5, 6],
+    "mixed": [WIDE, None, 3.5, 4, 5, 6],
+}
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_integers_stay_integers_where_some_are_missing(name):
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("geopandas")
+    given = COLUMNS[name](pandas) if callable(COLUMNS[name]) else COLUMNS[name]
+    diagram = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+    first = 2**63 + 1 if name == "unsigned" else WIDE
+    texts = [str(first), None, "3.5" if name == "mixed" else "3", "4", "5", "6"]
+
+    def all_texts(column):
+        return [None if pandas.isna(value) else str(value) for value in column]
+
+    properties = {"n": given}
+    found = [
+        feature["properties"]["n"]
+        for feature in diagram.to_geojson(properties=properties)["features"]
+    ]
+    assert all_texts(found) == texts
+    regions = diagram.clip([-180, -90, 180, 90])
+    for frame in (
+        diagram.to_geopandas(properties=properties),
+        regions.to_geopandas(properties=properties),
+    ):
+        assert all_texts(frame["n"]) == texts
+
+
+def test_ugrid_does_not_round_integers():
+    pytest.importorskip("xarray")
+    diagram = rondel.SphericalVoronoi(clouds.uniform(6))
+    masked = np.ma.array([WIDE, 2, 3, 4, 5, 6], mask=[0, 1, 0, 0, 0, 0])
+    small = np.ma.array([1, 2, 3, 4, 5, 6], mask=[0, 1, 0, 0, 0, 0])
+    mesh = diagram.to_xarray(properties={"wide": masked, "small": small})
+    assert mesh["wide"].values.tolist() == [WIDE, None, 3, 4, 5, 6]
+    assert mesh["small"].dtype == np.float64
+
+
+@pytest.mark.parametrize("text", ["\ud800", "a\0b"])
+def test_texts_that_no_file_may_have_are_refused(text):
+    diagram = rondel.SphericalVoronoi(clouds.uniform(6))
+    regions = diagram.dissolve(["a", text, "b", "b", "b", "b"])
+    for write, properties in (
+        (diagram.to_geojson, {"s": [text] * 6}),
+        (diagram.to_geojson, {text: [1] * 6}),
+        (diagram.to_geojson, {"s": [{"in": [text]}] * 6}),
+        (regions.to_geojson, None),
+    ):
+        with pytest.raises(ValueError, match=r"U\+0000 or is not UTF-8"):
+            write(properties=properties)
+    fine = diagram.to_geojson(properties={"s": ["\\u0000 \U0001f30d"] * 6})
+    assert fine["features"][0]["properties"]["s"] == "\\u0000 \U0001f30d"
+
+
+def test_numbers_of_numpy_in_dictionaries_are_numbers():
+    diagram = rondel.SphericalVoronoi(clouds.uniform(6))
+    value = {"k": np.int64(3), "v": np.array([1.5, 2]), "b": np.bool_(True)}
+    found = diagram.to_geojson(properties={"d": [value] * 6})["features"][0]["properties"]["d"]
+    assert found == {"k": 3, "v": [1.5, 2], "b": True}
+    with pytest.raises(ValueError, match="the property 'd': "):
+        diagram.to_geojson(properties={"d": [{"k": float("nan")}] * 6})

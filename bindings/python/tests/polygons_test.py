@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import rondel
+import rondel.mesh
 
 shapely = pytest.importorskip("shapely")
 
@@ -273,3 +274,34 @@ def test_positions_may_be_arrays():
         assert (rondel.polygons([mapping]).areas == expected).all()
     with pytest.raises(ValueError, match="geometry 0 has a position that is not finite"):
         rondel.polygons([{"type": "Polygon", "coordinates": [corners * np.nan]}])
+
+
+@pytest.mark.parametrize("crs", [4326, 3857])
+def test_frames_without_geometries_have_no_cells(crs):
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    diagram = rondel.SphericalVoronoi(clouds.uniform(20))
+    nothing = (
+        geopandas.GeoSeries([], crs=crs),
+        geopandas.GeoDataFrame({"name": []}, geometry=[], crs=crs),
+        geopandas.GeoSeries([None, shapely.Polygon()], crs=crs),
+        geopandas.GeoDataFrame({"name": ["a"]}, geometry=[None], crs=crs),
+    )
+    for frame in nothing:
+        cells = rondel.polygons(frame)
+        assert cells.num_cells == len(frame)
+        assert not cells.areas.any()
+        assert not diagram.clip(frame).areas.any()
+        assert not rondel.feature_cells(frame, 5).areas.any()
+    mesh = rondel.mesh.from_points(diagram.points)
+    assert len(mesh.cull(inside=nothing[0]).mesh.points) == 20
+
+
+def test_the_box_of_geojson_is_not_read():
+    box = [[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]
+    polygon = {"type": "Polygon", "coordinates": [box], "bbox": [math.nan] * 4}
+    feature = {"type": "Feature", "properties": {}, "geometry": polygon, "bbox": [math.inf] * 4}
+    whole = {"type": "FeatureCollection", "features": [feature], "bbox": [math.nan] * 4}
+    areas = rondel.polygons({**polygon, "bbox": [0, 0, 9, 9]}).areas
+    for given in (polygon, feature, whole, [polygon, feature]):
+        assert (rondel.polygons(given).areas == areas).all()

@@ -144,3 +144,100 @@ def test_cells_beside_their_coordinates_are_told():
     far = {"lon": lon, "lat": np.arange(-95.0, 96, 10)}
     with pytest.raises(rondel.InvalidInput, match="'lat': latitude -95 is beyond a pole"):
         rondel.Regridder(far, TARGET, "conservative")
+
+
+def square(n=8):
+    """A square curvilinear grid with its nodes, and a field that is the latitude."""
+    node_lon, node_lat = np.meshgrid(np.linspace(0, 40, n + 1), np.linspace(-12, 12, n + 1))
+    node_lat = node_lat + node_lon / 20
+    lon, lat = ((nodes[1:, 1:] + nodes[:-1, :-1]) / 2 for nodes in (node_lon, node_lat))
+    return xarray.Dataset(
+        {"t": (("y", "x"), lat)},
+        {
+            "lon": (("y", "x"), lon),
+            "lat": (("y", "x"), lat),
+            "lon_b": (("y_b", "x_b"), node_lon),
+            "lat_b": (("y_b", "x_b"), node_lat),
+        },
+    )
+
+
+def test_the_corners_of_a_square_grid_have_any_order():
+    ds = square()
+    target = {"lon": np.arange(2.5, 40, 5), "lat": np.arange(-9.0, 10, 3)}
+    right = rondel.Regridder(ds, target, "conservative")(ds.t)
+    assert np.abs(right - target["lat"][:, None])[1:-1].max() < 1
+    for other in (
+        ds.transpose("y", "x", "x_b", "y_b"),
+        ds.transpose("x", "y", "y_b", "x_b"),
+        ds.assign_coords(lon_b=ds.lon_b.T),
+        ds.assign_coords(lat_b=ds.lat_b.T),
+    ):
+        found = rondel.Regridder(other, target, "conservative")(other.t)
+        np.testing.assert_allclose(found, right, rtol=0, atol=1e-12)
+    arrays = {name: ds[name].values for name in ("lon", "lat", "lon_b", "lat_b")}
+    turned = {**arrays, "lon_b": arrays["lon_b"].T, "lat_b": arrays["lat_b"].T}
+    for source in (arrays, turned):
+        found = rondel.Regridder(source, target, "conservative")(ds.t.values)
+        np.testing.assert_allclose(found, right, rtol=0, atol=1e-12)
+    long = ds.isel(x=slice(5), x_b=slice(6)).transpose("y", "x", "x_b", "y_b")
+    assert rondel.Regridder(long, target, "conservative").shape_in == (8, 5)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda ds: {"lon_b": ds.lon_b + 100},
+        lambda ds: {"lat_b": ds.lat_b[::-1]},
+        lambda ds: {"lat_b": ds.lat_b[::-1], "lon_b": ds.lon_b[:, ::-1]},
+    ],
+)
+def test_corners_of_other_places_are_refused(change):
+    ds = square()
+    wrong = ds.assign_coords(
+        {name: (array.dims, array.values) for name, array in change(ds).items()}
+    )
+    message = "of 64 cells with the corners 'lon_b' and 'lat_b' do not contain their centers"
+    with pytest.raises(ValueError, match=message):
+        rondel.Regridder(wrong, TARGET, "conservative")
+
+
+def test_a_few_centers_outside_of_their_cells_are_told():
+    ds = square()
+    ds.lon[2, 3], ds.lat[2, 3] = 0, 0  # as on land in some files
+    with pytest.warns(
+        UserWarning, match="1 of 64 cells .* the first one cell 19 with the center 0"
+    ):
+        rondel.Regridder(ds, TARGET, "conservative")
+    ds.lon[:, 2:], ds.lat[:, 2:] = 0, 0
+    with pytest.warns(UserWarning, match="48 of 64 cells"):
+        rondel.Regridder(ds, TARGET, "conservative")
+    ds = square()
+    ds.lon[2, 3], ds.lat[2, 3] = 0, 0
+    mask = np.ones((8, 8))
+    mask[2, 3] = 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rondel.Regridder(ds.assign(mask=(("y", "x"), mask)), TARGET, "conservative")
+
+
+def test_dictionaries_have_the_names_that_tables_have():
+    lon, lat = np.arange(0.0, 60, 4), np.arange(-32.0, 33, 4)
+    field = height(lon, lat[:, None])
+    right = rondel.Regridder({"lon": lon, "lat": lat}, TARGET, "bilinear")(field)
+    named = {"Longitude": lon, "latitude": lat}
+    np.testing.assert_array_equal(rondel.Regridder(named, TARGET, "bilinear")(field), right)
+    for wrong, has in (({"lon": lon}, "lon"), ({}, "nothing"), ({"lon": lon, "y": lat}, "lon, y")):
+        with pytest.raises(ValueError, match=f"has lat, in degrees; this one has {has}$|has lon"):
+            rondel.Regridder(wrong, TARGET, "bilinear")
+
+
+def test_masked_arrays_keep_their_type():
+    lon, lat = np.arange(0.0, 60, 4), np.arange(-32.0, 33, 4)
+    regridder = rondel.Regridder({"lon": lon, "lat": lat}, TARGET, "bilinear")
+    field = height(lon, lat[:, None])
+    masked = np.ma.masked_greater(field.astype("f4"), 1.9)
+    found = regridder(masked)
+    assert found.dtype == np.float32
+    np.testing.assert_array_equal(found, regridder(np.ma.filled(masked, np.nan)))
+    assert regridder(np.ma.masked_less(field.astype("i4"), 0)).dtype == np.float64

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import rondel
+import rondel.mesh
 
 TRI = rondel.delaunay(clouds.uniform(300, 3))
 CELLS = rondel.Partition.voronoi(TRI)
@@ -265,3 +266,19 @@ def test_cells_that_are_the_whole_sphere():
     assert rondel.Partition.polygons(*cells.rings).areas[1] == 0
     with pytest.raises(rondel.InvalidInput, match="whole"):
         rondel.Partition.polygons(*cells.rings, whole=[0])
+
+
+@pytest.mark.parametrize("radius", [2.0, 6371229.0])
+def test_meshes_of_any_radius_have_cells(radius):
+    points = clouds.uniform(200)
+    grid = rondel.lonlat_grid(12, 6)
+    unit = rondel.remap(rondel.mesh.from_points(points), grid)
+    mesh = rondel.mesh.from_points(points, radius=radius)
+    for found in (rondel.remap(mesh, grid), rondel.remap(mesh.cull([0] * 200).mesh, grid)):
+        np.testing.assert_allclose(found.source_areas, unit.source_areas, rtol=1e-12)
+        assert found.weights.shape == unit.weights.shape
+        np.testing.assert_allclose(
+            found.weights.apply(points[:, 2]), unit.weights.apply(points[:, 2]), atol=1e-12
+        )
+    back = rondel.remap(grid, mesh)
+    np.testing.assert_allclose(back.target_fractions, 1, rtol=1e-12)
