@@ -228,7 +228,8 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   io::require_sphere(file);
   MeshContent mesh;
   mesh.convention = "MPAS";
-  for (const char* kind : {"Cell", "Vertex"}) io::require_one_place(file, kind);
+  for (const char* kind : {"Cell", "Vertex"})
+    io::require_one_place(file, kind, io::PlacesMay::be_missing);
   const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};
   const MeshCoordinates centers = {file.find("lonCell"), file.find("latCell")};
   take_nodes(file, nodes, centers, UsualUnits::radians, mesh);
