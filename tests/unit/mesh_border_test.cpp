@@ -309,8 +309,11 @@ TEST_F(BorderedFiles, whose_rings_do_not_run_once_around_their_centers_are_refus
   EXPECT_EQ(mesh::read_mesh(path()).num_edges(), 5U);
   put({{0, 0, 1}}, {{0, 2, 4, 1, 3}}, pentagon);
   EXPECT_EQ(refusal(), off);
-  put({{1, 0, 0}}, {{0, 1, 2, 3, 4}}, pentagon);
+  // Outside of a side, but no farther away than the corners.
+  put({normalized({-0.27, 0, 1})}, {{0, 1, 2, 3, 4}}, pentagon);
   EXPECT_EQ(refusal(), off);
+  put({{1, 0, 0}}, {{0, 1, 2, 3, 4}}, pentagon);
+  EXPECT_TRUE(refusal().starts_with("centers belong to other cells than the corners"));
   // A second cell that lies in the first one.
   std::vector<Point> corners = pentagon;
   for (const Point& p : pentagon) corners.push_back(normalized({p.x / 9, p.y / 9, p.z}));
