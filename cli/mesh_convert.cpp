@@ -24,8 +24,9 @@ Command add_mesh_convert_command(CLI::App& mesh) {
   add_report_options(*parser, written.common);
   parser->footer(
       "INPUT may be a mesh as well, netCDF: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
-      "again of the centers of their cells, and at a border of their corners. Sites have to\n"
-      "surround the center of the sphere, each in a place of its own.\n\n"
+      "again of the centers of their cells, and at a border of their corners. Cells that the\n"
+      "file masks are left out. Sites have to surround the center of the sphere, each in a place\n"
+      "of its own.\n\n"
       "Examples:\n"
       "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"
       "  rondel mesh convert sites.npy -o mesh.nc --format ugrid\n"

@@ -130,6 +130,7 @@ Command add_check_weights_command(CLI::App& tool) {
       "- a weight is negative although the method is an average: conservative of first order,\n"
       "  nearest, linear, laplace, sibson, largest share. Weights of second order, bilinear,\n"
       "  patch, hermite and cubic may be negative, and those of methods that are not known;\n"
+      "- a cell that the file masks has a weight other than 0;\n"
       "- a conservative method gives nothing to a target with a fraction, or takes of a source\n"
       "  another area than its own times its fraction.\n"
       "Sums and fractions may be off by 1e-9 + (m + 1) 8 pi 2^-52 / A: m is the number of\n"

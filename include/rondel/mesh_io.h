@@ -67,6 +67,10 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
 ///    other lists follow from these and from the edges.
 /// 2. The file's lists must describe a surface, closed or with a border, with edges
 ///    counterclockwise around cells; 0 stands for a missing element.
+/// 3. Numbers that contradict the points are refused: dcEdge and dvEdge by more than a tenth (dvEdge
+///    by a quarter of dcEdge besides), angleEdge by more than 0.5 between two cells away from the
+///    poles, areaCell by a factor of more than 2, and longitudes and latitudes that are not the
+///    directions of x, y and z. The normal of an edge of the border is made to point outward.
 RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
 
 /// Reads a mesh of any convention: MPAS as read_mpas() does; UGRID, SCRIP and ESMF by the centers
@@ -81,10 +85,12 @@ RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution
 ///    the file's corners (for SCRIP, in the order in which cells first have them), and edges in the
 ///    order of the first of their two vertices.
 /// 3. Such files do not contain the radius and the density; `options` do.
+/// 4. Cells that the file masks, or that lack corners, are left out; the others keep their order.
 /// \param remarks  gets the remarks of the file's cells (CellTable): how many are masked, which of
 ///                 several meshes is read; and which variables of the file are no part of the mesh
-/// \throws FileError also if the file has no centers, or if a corner of a cell is farther than a
-///         thousandth of the spacing from that of the Voronoi cell; with a border, if more than
+/// \throws FileError also if the file has no centers, if a corner of a cell is farther than a
+///         thousandth of the spacing from that of the Voronoi cell, or one of these is missing, or
+///         if all cells are masked; with a border, if more than
 ///         three cells, or three and the border, meet in a corner.
 RONDEL_API MeshArrays read_mesh(const FileName& file, const MeshOptions& options = {},
                                 const Execution& execution = {},

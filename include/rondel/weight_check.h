@@ -65,6 +65,7 @@ struct WeightCheckOptions {
 /// |            | nearest, linear, laplace, sibson, or the largest share |
 /// | `target fraction`, `source fraction` | a fraction is negative, above 1 or not a number |
 /// | `target area`, `source area` | an area is negative or not finite, or no cell of one side has an area, though a conservative method gives it entries and the other side has areas |
+/// | `masked target`, `masked source` | a target or source that the mask of the file masks (0) has a weight other than 0 |
 /// | `missing row` | a conservative method gives no entry to a target whose fraction is not 0 |
 /// | `conservation` | the area that a conservative method takes from a source, weights times areas of targets, is |
 /// |                | not the area of the source times its fraction |

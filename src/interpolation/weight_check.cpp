@@ -115,6 +115,7 @@ class WeightChecker {
     check_columns();
     check_side("target", file_.target, entries_of_rows());
     check_side("source", file_.source, entries_of_column_);
+    check_masks();
     for (const FaultCounter& faults :
          {not_finite_, repeated_, negative_, row_sums_, column_sums_, missing_}) {
       faults.move_to(report_.faults);
@@ -258,6 +259,27 @@ class WeightChecker {
       areas.add(word + ' ' + std::to_string(i), side.areas[i]);
     }
     for (const FaultCounter& faults : {above, below, areas}) faults.move_to(side_faults_);
+  }
+
+  // A masked cell takes no part, so that it has no weight but 0.
+  void check_masks() {
+    FaultCounter targets("masked target", "weight is of a masked target",
+                         "weights are of masked targets");
+    FaultCounter sources("masked source", "weight is of a masked source",
+                         "weights are of masked sources");
+    const auto is_masked = [](const WeightSide& side, std::size_t cell) {
+      return !side.mask.empty() && side.mask[cell] == 0;
+    };
+    for (std::size_t r = 0; r < weights_.num_rows(); ++r) {
+      for (std::uint64_t k = weights_.offsets[r]; k < weights_.offsets[r + 1]; ++k) {
+        if (weights_.values[k] == 0) continue;
+        if (is_masked(file_.target, r)) targets.add(place_of(r, k), weights_.values[k]);
+        if (is_masked(file_.source, weights_.columns[k])) {
+          sources.add(place_of(r, k), weights_.values[k]);
+        }
+      }
+    }
+    for (const FaultCounter& faults : {targets, sources}) faults.move_to(side_faults_);
   }
 
   [[nodiscard]] std::optional<double> worst_direction() const {

@@ -167,7 +167,8 @@ NetcdfReader::Variable at_first_place(NetcdfReader::Variable variable) {
 PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
                       const NetcdfReader::Variable& lat, UsualUnits usual) {
   for (const std::string kind : {"Cell", "Edge", "Vertex"}) {
-    if (lon.name == "lon" + kind && lat.name == "lat" + kind) require_one_place(file, kind);
+    if (lon.name == "lon" + kind && lat.name == "lat" + kind)
+      require_one_place(file, kind, PlacesMay::be_missing);
   }
   // Places that are repeated at many times need not be in memory together.
   const bool has_room = lon.num_values <= file.most_values();  // otherwise reading them below is an

@@ -4,6 +4,7 @@
 // The two ways in which MPAS has the places of cells, edges and vertices.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "io/netcdf_reader.h"
@@ -11,8 +12,12 @@
 
 namespace rondel::io {
 
+// Says whether longitudes and latitudes may be no places, as those of cells that are left out.
+enum class PlacesMay : std::uint8_t { be_missing, not_be_missing };
+
 // Throws BadValue with the first place, if lonCell and latCell are not the directions of xCell,
-// yCell and zCell; `kind` is "Cell", "Edge" or "Vertex". Does nothing if the file lacks one of them.
-RONDEL_API void require_one_place(const NetcdfReader& file, const std::string& kind);
+// yCell and zCell, or, as `may` says, no place; `kind` is "Cell", "Edge" or "Vertex". Does nothing
+// if the file lacks one of them.
+RONDEL_API void require_one_place(const NetcdfReader& file, const std::string& kind, PlacesMay may);
 
 }  // namespace rondel::io

@@ -173,6 +173,11 @@ inline bool has_border(const mesh::MeshArrays& arrays) {
 // MPAS gives to the array.
 void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads);
 
+// Throws InvalidInput where a number is not that of the mesh's points, by far more than programs
+// differ in: dcEdge, dvEdge, angleEdge between two cells and away from the poles, areaCell.
+// Precondition: the lists fit together, with edges turned and rings counterclockwise.
+void require_measures_of_points(const mesh::MeshArrays& arrays, unsigned threads);
+
 // Throws InvalidInput where a size or an index does not fit, or a number is not possible.
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
 

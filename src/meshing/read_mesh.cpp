@@ -57,7 +57,18 @@ void require_rings(const CellTable& table) {
   }
 }
 
-// Throws BadValue for the first cell of the file whose corners are not those of the mesh.
+// True if the file has a corner of a cell within that distance.
+bool has_corner_in_file(const CellRings& cells, std::size_t cell, const Point& corner,
+                        double square_distance) {
+  for (std::uint64_t k = cells.rings[cell]; k < cells.rings[cell + 1]; ++k) {
+    const Point away = cells.points[cells.corners[k]] - corner;
+    if (dot(away, away) <= square_distance) return true;
+  }
+  return false;
+}
+
+// Throws BadValue for the first cell of the file whose corners are not those of the mesh, or lack
+// one of them.
 void require_cells(const MeshArrays& arrays, const CellTable& table) {
   const CellRings& cells = table.cells;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -67,6 +78,10 @@ void require_cells(const MeshArrays& arrays, const CellTable& table) {
       if (!has_corner(arrays, i, cells.points[cells.corners[k]], distance * distance)) {
         meshing::refuse_cell(i);
       }
+    }
+    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+      const Point corner = (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]];
+      if (!has_corner_in_file(cells, i, corner, distance * distance)) meshing::refuse_cell(i);
     }
   }
 }
@@ -134,6 +149,30 @@ std::string remark_on_fields(const io::NetcdfReader& file) {
   return names.text().empty() ? "" : "left out, as they are no part of the mesh: " + names.text();
 }
 
+// Removes the cells that the file masks, and adds a remark with the number of the others.
+void leave_out_masked(CellTable& table) {
+  if (table.mask.empty() || table.grid || table.centers.size() != table.num_cells()) return;
+  CellRings kept;
+  kept.points = std::move(table.cells.points);
+  std::vector<LonLat> centers;
+  for (std::size_t i = 0; i < table.mask.size(); ++i) {
+    if (table.mask[i] == 0) continue;
+    for (std::uint64_t r = table.cells.cells[i]; r < table.cells.cells[i + 1]; ++r) {
+      for (std::uint64_t k = table.cells.rings[r]; k < table.cells.rings[r + 1]; ++k) {
+        kept.corners.push_back(table.cells.corners[k]);
+      }
+      kept.rings.push_back(kept.corners.size());
+    }
+    kept.cells.push_back(kept.rings.size() - 1);
+    centers.push_back(table.centers[i]);
+  }
+  table.cells = std::move(kept);
+  table.centers = std::move(centers);
+  if (table.centers.empty()) throw FileError(table.name + ": all cells are masked");
+  table.remarks.push_back("the mesh has the other " + std::to_string(table.centers.size()) +
+                          " cells, in their order");
+}
+
 // Returns the mesh of cells with centers: with a border, or of the whole sphere.
 MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
                            const Execution& execution) {
@@ -178,6 +217,7 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
         table = overlay::cells_in(reader, bytes.name(), {});
       }
     });
+    leave_out_masked(table);
     if (!remark.empty()) table.remarks.push_back(std::move(remark));
     if (remarks != nullptr) *remarks = table.remarks;
     if (arrays) return std::move(*arrays);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -17,6 +18,7 @@
 #include "io/mpas_places.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
+#include "meshing/face_measures.h"
 #include "meshing/mesh_file.h"
 #include "meshing/read_mesh.h"
 #include "rondel/error.h"
@@ -43,7 +45,8 @@ class MpasReader {
     read_points({"xEdge", "yEdge", "zEdge"}, arrays_.edge_points);
     read_points({"xVertex", "yVertex", "zVertex"}, arrays_.vertex_points);
     if (arrays_.num_cells() == 0) throw BadValue("there are no cells");
-    for (const char* kind : {"Cell", "Edge", "Vertex"}) io::require_one_place(file_, kind);
+    for (const char* kind : {"Cell", "Edge", "Vertex"})
+      io::require_one_place(file_, kind, io::PlacesMay::not_be_missing);
     read_numbers("areaCell", arrays_.num_cells(), arrays_.cell_areas);
     read_density();
     read_numbers("dcEdge", arrays_.num_edges(), arrays_.cell_distances);
@@ -116,6 +119,7 @@ class MpasReader {
   void require_numbers() const {
     try {
       meshing::require_possible_numbers(arrays_, threads_);
+      meshing::require_measures_of_points(arrays_, threads_);
     } catch (const InvalidInput& error) {
       throw BadValue(error.what());
     }
@@ -197,13 +201,32 @@ class MpasReader {
   void find_border() {
     for (std::size_t e = 0; e < arrays_.num_edges(); ++e) {
       auto& [a, b] = arrays_.cells_on_edge[e];
+      if (a == no_index && b == no_index) {
+        throw BadValue("edge " + std::to_string(e) + " has no cell");
+      }
       if (a == no_index) std::swap(a, b);
-      if (a == no_index) throw BadValue("edge " + std::to_string(e) + " has no cell");
+      if (b == no_index) turn_normal_outward(e);
       num_border_edges_ += b == no_index ? 1U : 0U;
     }
     if (num_border_edges_ == 0 && arrays_.num_cells() < 4) {
       throw BadValue("less than four cells do not cover a sphere");
     }
+  }
+
+  // Makes the normal of an edge of the border point away from its cell. Programs that remove cells
+  // keep the angle even where the first one is removed.
+  void turn_normal_outward(std::size_t e) {
+    const Point edge = normalized(arrays_.edge_points[e]);
+    constexpr double at_pole = 1e-6;  // east has no meaning there
+    if (edge.x * edge.x + edge.y * edge.y < at_pole * at_pole) return;
+    const Point cell = normalized(arrays_.cell_points[arrays_.cells_on_edge[e][0]]);
+    const Point across = 2 * dot(edge, cell) * edge - cell;  // their middle is the edge's point
+    const double outward =
+        meshing::edge_place(exact::to_vector(cell), exact::to_vector(across)).normal_angle;
+    double& angle = arrays_.normal_angles[e];
+    constexpr double turn = 2 * std::numbers::pi;
+    if (std::abs(std::remainder(angle - outward, turn)) <= turn / 4) return;
+    angle += angle > 0 ? -turn / 2 : turn / 2;
   }
 
   // Orders the two vertices of each edge such that the second one is to the left of its first

@@ -61,22 +61,6 @@ std::vector<LonLat> corners_last(const MeshVariable& variable, std::size_t corne
   return positions;
 }
 
-// Reads a mask of OASIS, in which 1 means masked.
-void take_oasis_mask(const NetcdfReader& file, const std::string& name, MeshContent& mesh) {
-  if (file.find(name) == nullptr) return;
-  take_mask(file, name, mesh);
-  if (mesh.mask.empty()) mesh.mask.assign(mesh.cells.size() - 1, 1);
-  for (std::int32_t& part : mesh.mask) part = 1 - part;
-  if (!mesh.remarks.empty()) mesh.remarks.pop_back();
-  const auto masked = std::ranges::count(mesh.mask, 0);
-  if (masked == 0) {
-    mesh.mask.clear();
-  } else {
-    mesh.remarks.push_back(std::to_string(masked) + " of " + std::to_string(mesh.mask.size()) +
-                           " cells are masked by " + io::in_quotes(name));
-  }
-}
-
 // Returns the nodes, which are points in space.
 std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   std::vector<Point> points;
@@ -195,7 +179,7 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
     if (d != corner) mesh.shape.push_back(lon.shape[d]);
   }
   end_cells_of_nodes(lon.shape[corner], mesh.shape.empty(), mesh);
-  take_oasis_mask(file, *chosen + ".msk", mesh);
+  take_mask(file, *chosen + ".msk", mesh.cells.size() - 1, MaskedBy::others, mesh);
   take_centers(file, centers, {&lon, &lat}, UsualUnits::degrees, mesh);
   return mesh;
 }

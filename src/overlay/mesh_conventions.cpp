@@ -180,7 +180,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
     mesh.shape = io::shape_of_grid(file, *dims, num_cells);
   }
   end_cells_of_nodes(of_each, mesh.shape.size() < 2, mesh);
-  take_mask(file, "grid_imask", mesh);
+  take_mask(file, "grid_imask", num_cells, MaskedBy::zero, mesh);
   take_centers(file, centers, {lon, lat}, UsualUnits::degrees, mesh);
   return mesh;
 }
@@ -201,6 +201,7 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
   const double first = number_or(*elements, "start_index", 1);
   const double no_break = first;
   const double break_value = number_or(*elements, "polybreak_value", no_break);
+  take_mask(file, "elementMask", counts.size(), MaskedBy::zero, mesh);
   if (elements->shape.size() == 1) {
     // The rows have different lengths and follow each other.
     take_connectivity(file, {*elements, counts.size(), 0, false, first, break_value}, counts, mesh);
@@ -214,10 +215,10 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
         file, {*elements, elements->shape[0], elements->shape[1], false, first, break_value},
         counts, mesh);
   }
-  take_mask(file, "elementMask", mesh);
   if (centers != nullptr) {
     mesh.centers = pairs_of(file, *centers, nodes);
-    if (mesh.centers.size() != counts.size()) mesh.centers.clear();
+    mesh.center_names = io::in_quotes(centers->name);
+    require_values(*centers, 2 * counts.size());
   }
   return mesh;
 }
@@ -228,7 +229,8 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   io::require_sphere(file);
   MeshContent mesh;
   mesh.convention = "MPAS";
-  for (const char* kind : {"Cell", "Vertex"}) io::require_one_place(file, kind);
+  for (const char* kind : {"Cell", "Vertex"})
+    io::require_one_place(file, kind, io::PlacesMay::be_missing);
   const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};
   const MeshCoordinates centers = {file.find("lonCell"), file.find("latCell")};
   take_nodes(file, nodes, centers, UsualUnits::radians, mesh);

@@ -19,6 +19,7 @@
 #include "io/number.h"
 #include "map/ring_area.h"
 #include "overlay/mesh_formats.h"
+#include "overlay/own_centers.h"
 #include "overlay/same_nodes.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -206,6 +207,10 @@ CellTable overlay::cells_in(const io::NetcdfReader& file, const std::string& fil
   table.name = file_name;
   if (!mesh.grid) table.cells = cells_of(mesh);
   require_centers(mesh);
+  if (!mesh.center_names.empty() && !mesh.centers.empty()) {
+    std::string remark = require_own_centers(mesh, table.cells);
+    if (!remark.empty()) mesh.remarks.push_back(std::move(remark));
+  }
   table.convention = std::move(mesh.convention);
   table.grid = std::move(mesh.grid);
   table.centers = std::move(mesh.centers);

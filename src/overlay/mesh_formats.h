@@ -39,6 +39,7 @@ struct MeshContent {
   std::optional<LonLatGrid> grid;
   // One for each cell, or none at all.
   std::vector<LonLat> centers;
+  std::string center_names;  // the quoted names of the variables of the centers
   // 0 for a masked cell; empty if no cell is masked
   std::vector<std::int32_t> mask;
   // The lengths nlat and nlon of a logically rectangular grid, or empty.
@@ -110,12 +111,15 @@ struct Connectivity {
   double break_value = 0;
 };
 // Reads the corners of all cells. `counts` are the lengths of rows, or empty. Throws BadValue for a
-// corner that is no node.
+// corner that is no node, unless its cell is masked: the mask has to be read before.
 void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
                        const std::vector<double>& counts, MeshContent& mesh);
-// Reads a mask of cells from a variable: 0 stays 0, other numbers become 1. Does nothing if there
-// is no such variable.
-void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent& mesh);
+// The numbers by which a file masks cells: 0, or all others.
+enum class MaskedBy : std::uint8_t { zero, others };
+// Reads a mask of cells from a variable; missing values mask as well. Does nothing if there is no
+// such variable.
+void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
+               MaskedBy masked_by, MeshContent& mesh);
 // Reads the centers of cells, if the file has them.
 void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
                   const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);

@@ -29,25 +29,157 @@ bool is_place(const LonLat& place) {
   return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
 }
 
-// Returns the index of the node with this number in the file. Throws BadValue if there is no such
-// node.
-Index node_of(const Connectivity& connectivity, double number, std::size_t cell,
-              std::size_t num_nodes, std::span<const double> entries) {
-  const double node = number - connectivity.first;
-  if (node < static_cast<double>(num_nodes) && node == std::floor(node)) {
-    return static_cast<Index>(node);
+// Reads the rows of a connectivity, cell by cell.
+class ConnectivityReader {
+ public:
+  ConnectivityReader(const io::NetcdfReader& file, const Connectivity& connectivity,
+                     const std::vector<double>& counts, MeshContent& mesh)
+      : of_(connectivity),
+        counts_(counts),
+        mesh_(mesh),
+        entries_(file.numbers(connectivity.variable)),
+        meant_(entries_) {
+    io::ValueRules(of_.variable).apply(meant_);
   }
-  const bool may_count_from_1 = connectivity.first == 0 && node == static_cast<double>(num_nodes) &&
-                                std::ranges::count(entries, 0.0) == 0;
-  throw BadValue(
-      "cell " + std::to_string(cell) + " has a corner " +
-      std::to_string(static_cast<std::int64_t>(number)) + " of " + std::to_string(num_nodes) +
-      " nodes" +
-      (may_count_from_1
-           ? ", counted from 0; if they are counted from 1, the attribute start_index = 1 of " +
-                 io::in_quotes(connectivity.variable.name) + " must say so"
-           : std::string()));
-}
+
+  void read() {
+    if (!is_ragged()) require_values(of_.variable, of_.num_cells * of_.of_each);
+    std::uint64_t begin = 0;  // where the row of the cell begins
+    for (std::uint64_t i = 0; i < of_.num_cells; ++i) {
+      const Row row = {i, begin, length_of(i, begin)};
+      take_row(row);
+      begin += is_ragged() ? row.length : of_.of_each;
+    }
+    if (is_ragged()) require_values(of_.variable, begin);
+    tell();
+  }
+
+ private:
+  struct Row {
+    std::uint64_t cell;
+    std::uint64_t begin;
+    std::uint64_t length;  // number of entries in use
+  };
+
+  [[nodiscard]] bool is_ragged() const { return of_.of_each == 0; }
+  [[nodiscard]] std::uint64_t place_of(const Row& row, std::uint64_t k) const {
+    return of_.is_transposed ? k * of_.num_cells + row.cell : row.begin + k;
+  }
+  [[nodiscard]] std::string name() const { return io::in_quotes(of_.variable.name); }
+
+  [[nodiscard]] std::uint64_t length_of(std::uint64_t cell, std::uint64_t begin) const {
+    if (counts_.empty()) return of_.of_each;
+    const std::uint64_t most = is_ragged() ? entries_.size() - begin : of_.of_each;
+    const double given = counts_[cell];
+    if (given >= 0 && given <= static_cast<double>(most) && given == std::floor(given)) {
+      return static_cast<std::uint64_t>(given);
+    }
+    throw BadValue("cell " + std::to_string(cell) + " has " + system::shortest_text(given) +
+                   " corners of " + std::to_string(most));
+  }
+
+  [[nodiscard]] bool is_break(std::uint64_t at) const {
+    return of_.break_value < of_.first && entries_[at] == of_.break_value;
+  }
+  // True if an entry stands for no corner: a missing value, or a number less than the first one.
+  [[nodiscard]] bool is_none(std::uint64_t at) const {
+    return std::isnan(meant_[at]) || entries_[at] < of_.first;
+  }
+  [[nodiscard]] bool is_node(std::uint64_t at) const {
+    const double node = entries_[at] - of_.first;
+    return !is_none(at) && node < static_cast<double>(mesh_.nodes.size()) &&
+           node == std::floor(node);
+  }
+  [[nodiscard]] Index node_at(std::uint64_t at) const {
+    return static_cast<Index>(entries_[at] - of_.first);
+  }
+
+  // Entries that are no corners may only follow all corners of a row that has no length of its own,
+  // or fill a row: elsewhere a corner would be lost. Corners of masked cells may be anything.
+  void take_row(const Row& row) {
+    const bool is_masked = !mesh_.mask.empty() && mesh_.mask[row.cell] == 0;
+    const std::size_t before = mesh_.corners.size();
+    std::uint64_t num_none = 0;
+    std::uint64_t first_none = 0;
+    for (std::uint64_t k = 0; k < row.length; ++k) {
+      const std::uint64_t at = place_of(row, k);
+      if (is_break(at)) {
+        mesh_.end_ring();
+      } else if (is_none(at)) {
+        if (num_none++ == 0) first_none = k;
+        if (!is_masked && !std::isnan(meant_[at])) ++num_undeclared_;
+      } else if (is_node(at)) {
+        if (num_none > 0 && !is_masked) refuse_none(row, first_none);
+        mesh_.corners.push_back(node_at(at));
+      } else if (!is_masked) {
+        refuse_node(row.cell, at);
+      }
+    }
+    const bool has_corners = mesh_.corners.size() > before;
+    if (num_none > 0 && has_corners && !counts_.empty() && !is_masked) refuse_none(row, first_none);
+    if (!counts_.empty() && !is_ragged() && !is_masked) find_further_corners(row, before);
+    mesh_.end_ring();
+    mesh_.end_cell();
+  }
+
+  // Notes a cell that has other corners behind those that its number of corners counts. Programs
+  // fill up rows with numbers that are no nodes, or by repeating corners.
+  void find_further_corners(const Row& row, std::size_t before) {
+    const std::span<const Index> corners = std::span(mesh_.corners).subspan(before);
+    for (std::uint64_t k = row.length; k < of_.of_each; ++k) {
+      const std::uint64_t at = place_of(row, k);
+      if (!is_node(at) || std::ranges::count(corners, node_at(at)) != 0) continue;
+      if (num_longer_++ == 0) first_longer_ = row.cell;
+      return;
+    }
+  }
+
+  [[noreturn]] void refuse_none(const Row& row, std::uint64_t k) const {
+    throw BadValue("cell " + std::to_string(row.cell) + " has the number " +
+                   system::shortest_text(entries_[place_of(row, k)]) +
+                   ", which is no node, as corner " + std::to_string(k) + " in " + name() +
+                   (counts_.empty()
+                        ? ", before other corners"
+                        : ", though it has " + std::to_string(row.length) + " corners"));
+  }
+
+  [[noreturn]] void refuse_node(std::uint64_t cell, std::uint64_t at) const {
+    const bool may_count_from_1 = of_.first == 0 &&
+                                  entries_[at] == static_cast<double>(mesh_.nodes.size()) &&
+                                  std::ranges::count(entries_, 0.0) == 0;
+    throw BadValue(
+        "cell " + std::to_string(cell) + " has a corner " + system::shortest_text(entries_[at]) +
+        " of " + std::to_string(mesh_.nodes.size()) + " nodes" +
+        (may_count_from_1
+             ? ", counted from 0; if they are counted from 1, the attribute start_index = 1 of " +
+                   name() + " must say so"
+             : std::string()));
+  }
+
+  void tell() const {
+    if (num_undeclared_ > 0) {
+      mesh_.remarks.push_back(std::to_string(num_undeclared_) + " numbers of " + name() +
+                              " are less than " + system::shortest_text(of_.first) +
+                              " and taken for no corners, though no _FillValue says so");
+    }
+    if (num_longer_ > 0) {
+      mesh_.remarks.push_back(cells_in_words(num_longer_, of_.num_cells) +
+                              " have further corners in " + name() +
+                              " behind the number of corners that they are said to have, the first "
+                              "one cell " +
+                              std::to_string(first_longer_));
+    }
+  }
+
+  const Connectivity& of_;
+  const std::vector<double>& counts_;
+  MeshContent& mesh_;
+  std::vector<double> entries_;
+  std::vector<double> meant_;  // missing ones are NaN
+  std::size_t num_undeclared_ = 0;
+  std::size_t num_longer_ = 0;
+  std::uint64_t first_longer_ = 0;
+};
 
 }  // namespace
 
@@ -136,60 +268,17 @@ void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mes
 
 void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
                        const std::vector<double>& counts, MeshContent& mesh) {
-  const auto& [variable, num_cells, of_each, is_transposed, first, break_value] = connectivity;
-  const bool is_ragged = of_each == 0;
-  if (!is_ragged) require_values(variable, num_cells * of_each);
-  const std::vector<double> entries = file.numbers(variable);
-  std::vector<double> meant = entries;
-  io::ValueRules(variable).apply(meant);
-  std::size_t num_undeclared = 0;
-  std::uint64_t begin = 0;  // where the row of the cell begins
-  for (std::uint64_t i = 0; i < num_cells; ++i) {
-    const std::uint64_t most = is_ragged ? entries.size() - begin : of_each;
-    const double given = counts.empty() ? static_cast<double>(of_each) : counts[i];
-    if (!(given >= 0 && given <= static_cast<double>(most))) {
-      throw BadValue("cell " + std::to_string(i) + " has " + system::shortest_text(given) +
-                     " corners of " + std::to_string(most));
-    }
-    const auto count = static_cast<std::uint64_t>(given);
-    const std::size_t num_before = num_undeclared;
-    for (std::uint64_t k = 0; k < count; ++k) {
-      const std::uint64_t at = is_transposed ? k * num_cells + i : begin + k;
-      if (break_value < first && entries[at] == break_value) {
-        mesh.end_ring();
-        continue;
-      }
-      if (std::isnan(meant[at]) || (entries[at] == 0 && first == 1)) continue;
-      if (entries[at] < first) {
-        ++num_undeclared;
-        continue;
-      }
-      if (num_undeclared > num_before) {
-        throw BadValue("cell " + std::to_string(i) + " has a corner less than " +
-                       std::to_string(static_cast<std::int64_t>(first)) +
-                       ", which no _FillValue of " + io::in_quotes(variable.name) +
-                       " explains, before others");
-      }
-      mesh.corners.push_back(node_of(connectivity, entries[at], i, mesh.nodes.size(), entries));
-    }
-    mesh.end_ring();
-    mesh.end_cell();
-    begin += is_ragged ? count : of_each;
-  }
-  if (is_ragged) require_values(variable, begin);
-  if (num_undeclared == 0) return;
-  mesh.remarks.push_back(std::to_string(num_undeclared) + " numbers of " +
-                         io::in_quotes(variable.name) + " are less than " +
-                         std::to_string(static_cast<std::int64_t>(first)) +
-                         " and taken for no corners, though there is no _FillValue");
+  ConnectivityReader(file, connectivity, counts, mesh).read();
 }
 
-void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent& mesh) {
+void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
+               MaskedBy masked_by, MeshContent& mesh) {
   const MeshVariable* const variable = file.find(name);
   if (variable == nullptr) return;
-  require_values(*variable, mesh.cells.size() - 1);
+  require_values(*variable, num_cells);
   for (const double value : io::meant_numbers(file, *variable)) {
-    mesh.mask.push_back(value == 0 || std::isnan(value) ? 0 : 1);
+    const bool is_masked = std::isnan(value) || (value == 0) == (masked_by == MaskedBy::zero);
+    mesh.mask.push_back(is_masked ? 0 : 1);
   }
   const auto num_masked = static_cast<std::size_t>(std::ranges::count(mesh.mask, 0));
   if (num_masked == 0) {
@@ -205,6 +294,7 @@ void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
   if (centers.lon == nullptr || centers.lat == nullptr) return;
   require_values(*centers.lon, mesh.cells.size() - 1);
   mesh.centers = positions_of(file, centers, nodes, usual);
+  mesh.center_names = io::in_quotes(centers.lon->name) + " and " + io::in_quotes(centers.lat->name);
 }
 
 void leave_out_cells_without_corners(MeshContent& mesh) {

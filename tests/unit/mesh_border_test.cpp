@@ -8,10 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "exact/vector.h"
+#include "io/netcdf_reader.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/mesh_io.h"
@@ -304,13 +309,62 @@ TEST_F(BorderedFiles, whose_rings_do_not_run_once_around_their_centers_are_refus
   EXPECT_EQ(mesh::read_mesh(path()).num_edges(), 5U);
   put({{0, 0, 1}}, {{0, 2, 4, 1, 3}}, pentagon);
   EXPECT_EQ(refusal(), off);
-  put({{1, 0, 0}}, {{0, 1, 2, 3, 4}}, pentagon);
+  // Outside of a side, but no farther away than the corners.
+  put({normalized({-0.27, 0, 1})}, {{0, 1, 2, 3, 4}}, pentagon);
   EXPECT_EQ(refusal(), off);
+  put({{1, 0, 0}}, {{0, 1, 2, 3, 4}}, pentagon);
+  EXPECT_TRUE(refusal().starts_with("centers belong to other cells than the corners"));
   // A second cell that lies in the first one.
   std::vector<Point> corners = pentagon;
   for (const Point& p : pentagon) corners.push_back(normalized({p.x / 9, p.y / 9, p.z}));
   put({{0, 0, 1}, normalized({0.005, 0, 1})}, {{0, 1, 2, 3, 4}, {5, 6, 7, 8, 9}}, corners);
   EXPECT_EQ(refusal(), off);
+}
+
+// Masked cells are left out like those that cull() removes.
+TEST_F(BorderedFiles, masked_cells_are_left_out) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 31)));
+  std::vector<std::uint8_t> mask(arrays.num_cells());
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = arrays.cell_points[i].z > 0.2 ? 1 : 0;
+  const auto left = std::ranges::count(mask, 0);
+  for (const auto& [format, name] :
+       {std::pair{MeshFormat::scrip, "grid_imask"}, {MeshFormat::esmf, "elementMask"}}) {
+    const auto mask_cells = [&, format = format, name = name](bool are_all) {
+      mesh::write(path(), arrays, {.format = format});
+      std::ifstream in(path(), std::ios::binary);
+      std::string content{std::istreambuf_iterator<char>(in), {}};
+      const std::uint64_t at = io::NetcdfReader(content).require(name).offset;
+      for (std::size_t i = 0; i < mask.size(); ++i) {
+        if (mask[i] != 0 || are_all) content[at + 4 * i + 3] = 0;
+      }
+      std::ofstream(path(), std::ios::binary) << content;
+    };
+    mask_cells(false);
+    std::vector<std::string> remarks;
+    const MeshArrays found = mesh::read_mesh(path(), {}, {}, &remarks);
+    SameMesh(found, mesh::cull(arrays, mask).arrays).expect();
+    ASSERT_EQ(remarks.size(), 2U);
+    EXPECT_EQ(remarks[0],
+              std::to_string(300 - left) + " of 300 cells are masked by \"" + name + '"');
+    EXPECT_EQ(remarks[1],
+              "the mesh has the other " + std::to_string(left) + " cells, in their order");
+    mask_cells(true);
+    EXPECT_EQ(refusal(), "all cells are masked");
+  }
+}
+
+TEST_F(BorderedFiles, cells_of_the_sphere_that_lack_a_corner_are_refused) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(100, 32)));
+  auto rings = rings_of(arrays);
+  rings[7].erase(rings[7].begin() + 1);
+  put(arrays.cell_points, rings, arrays.vertex_points);
+  const std::string differing = refusal();
+  EXPECT_TRUE(differing.ends_with(" meet, but not in the same corners")) << differing;
+  // All cells at a corner lack it.
+  rings = rings_of(arrays);
+  for (auto& ring : rings) std::erase(ring, Index{5});
+  put(arrays.cell_points, rings, arrays.vertex_points);
+  EXPECT_NE(refusal(), "");
 }
 
 TEST_F(BorderedFiles, without_a_border_may_differ_in_corners) {

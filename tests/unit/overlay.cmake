@@ -8,6 +8,7 @@ rondel_add_test(overlay_test
   overlay_inside_plane_test.cpp
   overlay_inside_test.cpp
   overlay_mesh_blocks_test.cpp
+  overlay_mesh_faults_test.cpp
   overlay_mesh_files_test.cpp
   overlay_oracle.cpp
   overlay_overlaps_test.cpp

@@ -26,24 +26,27 @@ constexpr std::size_t num_sites = 50;
 
 struct MeshOfDiagram {
   std::vector<double> lon, lat;  // of the corners, degrees
+  std::vector<LonLat> sites;
   std::vector<std::vector<std::size_t>> rings;
   std::size_t most = 0;
   std::vector<double> areas;
   std::vector<double> center_lon, center_lat;
 
   explicit MeshOfDiagram(std::uint64_t seed) {
-    const auto sites = triangulation_of("uniform", num_sites, seed);
-    const Cells all = cells(sites);
+    const Triangulation triangulation = triangulation_of("uniform", num_sites, seed);
+    const Cells all = cells(triangulation);
     for (const LonLat& place : lonlats(all.points)) {
       lon.push_back(place.lon_deg);
       lat.push_back(place.lat_deg);
     }
     for (std::size_t i = 0; i < num_sites; ++i) {
+      const Point& site = triangulation.sites()[i];
+      sites.push_back(lonlats({&site, 1}).front());
       rings.emplace_back(all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
                          all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1]));
       most = std::max(most, rings.back().size());
     }
-    const Partition partition = Partition::voronoi(sites);
+    const Partition partition = Partition::voronoi(triangulation);
     areas = {partition.areas().begin(), partition.areas().end()};
     for (const LonLat& center : lonlats(partition.centers())) {
       center_lon.push_back(center.lon_deg);
@@ -185,13 +188,19 @@ TEST(overlay_mesh_files, scrip_coordinates_without_units_have_those_of_the_other
     };
     add("grid_corner_lon", corners, corners_in_radians(mesh.lon));
     add("grid_corner_lat", corners, corners_in_radians(mesh.lat));
-    add("grid_center_lon", cells, std::vector<double>(num_sites, 1.5));
-    add("grid_center_lat", cells, std::vector<double>(num_sites, -0.5));
+    std::vector<double> lon;
+    std::vector<double> lat;
+    for (const LonLat& site : mesh.sites) {
+      lon.push_back(site.lon_deg * degree);
+      lat.push_back(site.lat_deg * degree);
+    }
+    add("grid_center_lon", cells, lon);
+    add("grid_center_lat", cells, lat);
     const CellTable table = table_of(file);
     expect_diagram(table, mesh, "SCRIP");
     ASSERT_EQ(table.centers.size(), num_sites) << with_units;
-    EXPECT_NEAR(table.centers[3].lon_deg, 1.5 / degree, 1e-12) << with_units;
-    EXPECT_NEAR(table.centers[3].lat_deg, -0.5 / degree, 1e-12) << with_units;
+    EXPECT_NEAR(table.centers[3].lon_deg, mesh.sites[3].lon_deg, 1e-12) << with_units;
+    EXPECT_NEAR(table.centers[3].lat_deg, mesh.sites[3].lat_deg, 1e-12) << with_units;
   }
 }
 
@@ -250,8 +259,12 @@ TEST(overlay_mesh_files, esmf_nodes_without_units_have_those_of_the_centers) {
     pairs.insert(pairs.end(), {mesh.lon[i] * degree, mesh.lat[i] * degree});
   }
   file.add("nodeCoords", {{"nodeCount", mesh.lon.size()}, {"coordDim", 2}}, pairs);
-  file.add("centerCoords", {{"elementCount", num_sites}, {"coordDim", 2}},
-           std::vector<double>(2 * num_sites, 0.25), {{"units", "radians"}});
+  std::vector<double> centers;
+  for (const LonLat& site : mesh.sites) {
+    centers.insert(centers.end(), {site.lon_deg * degree, site.lat_deg * degree});
+  }
+  file.add("centerCoords", {{"elementCount", num_sites}, {"coordDim", 2}}, centers,
+           {{"units", "radians"}});
   file.add_whole("elementConn", {{"elementCount", num_sites}, {"maxNodePElement", mesh.most}},
                  mesh.corners(counted_from_1, [](const auto&) { return -1; }), {},
                  {{"_FillValue", -1}});

@@ -55,6 +55,29 @@ TEST(weight_check, accepts_what_is_conservative) {
   EXPECT_LE(*report.worst_column, 1e-15);
 }
 
+TEST(weight_check, names_weights_of_masked_cells) {
+  WeightFile file = three_of_four();
+  file.source.mask = {1, 0, 1, 1};
+  file.target.mask = {1, 1, 0};
+  EXPECT_EQ(faults_of(file),
+            (Lines{"masked target: 1 weight is of a masked target (target 2, source 3: 0.5)",
+                   "masked source: 1 weight is of a masked source (target 0, source 1: 0.75)"}));
+  file.source.mask = {0, 0, 0, 0};
+  file.target.mask = {};
+  EXPECT_EQ(
+      faults_of(file),
+      Lines{"masked source: 4 weights are of masked sources (first target 0, source 0: 0.25)"});
+  // A weight of 0 takes nothing of a cell.
+  file = three_of_four();
+  file.weights.offsets = {0, 2, 4, 5};
+  file.weights.columns = {0, 1, 0, 2, 3};
+  file.weights.values = {0, 1, 0, 1, 0.5};
+  file.source.mask = {0, 1, 1, 1};
+  file.source.areas[1] = 0.4;
+  file.source.fractions[0] = 0;
+  EXPECT_EQ(faults_of(file), Lines{});
+}
+
 TEST(weight_check, names_fractions_above_one_and_below_zero) {
   WeightFile file = three_of_four();
   file.weights.values[2] = 2;

@@ -137,12 +137,13 @@ def read(
     Returns
     -------
     Mesh
-        The mesh, with the cells in the order of the file.
+        The mesh, with the cells in the order of the file, without those that it masks.
 
     Raises
     ------
     OSError
-        If the file cannot be read, or its cells are not the Voronoi cells of its centers.
+        If the file cannot be read, its cells are not the Voronoi cells of its centers, or numbers
+        of an MPAS file contradict its points.
 
     Warns
     -----
