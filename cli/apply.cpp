@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "column_values.h"
 #include "netcdf_part.h"
 #include "process.h"
 #include "remap.h"
@@ -50,7 +51,7 @@ ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Poi
           std::ranges::equal(unit_vectors(lonlats(own)), unit_vectors(known), is_near)};
 }
 
-// Values that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
+// ValuesAtSources that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
 // but their hash.
 void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                     const std::vector<Point>& places, bool is_table) {
@@ -67,8 +68,9 @@ void require_places(const ApplyCommandOptions& options, const WeightFile& file,
 }
 
 // The weights of a file, if apply() takes them.
-WeightFile readable_weights(const CommonOptions& common) {
-  WeightFile file = read_weights(common.source());
+WeightFile readable_weights(const ApplyCommandOptions& options) {
+  const CommonOptions& common = options.common;
+  WeightFile file = read_weights(options.weights_file());
   tell(common.input, file.remarks);
   try {
     apply(file.weights, {}, {}, 0);
@@ -96,6 +98,7 @@ std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const
   try {
     return open({places_of_sources(file), most_apart_deg});
   } catch (const FileError&) {
+    if (values_file.path == "-") throw;  // cannot be read again
     const auto elsewhere = open({});
     if (!elsewhere->fields().points.empty()) {
       require_places(options, file, elsewhere->fields().points, false);
@@ -112,11 +115,56 @@ void require_places_of_table(const ApplyCommandOptions& options, const WeightFil
   if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
   ReadOptions read = options.common.read;
   read.may_lack_places = true;
-  const SiteTable table = read_sites(options.values_file, read);
+  const SiteTable table = read_sites(options.values(), read);
   if (!table.sites.empty()) require_places(options, file, table.sites, true);
 }
 
-bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
+// True for a table: by the ending of its name, and on standard input by the format.
+bool is_table(const FileName& file) {
+  if (file.path != "-") return file.path.ends_with(".csv") || file.path.ends_with(".tsv");
+  return file.format.empty() || file.format == "csv" || file.format == "tsv";
+}
+
+// The values, field by field.
+class ValuesAtSources {
+ public:
+  explicit ValuesAtSources(std::unique_ptr<FieldFile> file) : file_(std::move(file)) {}
+  // Takes the columns of a table, whose rows are the sources.
+  ValuesAtSources(const SiteTable& table, const std::vector<std::string>& names) {
+    own_.num_points = table.sites.size();
+    for (const std::string& name : names) {
+      own_.arrays.emplace_back().name = name;
+      columns_.push_back(column_values(table, name, "--value"));
+    }
+  }
+
+  [[nodiscard]] const FieldSet& fields() const { return file_ ? file_->fields() : own_; }
+  // Reads fields of an array from the first one on.
+  void read(std::size_t array, std::size_t first, std::span<double> values) const {
+    if (file_) return file_->read(array, first, values);
+    std::ranges::copy(columns_[array], values.begin());
+  }
+
+ private:
+  std::unique_ptr<FieldFile> file_;
+  FieldSet own_;  // without the values
+  std::vector<std::vector<double>> columns_;
+};
+
+// Reads a table on standard input, which can be read once only: places and values together.
+ValuesAtSources read_standard_table(const ApplyCommandOptions& options, const WeightFile& file) {
+  if (options.columns.empty()) throw UsageError("no column of the table is named (--value)");
+  ReadOptions read = options.common.read;
+  read.may_lack_places = true;
+  read.keep_columns = true;
+  const SiteTable table = read_sites(options.values(), read);
+  if (table.sites.size() != file.weights.num_columns) {
+    throw FileError(table.name + ": " + count(table.sites.size(), "row", "rows") + " for " +
+                    count(file.weights.num_columns, "point", "points"));
+  }
+  require_places(options, file, table.sites, true);
+  return {table, options.columns};
+}
 
 // A slice has 32 MiB; larger ones are not faster.
 constexpr std::size_t most_values = std::size_t{1} << 22U;
@@ -127,10 +175,10 @@ struct AppliedCounts {
 };
 
 // Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so that
-// fields may be larger than memory. Values that are missing are NaN.
+// fields may be larger than memory. ValuesAtSources that are missing are NaN.
 template <typename Function>
 void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
-                    const FieldFile& in, Function take) {
+                    const ValuesAtSources& in, Function take) {
   const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
   const std::size_t of_slice = std::max<std::size_t>(most_values / largest, 1);
   ApplyOptions unfilled = options.apply;
@@ -154,7 +202,7 @@ void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights&
 // Whether a value that is not missing is the number that --fill gives to those that are. Then
 // `_FillValue` in a file of netCDF would make it missing. This applies the weights once more.
 bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const Weights& weights,
-                           const FieldFile& in) {
+                           const ValuesAtSources& in) {
   const double fill = options.apply.fill;
   if (std::isnan(fill) || !is_netcdf_file(options.common.target())) return false;
   bool is_found = false;
@@ -170,7 +218,7 @@ bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const W
 }
 
 AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
-                        const FieldFile& in) {
+                        const ValuesAtSources& in) {
   const Weights& weights = file.weights;
   FieldSet out;
   out.num_points = weights.num_rows();
@@ -193,6 +241,24 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   return counts;
 }
 
+// Reads the values at the sources.
+ValuesAtSources values_of(const ApplyCommandOptions& options, const WeightFile& file) {
+  const bool has_rows = is_table(options.values());
+  if (!has_rows && are_columns_named(options.common.read)) {
+    throw UsageError("columns of places are named, but '" + options.values_file +
+                     "' is no table (.csv .tsv)");
+  }
+  if (has_rows && options.values_file == "-") return read_standard_table(options, file);
+  if (has_rows) require_places_of_table(options, file);
+  const auto [values_file, variable] = netcdf_part(options.values());
+  std::vector<std::string> names = options.columns;
+  if (names.empty() && !variable.empty()) names.push_back(variable);
+  ValuesAtSources in(open_fields(options, file, values_file, names));
+  tell(options.values_file, in.fields().remarks);
+  if (!in.fields().points.empty()) require_places(options, file, in.fields().points, false);
+  return in;
+}
+
 }  // namespace
 
 ExitStatus run_apply(const ApplyCommandOptions& options) {
@@ -200,21 +266,9 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4",
                  {{"VALUES", options.values_file}});
   Job job(common);
-  const WeightFile file = readable_weights(common);
+  const WeightFile file = readable_weights(options);
   const Weights& weights = file.weights;
-  if (is_table(options.values_file)) {
-    require_places_of_table(options, file);
-  } else if (are_columns_named(common.read)) {
-    throw UsageError("columns of places are named, but '" + options.values_file +
-                     "' is no table (.csv .tsv)");
-  }
-  const auto [values_file, variable] = netcdf_part(options.values_file);
-  std::vector<std::string> names = options.columns;
-  if (names.empty() && !variable.empty()) names.push_back(variable);
-  const auto opened = open_fields(options, file, values_file, names);
-  const FieldFile& in = *opened;
-  tell(options.values_file, in.fields().remarks);
-  if (!in.fields().points.empty()) require_places(options, file, in.fields().points, false);
+  const ValuesAtSources in = values_of(options, file);
   const AppliedCounts counts = apply_all(job, options, file, in);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {

@@ -72,6 +72,10 @@ struct CommonOptions {
   std::vector<OptionEffect> effects;  ///< see require_effect()
 
   [[nodiscard]] FileName source() const { return {input, input_format}; }
+  /// Returns INPUT and another file that the command reads; --input-format is for the one of them
+  /// that is standard input, or else for INPUT.
+  [[nodiscard]] FileName source_beside(const std::string& other) const;
+  [[nodiscard]] FileName other_source(const std::string& other) const;
   [[nodiscard]] FileName target() const { return {output, output_format}; }
   /// Returns the format of the output in lower case, "ply": the named one, or the ending.
   [[nodiscard]] std::string format() const;
@@ -90,6 +94,9 @@ inline constexpr const char* default_input_help =
 
 /// Returns the files from which a command reads sites or values.
 using TablesRead = std::function<std::vector<FileName>()>;
+
+/// Returns "-" for the name that the system has for a standard stream, and other names unchanged.
+std::string standard(const std::string& name, const char* stream);
 
 /// Adds INPUT and the options that say how to read it. \pre this comes before add_build_options(),
 /// since --radius sets the model, which --model may contradict.

@@ -139,7 +139,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
 void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                         const Targets& targets, InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
-  const auto [file, variable] = netcdf_part(options.common.source());
+  const auto [file, variable] = netcdf_part(options.source_file());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
   const FieldFile in(file, names, table.sites.size(), {}, {}, {table.positions, same_places_deg});
@@ -221,7 +221,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
 
 ExitStatus run_interpolate(const InterpolateOptions& options) {
   const CommonOptions& common = options.common;
-  const bool is_netcdf = is_netcdf_file(netcdf_part(common.source()).first);
+  const bool is_netcdf = is_netcdf_file(netcdf_part(options.source_file()).first);
   const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
   if (has_values != !common.output.empty()) {
     throw UsageError("--value and --output go together: values of a column to a file");
@@ -240,9 +240,9 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
-  const NetcdfSites grid = job.read_grid(common.source(), read, options.columns);
+  const NetcdfSites grid = job.read_grid(options.source_file(), read, options.columns);
   const SiteTable& table = grid.table;
-  Targets targets = read_targets(options.target, common.read);
+  Targets targets = read_targets(options.target_file(), common.read);
   const SiteTable* const tables[] = {&table, &targets.table};
   require_angles(common.read, tables);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};

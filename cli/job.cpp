@@ -88,10 +88,17 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   const Clock::time_point start = Clock::now();
   const auto part = netcdf_part(file);
   const bool is_netcdf = is_netcdf_file(part.first);
+  const std::span<const std::string> columns = part.second.empty() ? names : decltype(names)();
   if (!part.second.empty()) names = {&part.second, 1};
   NetcdfSites sites;
   if (is_netcdf) {
     sites = read_netcdf_sites(part.first, names, read.keep_columns);
+    // Where a command needs such a column, the error that follows says so.
+    std::erase_if(sites.remarks, [&](const std::string& remark) {
+      return std::ranges::any_of(columns, [&](const std::string& name) {
+        return remark.starts_with('"' + name + "\" has several fields");
+      });
+    });
     tell(part.first.path, sites.remarks);
     tell_of_columns(part.first.path, read);
   } else {

@@ -35,6 +35,17 @@ nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
           {"least_edge_ratio", defects.least_edge_ratio}};
 }
 
+// Returns the mesh of sites that were made. The message of an error names the output, as no file has the sites.
+mesh::MeshArrays arrays_of_made(const Triangulation& triangulation,
+                                const mesh::MeshOptions& options, const CommonOptions& common,
+                                const Job& job) {
+  try {
+    return mesh::arrays(triangulation, options, job.execution());
+  } catch (const InvalidInput& error) {
+    throw FileError(common.output + ": the mesh that was made: " + error.what());
+  }
+}
+
 // Writes all files that are wanted for these sites; returns the quality as JSON if it was computed.
 nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Point>& sites,
                                   const mesh::SizeFunction* size, Job& job) {
@@ -51,7 +62,7 @@ nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Po
     const mesh::MeshOptions options{
         .radius = output.radius.value_or(1), .density = density, .allow_zero_edges = !is_for_model};
     const Triangulation triangulation = delaunay(Sites::view(sites), {}, job.execution());
-    const mesh::MeshArrays made = mesh::arrays(triangulation, options, job.execution());
+    const mesh::MeshArrays made = arrays_of_made(triangulation, options, common, job);
     quality_of_mesh =
         nlohmann::ordered_json::parse(mesh::quality_json(mesh::quality(made, job.execution())));
     write_mesh_files(output, made, job);

@@ -25,6 +25,9 @@ namespace {
 
 constexpr double usual_slope = 0.05;
 
+// The fewest cells that mesh::scvt() makes.
+constexpr std::size_t fewest_cells = 12;
+
 // Half of the circumference, which is the largest distance of two places.
 constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
 
@@ -36,17 +39,18 @@ std::optional<double> as_kilometers(const std::string& option, const std::string
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
 
-// Throws if the spacings need more cells than a mesh can have; without -n they alone determine the
+// Throws if the spacings need more or fewer cells than a mesh can have; without -n they alone determine the
 // number of cells.
 void require_possible_count(const std::string& what, const mesh::SizeFunction& size) {
   const double cells = size.count();
-  if (cells < static_cast<double>(max_sites) + 1) return;
+  const bool are_few = cells + 0.5 < static_cast<double>(fewest_cells);
+  if (!are_few && cells < static_cast<double>(max_sites) + 1) return;
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(),
-                ": spacings of %.3g to %.3g kilometers are those of %.2g cells, more than %zu: are "
+                ": spacings of %.3g to %.3g kilometers are those of %.2g cells, %s than %zu: are "
                 "they kilometers?",
                 size.smallest() * kilometers_per_radian, size.largest() * kilometers_per_radian,
-                cells, max_sites);
+                cells, are_few ? "fewer" : "more", are_few ? fewest_cells : max_sites);
   throw FileError(what + text.data());
 }
 
@@ -114,7 +118,11 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
-    return mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution);
+    std::vector<std::string> remarks;
+    mesh::SizeFunction density =
+        mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution, &remarks);
+    tell(file, remarks);
+    return density;
   }
   if (options.spacing.empty()) return std::nullopt;
   std::optional<mesh::SizeFunction> size;
@@ -122,8 +130,10 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
     size = mesh::SizeFunction::constant(*kilometers / kilometers_per_radian, raster_steps(options));
   } else {
     const auto [file, name] = split_at_colon(options.spacing);
+    std::vector<std::string> remarks;
     size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian,
-                               mesh::SizeFunction::usual_steps, execution);
+                               mesh::SizeFunction::usual_steps, execution, &remarks);
+    tell(file, remarks);
   }
   for (const std::string& refinement : options.refine) {
     const auto [file, text] = split_at_colon(refinement);
@@ -142,7 +152,8 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
     size = size->limited(options.slope.value_or(usual_slope));
   }
   if (options.scvt.count == 0 && options.start.empty()) {
-    require_possible_count(options.spacing, *size);
+    require_possible_count(
+        (is_file_of_spacings(options.spacing) ? "" : "--spacing ") + options.spacing, *size);
   }
   return size;
 }

@@ -60,11 +60,6 @@ void add_columns(CLI::App& command, ReadOptions& read) {
       ->excludes(x);
 }
 
-// Returns "-" for the name that the system has for a standard stream, and other names unchanged.
-std::string standard(const std::string& name, const char* stream) {
-  return name == stream ? "-" : name;
-}
-
 void add_input(CLI::App& command, CommonOptions& options, const std::string& what) {
   command
       .add_option_function<std::string>(
@@ -110,6 +105,10 @@ void add_radius(CLI::App& command, CommonOptions& options) {
 }
 
 }  // namespace
+
+std::string standard(const std::string& name, const char* stream) {
+  return name == stream ? "-" : name;
+}
 
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& what,
                        const TablesRead& tables) {
@@ -175,6 +174,14 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
           [&options](const std::string& name) { options.output = standard(name, "/dev/stdout"); },
           what)
       ->type_name("FILE");
+}
+
+FileName CommonOptions::source_beside(const std::string& other) const {
+  return {input, other == "-" && input != "-" ? std::string() : input_format};
+}
+
+FileName CommonOptions::other_source(const std::string& other) const {
+  return {other, other == "-" && input != "-" ? input_format : std::string()};
 }
 
 std::string CommonOptions::format() const {

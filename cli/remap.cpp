@@ -147,8 +147,8 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   std::optional<CellSide> source;
   std::optional<CellSide> target;
   job.time(Stage::dual, [&] {
-    source = side_of(common.source(), options, job);
-    target = side_of({options.target, ""}, options, job);
+    source = side_of(options.source_file(), options, job);
+    target = side_of(options.target_file(), options, job);
   });
   RemapOptions remap_options = options.remap;
   remap_options.source_mask = source->side.mask;

@@ -22,10 +22,13 @@ namespace rondel::cli {
 
 struct ApplyCommandOptions {
   CommonOptions common;              ///< INPUT: the weights; output and threads
-  std::string values_file;           ///< VALUES
+  std::string values_file;           ///< VALUES; "-": standard input
   std::vector<std::string> columns;  ///< --value
   ApplyOptions apply;                ///< --fill --most-missing
   NetcdfOptions netcdf;              ///< --kind --deflate
+
+  [[nodiscard]] FileName weights_file() const { return common.source_beside(values_file); }
+  [[nodiscard]] FileName values() const { return common.other_source(values_file); }
 };
 
 struct CheckWeightsOptions {
@@ -35,12 +38,15 @@ struct CheckWeightsOptions {
 
 struct InterpolateOptions {
   CommonOptions common;              ///< INPUT: the sites
-  std::string target;                ///< --to
+  std::string target;                ///< --to; "-": standard input
   std::string weights;               ///< --weights; empty: values
   std::string weight_format;         ///< --weight-format
   std::vector<std::string> columns;  ///< --value
   InterpolationOptions interpolation;
   NetcdfOptions netcdf;  ///< --kind --deflate
+
+  [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
+  [[nodiscard]] FileName target_file() const { return common.other_source(target); }
 };
 
 /// The targets that --to names: a file of points; a netCDF file with cells, a grid or values at
@@ -51,7 +57,7 @@ struct Targets {
   WeightSide side;
 };
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read
-Targets read_targets(const std::string& name, const ReadOptions& read);
+Targets read_targets(const FileName& target, const ReadOptions& read);
 // Returns the centers of a grid's cells, and the shape of the grid.
 WeightSide grid_side(const std::string& name);
 /// Adds the corners and areas of the cells, if the targets are a grid.
@@ -63,11 +69,14 @@ std::vector<LonLat> corners_of(const LonLatGrid& grid);
 
 struct RemapCommandOptions {
   CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights
-  std::string target;    ///< TARGET
+  std::string target;    ///< TARGET; "-": standard input
   RemapOptions remap;    ///< --order --norm --overlap
   GridSides sides = GridSides::parallels;
   PolygonEdges edges = PolygonEdges::lonlat;
   NetcdfOptions netcdf;  ///< --kind --deflate
+
+  [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
+  [[nodiscard]] FileName target_file() const { return common.other_source(target); }
 };
 
 /// The forms of cells that `rondel remap` reads.

@@ -18,13 +18,24 @@
 namespace rondel::cli {
 namespace {
 
+std::string fill_error(const std::string& text) {
+  return text == "nan" || text == "NaN" ? std::string() : finite_error(text);
+}
+
 std::string share_error(const std::string& text) { return range_error(text, 0, 1); }
 
 void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::string& what) {
   parser.add_option("--value", columns, what)->allow_extra_args(false)->type_name("COL");
 }
 
-void add_weights_input(CLI::App& parser, CommonOptions& options) {
+// Adds a required file beside INPUT, which may be standard input.
+CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::string& file,
+                              const std::string& what) {
+  const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };
+  return parser.add_option_function<std::string>(name, take, what)->required();
+}
+
+void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others) {
   parser
       .add_option("WEIGHTS", options.input,
                   "The weights: netCDF (ESMF or SCRIP) or .npz (scipy.sparse)")
@@ -32,7 +43,7 @@ void add_weights_input(CLI::App& parser, CommonOptions& options) {
       ->type_name("");
   parser
       .add_option("--input-format", options.input_format,
-                  "Format of WEIGHTS: esmf, scrip or npz (default: by its ending)")
+                  "Format of WEIGHTS: esmf, scrip or npz (default: by its ending)" + of_others)
       ->type_name("FORMAT");
 }
 
@@ -62,14 +73,13 @@ void add_methods(CLI::App& parser, InterpolationOptions& options) {
 Command add_apply_command(CLI::App& tool) {
   auto options = std::make_shared<ApplyCommandOptions>();
   CLI::App* parser = tool.add_subcommand("apply", "Apply a file of weights to values");
-  add_weights_input(*parser, options->common);
-  parser
-      ->add_option(
-          "VALUES", options->values_file,
-          "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
-          "(fields, n), or netCDF: variables with the dimensions of the sources, FILE.nc:NAME\n"
-          "one of them")
-      ->required()
+  add_weights_input(*parser, options->common,
+                    ",\nor, if VALUES is -, of standard input: csv (default), tsv, npy or nc");
+  add_second_input(
+      *parser, "VALUES", options->values_file,
+      "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
+      "(fields, n), or netCDF: variables with the dimensions of the sources, FILE.nc:NAME\n"
+      "one of them; or - for standard input")
       ->type_name("");
   add_output_option(*parser, options->common,
                     "Where to write the values at the targets: .csv .tsv .npy .nc .nc4")
@@ -81,6 +91,7 @@ Command add_apply_command(CLI::App& tool) {
       ->add_option("--fill", options->apply.fill,
                    "The value of targets that have none (default: nan); in netCDF also the\n"
                    "attribute _FillValue, unless other targets have this value")
+      ->check(fill_error)
       ->type_name("VALUE");
   parser
       ->add_option("--most-missing", options->apply.most_missing,
@@ -89,7 +100,7 @@ Command add_apply_command(CLI::App& tool) {
       ->check(share_error)
       ->type_name("SHARE");
   add_table_options(*parser, options->common,
-                    [given = options.get()] { return std::vector<FileName>{given->values_file}; });
+                    [given = options.get()] { return std::vector<FileName>{given->values()}; });
   add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
     return output_of_format(given->common, {"nc", "nc4"});
   });
@@ -103,8 +114,9 @@ Command add_apply_command(CLI::App& tool) {
       "against the longitudes and latitudes of a netCDF file: both may be 1e-4 degrees off. Of\n"
       ".npy, and of files without coordinates, only the number of the values is. What reads the\n"
       "table is told as for rondel interpolate: --lon, --lat, --delimiter ... Weights that are\n"
-      "infinite or not a number are an error. SCRIP's conservative weights that are areas\n"
-      "(normalization \"none\") are divided by the areas of the targets.\n\n"
+      "infinite or not a number are an error, and so are places that are none. SCRIP's\n"
+      "conservative weights that are areas (normalization \"none\") are divided by the areas of\n"
+      "the targets.\n\n"
       "Examples:\n"
       "  rondel apply weights.nc temperature.nc -o on-grid.nc\n"
       "  rondel apply weights.nc stations.csv --value temperature -o on-grid.csv");
@@ -114,7 +126,7 @@ Command add_apply_command(CLI::App& tool) {
 Command add_check_weights_command(CLI::App& tool) {
   auto options = std::make_shared<CheckWeightsOptions>();
   CLI::App* parser = tool.add_subcommand("check-weights", "Check a file of weights");
-  add_weights_input(*parser, options->common);
+  add_weights_input(*parser, options->common, "");
   parser->add_flag("--allow-negative", options->check.allow_negative,
                    "Negative weights are right whatever the file says of its method");
   add_report_options(*parser, options->common);
@@ -165,15 +177,13 @@ Command add_interpolate_command(CLI::App& tool) {
   CLI::App* parser =
       tool.add_subcommand("interpolate", "Carry values at sites to other points, or make weights");
   add_input_options(*parser, options->common, default_input_help, [given = options.get()] {
-    return std::vector<FileName>{given->common.source(), given->target};
+    return std::vector<FileName>{given->source_file(), given->target_file()};
   });
-  parser
-      ->add_option(
-          "--to", options->target,
-          "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
-          "or values at places, or the centers of the cells of a grid, grid:DEG or\n"
-          "grid:NLONxNLAT")
-      ->required()
+  add_second_input(
+      *parser, "--to", options->target,
+      "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
+      "or values at places, or the centers of the cells of a grid, grid:DEG or\n"
+      "grid:NLONxNLAT")
       ->type_name("TARGET");
   add_values(*parser, options->columns,
              "The column with the values, for GeoJSON a property, for netCDF a variable (default\n"
@@ -225,7 +235,7 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
   const auto has_side = [&options](CellForm form) {
-    return form_of(options.common.source()) == form || form_of(options.target) == form;
+    return form_of(options.source_file()) == form || form_of(options.target_file()) == form;
   };
   require_effect(
       options.common, sides,
@@ -251,12 +261,12 @@ Command add_remap_command(CLI::App& tool) {
       "grid:NLONxNLAT, .geojson with polygons, or a file of sites, whose Voronoi cells\n"
       "they are: .csv .tsv .xyz .txt .npy, or - for standard input",
       [given = options.get()] {
-        std::vector<FileName> sites = {given->common.source(), given->target};
+        std::vector<FileName> sites = {given->source_file(), given->target_file()};
         std::erase_if(sites, [](const FileName& file) { return form_of(file) != CellForm::sites; });
         return sites;
       });
-  parser->add_option("TARGET", options->target, "The cells that want them, in the same forms")
-      ->required()
+  add_second_input(*parser, "TARGET", options->target,
+                   "The cells that want them, in the same forms")
       ->type_name("");
   add_output_option(
       *parser, options->common,

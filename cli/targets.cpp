@@ -111,8 +111,9 @@ WeightSide grid_side(const std::string& name) {
   return side;
 }
 
-Targets read_targets(const std::string& name, const ReadOptions& read) {
+Targets read_targets(const FileName& target, const ReadOptions& read) {
   Targets targets;
+  const std::string& name = target.path;
   if (name.starts_with("grid:")) {
     targets.side = grid_side(name);
     targets.table.name = name;
@@ -120,7 +121,7 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
     targets.table.sites = unit_vectors(targets.side.points);
     return targets;
   }
-  if (const auto [file, variable] = netcdf_part(name); is_netcdf_file(file)) {
+  if (const auto [file, variable] = netcdf_part(target); is_netcdf_file(file)) {
     std::vector<std::string> names;
     if (!variable.empty()) names.push_back(variable);
     NetcdfSites sites = read_netcdf_sites(file, names, false);
@@ -134,7 +135,7 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
   ReadOptions options = read;
   options.radius.clear();
   options.keep_columns = false;
-  targets.table = read_sites(name, options);
+  targets.table = read_sites(target, options);
   const SiteTable& table = targets.table;
   targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;

@@ -31,15 +31,20 @@ RONDEL_API std::vector<Point> read_refinement(const FileName& file, double dista
 /// \param name  the variable or column; empty: the only one
 /// \param unit  what a value is multiplied by to get radians. If the attribute `units` says meters,
 ///              values are also divided by 1000; units other than meters and kilometers are refused
+/// \param[out] remarks  gets sentences on what the file has and the spacings have not: places without
+///              a value, and places that another one with another value repeats, of which the first
+///              one counts; null: nobody is told
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                                       std::size_t steps = SizeFunction::usual_steps,
-                                      const Execution& execution = {});
+                                      const Execution& execution = {},
+                                      std::vector<std::string>* remarks = nullptr);
 
 /// Reads densities of a tessellation as read_spacings() reads spacings, and returns spacings: their
 /// power -1/4, the largest 1. Only the proportions count. For an MPAS mesh, "meshDensity" are the
 /// densities of its cells.
 RONDEL_API SizeFunction read_density(const FileName& file, const std::string& name,
                                      std::size_t steps = SizeFunction::usual_steps,
-                                     const Execution& execution = {});
+                                     const Execution& execution = {},
+                                     std::vector<std::string>* remarks = nullptr);
 
 }  // namespace rondel::mesh

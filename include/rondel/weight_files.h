@@ -68,7 +68,8 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
 /// Conservative weights of SCRIP with the normalization "none" are areas: they are divided by the
 /// areas of the targets and get the normalization "destarea", as WeightFile::remarks says. Files of
 /// write_weights() hold means, whatever their normalization is.
-/// \throws FileError also if a target of such weights has no area in the file.
+/// \throws FileError also if a target of such weights has no area in the file, and for longitudes and
+///         latitudes that are neither a place nor missing; these become NaN.
 RONDEL_API WeightFile read_weights(const FileName& file);
 
 /// Returns the longitudes and latitudes of the rays from the origin through points; longitude 0 at

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
 #include "io/cf_reader.h"
 #include "io/column_text.h"
 #include "io/number.h"
+#include "system/shortest_text.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -88,6 +91,22 @@ std::array<std::vector<double>, 2> degrees_of_pair(const io::NetcdfReader& file,
         {file.find(related[k]), file.find(wanted[1 - k]), file.find(related[1 - k])});
   }
   return degrees;
+}
+
+// Returns a place of the file; both numbers are NaN if one of them is missing. Throws BadValue for
+// numbers that are no place.
+LonLat place_of_side(const SideNames& names, std::size_t i, double lon, double lat) {
+  constexpr double rounding = 1e-5;  // pi / 2 in single precision is 90.0000025 degrees
+  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+  const bool is_lon = std::isnan(lon) || std::isfinite(lon);
+  const bool is_lat = std::isnan(lat) || std::abs(lat) <= 90 + rounding;
+  if (!is_lon || !is_lat) {
+    throw io::BadValue("value " + std::to_string(i) + " of " + io::in_quotes(names.lon) + " and " +
+                       io::in_quotes(names.lat) + ", " + system::shortest_text(lon) + " and " +
+                       system::shortest_text(lat) + " degrees, is no place");
+  }
+  if (std::isnan(lon) || std::isnan(lat)) return {no_number, no_number};
+  return {lon, std::clamp(lat, -90.0, 90.0)};
 }
 
 void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
@@ -187,7 +206,7 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
     require_size(names.lon, lon, size);
     require_size(names.lat, lat, size);
     side.points.resize(size);
-    for (std::size_t i = 0; i < size; ++i) side.points[i] = {lon[i], lat[i]};
+    for (std::size_t i = 0; i < size; ++i) side.points[i] = place_of_side(names, i, lon[i], lat[i]);
   }
   read_corners(file, names, size, side);
   side.areas = numbers_of(file, names.area, size);

@@ -66,8 +66,10 @@ bool lacks_place(const std::vector<std::string_view>& fields,
 void read_rows(CsvRecords& records, std::string_view text, const ReadJob& options,
                SiteTable& table) {
   const std::vector<std::string> names = column_names(records.fields());
-  if (options.may_lack_places && !has_coordinates(names, options)) return;
-  const CoordinateColumns coordinates = find_columns(names, options);
+  const bool has_places = !options.may_lack_places || has_coordinates(names, options);
+  if (!has_places && !options.keep_columns) return;
+  const CoordinateColumns coordinates =
+      has_places ? find_columns(names, options) : CoordinateColumns{};
   const std::size_t width = names.size();
   require_different_names(names);
   if (options.keep_columns) {
@@ -80,7 +82,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
   while (records.next()) {
     const auto& fields = records.fields();
     require_width(records, width);
-    if (options.may_lack_places && lacks_place(fields, coordinates)) {
+    if (!has_places || (options.may_lack_places && lacks_place(fields, coordinates))) {
       collector.add_unlocated(coordinates.is_lonlat, records.line());
     } else if (coordinates.is_lonlat) {
       const double lon = parse_number(fields[a], "longitude");

@@ -73,6 +73,20 @@ std::string unquoted(const JsonTree& value) {
   return value.is_string() ? value.string() : value.text();
 }
 
+LonLat geojson_position(const JsonTree& coordinates) {
+  const std::vector<JsonTree>& items = coordinates.items;
+  const bool are_numbers =
+      coordinates.is_array() && items.size() >= 2 && items[0].is_number() && items[1].is_number();
+  if (!are_numbers) {
+    throw BadValue("coordinates " + in_quotes(coordinates.text()) + " are not [lon, lat]");
+  }
+  try {
+    return checked_position(items[0].number(), items[1].number(), false);
+  } catch (const BadValue& bad) {
+    throw BadValue("coordinates " + in_quotes(coordinates.text()) + ": " + bad.what());
+  }
+}
+
 // Moves the cursor, which copies of the iterator share, through the text.
 class GeoJsonItems::CursorIterator {
  public:
@@ -119,6 +133,11 @@ void GeoJsonItems::read(const ItemListener& listener) {
                            }});
   try {
     json::sax_parse(CursorIterator(bytes_.data(), cursor_), CursorIterator(end, cursor_), &builder);
+    // The parser takes the character U+0000 for the end of the text.
+    if (bytes_.find('\0') != std::string_view::npos) {
+      throw JsonError("not JSON: a byte 0 at position " + std::to_string(bytes_.find('\0')) +
+                      " of the file");
+    }
   } catch (const JsonError&) {
     item_line_ = 0;
     throw;

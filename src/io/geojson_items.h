@@ -28,6 +28,9 @@ std::string geojson_type(const JsonTree& object);
 // Returns the text of a property: a string without its quotes, anything else as JSON.
 std::string unquoted(const JsonTree& value);
 
+// Returns the longitude and latitude of a position. Throws BadValue, with the position in the message.
+LonLat geojson_position(const JsonTree& coordinates);
+
 class GeoJsonItems {
  public:
   struct ItemListener {

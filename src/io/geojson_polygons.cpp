@@ -33,7 +33,7 @@ class PolygonReader {
   void read() {
     items_.read({[this](const JsonTree& geometry, const JsonTree& feature) {
                    begin(feature);
-                   add_geometry(geometry, true);
+                   add_geometry(geometry);
                  },
                  [this](const JsonTree& feature) { begin(feature); }});
     columns_.finish(features_.rings.size());
@@ -47,7 +47,8 @@ class PolygonReader {
     features_.lines.emplace_back();
   }
 
-  void add_geometry(const JsonTree& geometry, bool may_be_collection) {
+  // Collections may be nested as deep as the text may be.
+  void add_geometry(const JsonTree& geometry) {
     const std::string type = geojson_type(geometry);
     if (type == "Polygon") return add_polygon(geometry.member("coordinates"));
     if (type == "MultiPolygon") {
@@ -55,13 +56,13 @@ class PolygonReader {
       return;
     }
     if (kinds_ == FeatureKinds::all && add_line(geometry, type)) return;
-    if (type != "GeometryCollection" || !may_be_collection) {
+    if (type != "GeometryCollection") {
       throw BadValue("type " + in_quotes(type) + " where a " +
                      (kinds_ == FeatureKinds::all ? "geometry" : "Polygon") + " is needed");
     }
     const JsonTree& members = geometry.member("geometries");
     if (!members.is_array()) throw BadValue("GeometryCollection without members");
-    for (const JsonTree& part : members.items) add_geometry(part, false);
+    for (const JsonTree& part : members.items) add_geometry(part);
   }
 
   static const std::vector<JsonTree>& parts_of(const JsonTree& geometry, const std::string& type) {
@@ -74,9 +75,10 @@ class PolygonReader {
   bool add_line(const JsonTree& geometry, const std::string& type) {
     auto& lines = features_.lines.back();
     if (type == "Point") {
-      lines.push_back({position_of(geometry.member("coordinates"))});
+      lines.push_back({geojson_position(geometry.member("coordinates"))});
     } else if (type == "MultiPoint") {
-      for (const JsonTree& point : parts_of(geometry, type)) lines.push_back({position_of(point)});
+      for (const JsonTree& point : parts_of(geometry, type))
+        lines.push_back({geojson_position(point)});
     } else if (type == "LineString") {
       lines.push_back(line_of(geometry.member("coordinates")));
     } else if (type == "MultiLineString") {
@@ -93,7 +95,7 @@ class PolygonReader {
       throw BadValue("a line of " + std::to_string(line.items.size()) + " positions");
     }
     std::vector<LonLat> positions;
-    for (const JsonTree& item : line.items) positions.push_back(position_of(item));
+    for (const JsonTree& item : line.items) positions.push_back(geojson_position(item));
     return positions;
   }
 
@@ -110,7 +112,7 @@ class PolygonReader {
     if (!ring.is_array()) throw BadValue("a ring that is no array");
     std::vector<LonLat> positions;
     positions.reserve(ring.items.size());
-    for (const JsonTree& item : ring.items) positions.push_back(position_of(item));
+    for (const JsonTree& item : ring.items) positions.push_back(geojson_position(item));
     if (positions.size() < 4) {
       throw BadValue("a ring of " + std::to_string(positions.size()) + " positions");
     }
@@ -120,14 +122,6 @@ class PolygonReader {
     if (!is_turn && !(first == last)) throw BadValue("a ring that is not closed");
     positions.pop_back();
     return {std::move(positions), is_hole, is_turn};
-  }
-
-  static LonLat position_of(const JsonTree& item) {
-    if (!item.is_array() || item.items.size() < 2 || !item.items[0].is_number() ||
-        !item.items[1].is_number()) {
-      throw BadValue("coordinates " + in_quotes(item.text()) + " are not [lon, lat]");
-    }
-    return checked_position(item.items[0].number(), item.items[1].number(), false);
   }
 
   GeoJsonItems items_;

@@ -24,6 +24,10 @@ struct LonLatRing {
   bool is_hole = false;           // a ring that is not a hole begins a polygon
   bool is_turn =
       false;  // its last position is the first one a whole turn of the globe away, and left out
+  // The positions before corners of others were inserted, if the ring is so thin that these may have
+  // closed it (overlay/shared_corners.h).
+  std::vector<LonLat> thin_positions = {};
+  bool is_left_out = false;  // no wider than rounding
 };
 
 // Row i belongs to feature i of the file, or to bare geometry i.

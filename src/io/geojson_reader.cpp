@@ -62,6 +62,7 @@ class GeoJsonReader {
   GeoJsonItems items_;
 };
 
+// Collections may be nested as deep as the text may be.
 void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& feature) {
   const std::string type = geojson_type(geometry);
   const JsonTree& coordinates = geometry.member("coordinates");
@@ -73,8 +74,6 @@ void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& featu
   const JsonTree& members = is_collection ? geometry.member("geometries") : coordinates;
   if (!members.is_array()) throw BadValue(type + " without members");
   for (const JsonTree& part : members.items) {
-    // Refuses collections in collections, which bounds the recursion.
-    if (is_collection && geojson_type(part) == type) throw BadValue("nested GeometryCollection");
     if (is_collection) {
       add_geometry(part, feature);
     } else {
@@ -84,13 +83,10 @@ void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& featu
 }
 
 void GeoJsonReader::add_coordinates(const JsonTree& coordinates, const JsonTree& feature) {
-  if (!coordinates.is_array() || coordinates.items.size() < 2 ||
-      !coordinates.items[0].is_number() || !coordinates.items[1].is_number()) {
-    throw BadValue("coordinates " + in_quotes(coordinates.text()) + " are not [lon, lat]");
-  }
+  const LonLat position = geojson_position(coordinates);
   if (keep_columns_) columns_.add(feature, collector_.size());
   features_.push_back(items_.number());
-  collector_.add_position(coordinates.items[0].number(), coordinates.items[1].number(), line());
+  collector_.add_position(position.lon_deg, position.lat_deg, line());
   if (!radius_.empty()) collector_.make_circle(radius_in(feature));
   collector_.report_progress(items_.num_bytes_read(), num_bytes_);
 }

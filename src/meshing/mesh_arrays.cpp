@@ -6,7 +6,9 @@
 // parts of each array.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <string>
 
@@ -18,6 +20,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh.h"
 #include "rondel/predicates.h"
+#include "rondel/weight_files.h"
 #include "system/job.h"
 #include "system/large_vector.h"
 #include "system/shortest_text.h"
@@ -193,8 +196,12 @@ class MeshMaker {
     std::ranges::sort(four);
     const std::array<std::string, 4> names = {std::to_string(four[0]), std::to_string(four[1]),
                                               std::to_string(four[2]), std::to_string(four[3])};
-    throw InvalidInput("sites " + names[0] + ", " + names[1] + ", " + names[2] + " and " +
-                           names[3] + " lie on one circle, so that an edge has no length",
+    const LonLat first = lonlats({&sites_.sites()[four[0]], 1}).front();
+    std::array<char, 80> place{};
+    std::snprintf(place.data(), place.size(), "%.10g %.10g", first.lon_deg, first.lat_deg);
+    throw InvalidInput("sites " + names[0] + " (at " + place.data() + "), " + names[1] + ", " +
+                           names[2] + " and " + names[3] +
+                           " lie on one circle, so that an edge has no length",
                        four[0]);
   }
 

@@ -173,8 +173,17 @@ Spacings spacings_of(const FileName& file, const std::string& name, const Execut
   return result;
 }
 
+// Adds "3 of 60 places are ...", for a number that is not 0.
+void remark_on(std::size_t number, std::size_t of_all, const char* one, const char* many,
+               const std::string& what, std::vector<std::string>* remarks) {
+  if (number == 0 || remarks == nullptr) return;
+  remarks->push_back(std::to_string(number) + " of " + std::to_string(of_all) +
+                     (of_all == 1 ? " place " : " places ") + (number == 1 ? one : many) + what);
+}
+
 // Leaves out missing values; `numbers` keeps the positions of those that are left.
-void drop_missing(const FileName& file, Spacings& spacings) {
+void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::string>* remarks) {
+  const std::size_t num_given = spacings.values.size();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     if (std::isnan(spacings.values[i])) continue;
@@ -183,6 +192,8 @@ void drop_missing(const FileName& file, Spacings& spacings) {
     spacings.numbers.push_back(i);
   }
   if (kept == 0) throw FileError(file.path + ": all of its values are missing");
+  remark_on(num_given - kept, num_given, "has", "have",
+            " no value: it is interpolated between the others", remarks);
   spacings.places.resize(kept);
   spacings.values.resize(kept);
 }
@@ -202,8 +213,17 @@ double kilometers_of(const FileName& file, const std::string& units) {
 }
 
 // Returns the function that is linear on the triangulation of the places.
-SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution) {
-  const Interpolator interpolator(delaunay(Sites::view(spacings.places), {}, execution));
+SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
+                         std::vector<std::string>* remarks) {
+  const Triangulation triangulation = delaunay(Sites::view(spacings.places), {}, execution);
+  const auto num_other =
+      std::ranges::count_if(triangulation.duplicates(), [&](const Duplicate& duplicate) {
+        return spacings.values[duplicate.site] != spacings.values[duplicate.representative];
+      });
+  remark_on(static_cast<std::size_t>(num_other), spacings.values.size(), "is", "are",
+            " at the place of another one with another value: of each place the first value counts",
+            remarks);
+  const Interpolator interpolator(triangulation);
   const InterpolationOptions options{.method = Method::linear, .outside = Outside::nearest};
   return SizeFunction::from_function(
       [&](std::span<const Point> places, std::span<double> out) {
@@ -232,9 +252,10 @@ std::vector<Point> read_refinement(const FileName& file, double distance,
 }
 
 SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
-                           std::size_t steps, const Execution& execution) {
+                           std::size_t steps, const Execution& execution,
+                           std::vector<std::string>* remarks) {
   Spacings spacings = spacings_of(file, name, execution);
-  drop_missing(file, spacings);
+  drop_missing(file, spacings, remarks);
   unit *= kilometers_of(file, spacings.units);
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
@@ -244,13 +265,13 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
     }
     value *= unit;
   }
-  return function_of(spacings, steps, execution);
+  return function_of(spacings, steps, execution, remarks);
 }
 
 SizeFunction read_density(const FileName& file, const std::string& name, std::size_t steps,
-                          const Execution& execution) {
+                          const Execution& execution, std::vector<std::string>* remarks) {
   Spacings densities = spacings_of(file, name, execution);
-  drop_missing(file, densities);
+  drop_missing(file, densities, remarks);
   for (std::size_t i = 0; i < densities.values.size(); ++i) {
     const double value = densities.values[i];
     if (value >= least_density && value <= largest_density) continue;
@@ -259,7 +280,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   }
   const double least = *std::ranges::min_element(densities.values);
   for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
-  return function_of(densities, steps, execution);
+  return function_of(densities, steps, execution, remarks);
 }
 
 }  // namespace rondel::mesh

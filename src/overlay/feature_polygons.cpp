@@ -21,6 +21,7 @@
 #include "overlay/long_side.h"
 #include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
+#include "overlay/polar_sides.h"
 #include "overlay/shared_corners.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -71,6 +72,22 @@ std::string advice_on(const io::LonLatRing& ring) {
   return "";
 }
 
+// Marks a ring that has an area, but that corners of others on its sides have closed, and with a
+// shell its holes, as left out. Returns false for other rings.
+bool leave_out_thin_ring(std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
+  io::LonLatRing& ring = rings[fault.second];
+  if (fault.kind != PlaneFaultKind::no_area || ring.thin_positions.empty()) return false;
+  const io::LonLatRing given{ring.thin_positions};
+  const PlaneRegion region = sweep_rings({&given, 1});
+  if (region.fault && region.fault->kind == PlaneFaultKind::no_area) return false;
+  ring.is_left_out = true;
+  for (std::size_t r = fault.second + std::size_t{1}; !ring.is_hole && r < rings.size(); ++r) {
+    if (!rings[r].is_hole) break;
+    rings[r].is_left_out = true;
+  }
+  return true;
+}
+
 // Converts all features with one set of options.
 class FeatureCells {
  public:
@@ -91,7 +108,7 @@ class FeatureCells {
     std::iota(all.begin(), all.end(), Index{0});
     const std::vector<CrossingCells> overlaps = overlaps_in(cells, all);
     if (overlaps.empty() || options_.overlap == PolygonOverlap::keep) return cells;
-    if (options_.overlap == PolygonOverlap::first) return first_of_cells(cells, overlaps, quiet());
+    if (options_.overlap == PolygonOverlap::first) return first_of_all(cells, overlaps);
     throw FileError(
         features_.name + ": features " + feature_name(features_.columns, overlaps[0].first) +
         " and " + feature_name(features_.columns, overlaps[0].second) + " overlap at " +
@@ -100,23 +117,48 @@ class FeatureCells {
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
-  // Returns a sentence on the features that have rings but no cell; empty if there are none.
-  [[nodiscard]] const std::string& remark() const { return remark_; }
+  // Returns sentences on what is too thin for a cell.
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
-  void look_for_vanished(const CellRings& cells) {
-    std::size_t num_vanished = 0;
-    std::size_t first = 0;
-    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
-      const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
-      if (features_.rings[f].empty() || has_cell) continue;
-      if (num_vanished++ == 0) first = f;
+  // Returns the first_of_cells(). Throws FileError if rounding has made them overlap themselves.
+  [[nodiscard]] CellRings first_of_all(const CellRings& cells,
+                                       std::span<const CrossingCells> overlaps) const {
+    try {
+      return first_of_cells(cells, overlaps, quiet());
+    } catch (const InvalidInput& error) {
+      const CrossingCells& pair = overlaps.front();
+      throw FileError(features_.name + ": features that overlap cannot be laid over each other " +
+                      "(the first two are " + feature_name(features_.columns, pair.first) +
+                      " and " + feature_name(features_.columns, pair.second) + ", at " +
+                      text_of_place(pair.place) + "): " + error.what());
     }
-    if (num_vanished == 0) return;
-    remark_ = "feature " + feature_name(features_.columns, first);
-    if (num_vanished > 1) remark_ += " and " + std::to_string(num_vanished - 1) + " more";
-    remark_ += num_vanished > 1 ? " are" : " is";
-    remark_ += " no wider than rounding of the corners (some 2e-13 degrees), so nothing is left";
+  }
+
+  void look_for_vanished(const CellRings& cells) {
+    std::vector<std::size_t> vanished;
+    std::vector<std::size_t> thinned;
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
+      if (!rings.empty() && !has_cell) {
+        vanished.push_back(f);
+      } else if (std::ranges::any_of(rings, &io::LonLatRing::is_left_out)) {
+        thinned.push_back(f);
+      }
+    }
+    const auto tell_of = [&](const std::vector<std::size_t>& found, const char* one,
+                             const char* many) {
+      if (found.empty()) return;
+      std::string text = "feature " + feature_name(features_.columns, found.front());
+      if (found.size() > 1) text += " and " + std::to_string(found.size() - 1) + " more";
+      remarks_.push_back(text + (found.size() > 1 ? many : one));
+    };
+    const std::string width = "no wider than rounding of the corners (some 2e-13 degrees), ";
+    tell_of(vanished, (" is " + width + "so nothing is left").c_str(),
+            (" are " + width + "so nothing is left").c_str());
+    tell_of(thinned, (" has rings " + width + "which are left out").c_str(),
+            (" have rings " + width + "which are left out").c_str());
   }
   [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
     refuse_feature(features_, feature, what);
@@ -178,8 +220,9 @@ class FeatureCells {
     std::vector<Index> owners;
     std::vector<std::size_t> turns(features_.rings.size());
     sweep(sides, owners, turns);
-    const DividedSides divided = divide_for_areas(
+    DividedSides divided = divide_for_areas(
         sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
+    share_polar_corners(sides, divided);
     std::vector<Point> corners(divided.positions.size());
     std::ranges::transform(divided.positions, corners.begin(),
                            [](const LonLat& p) { return unit_vector(p); });
@@ -242,12 +285,15 @@ class FeatureCells {
   // Collects the sides of all features with their features, and for each feature in `turns` how
   // often it covers the map, rounded.
   void sweep(std::vector<PlaneSide>& sides, std::vector<Index>& owners,
-             std::vector<std::size_t>& turns) const {
+             std::vector<std::size_t>& turns) {
     std::vector<PlaneRegion> regions(features_.rings.size());
     system::parallel_for(execution_.threads, regions.size(), swept_per_block,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t f = begin; f < end; ++f) {
-                             regions[f] = sweep_rings(features_.rings[f]);
+                             do {
+                               regions[f] = sweep_rings(features_.rings[f]);
+                             } while (regions[f].fault &&
+                                      leave_out_thin_ring(features_.rings[f], *regions[f].fault));
                            }
                          });
     for (std::size_t f = 0; f < regions.size(); ++f) {
@@ -270,7 +316,7 @@ class FeatureCells {
   io::PolygonFeatures& features_;
   const PolygonOptions& options_;
   const Execution& execution_;
-  std::string remark_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace
@@ -279,7 +325,7 @@ CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions&
                             std::vector<std::string>& remarks, const Execution& execution) {
   FeatureCells make(features, options, execution);
   CellRings cells = make();
-  if (!make.remark().empty()) remarks.push_back(make.remark());
+  remarks.insert(remarks.end(), make.remarks().begin(), make.remarks().end());
   return cells;
 }
 

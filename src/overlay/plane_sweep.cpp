@@ -103,7 +103,7 @@ class PlaneSweep {
       }
       parts_.push_back(part);
       const std::vector<LonLat>& positions = rings_[r].positions;
-      if (positions.empty()) continue;
+      if (positions.empty() || rings_[r].is_left_out) continue;
       Index from = number_of(positions.back());
       for (const LonLat& position : positions) {
         const Index to = number_of(position);
@@ -290,14 +290,14 @@ class PlaneSweep {
   // Records a fault if all sides of a ring have cancelled.
   void find_lines() {
     for (Index r = 0; r < rings_.size() && !fault_; ++r) {
-      if (has_sides_[r]) continue;
+      if (has_sides_[r] || rings_[r].is_left_out) continue;
       const std::vector<LonLat>& positions = rings_[r].positions;
       fault_ = PlaneFault{PlaneFaultKind::no_area, r, r,
                           positions.empty() ? LonLat{} : positions.front()};
     }
     for (std::size_t part = 0; part < has_area_.size() && !fault_; ++part) {
-      if (has_area_[part]) continue;
       const Index shell = first_ring_of_[part];
+      if (has_area_[part] || rings_[shell].is_left_out) continue;
       fault_ = PlaneFault{PlaneFaultKind::filled, shell, shell, rings_[shell].positions.front()};
     }
   }

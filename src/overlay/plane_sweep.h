@@ -57,6 +57,7 @@ struct PlaneRegion {
 //    with its shell or with another hole.
 // 2. Corners that lie on a side, exactly, divide it.
 // 3. Polygons may share sides, which cancel, but no area.
+// 4. Rings that are left out count in the numbers of rings alone.
 PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings);
 
 }  // namespace rondel::overlay

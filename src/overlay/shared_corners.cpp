@@ -70,6 +70,22 @@ class SideCorners {
   std::vector<LonLat> positions_;
 };
 
+// True if corners that move by rounding may make the ring run to and fro.
+bool is_thin(const std::vector<LonLat>& positions) {
+  const LonLat origin = positions.front();
+  double area = 0;
+  double length = 0;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const LonLat& p = positions[k];
+    const LonLat& q = positions[k + 1 < positions.size() ? k + 1 : 0];
+    const double x = q.lon_deg - p.lon_deg;
+    const double y = q.lat_deg - p.lat_deg;
+    area += (p.lon_deg - origin.lon_deg) * y - (p.lat_deg - origin.lat_deg) * x;
+    length += std::abs(x) + std::abs(y);
+  }
+  return std::abs(area) <= 8 * on_side_deg * length;
+}
+
 }  // namespace
 
 void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads) {
@@ -94,6 +110,9 @@ void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned 
               if (from == to) continue;
               const std::vector<LonLat>& between = corners_on(from, to);
               positions.insert(positions.end(), between.begin(), between.end());
+            }
+            if (positions.size() > ring.positions.size() && is_thin(ring.positions)) {
+              ring.thin_positions = std::move(ring.positions);
             }
             ring.positions = positions;
           }

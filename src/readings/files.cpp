@@ -100,7 +100,10 @@ void write_graph_geojson(io::AtomicFile& file, const GraphToWrite& job) {
     text += R"(},"geometry":)";
     const std::array<Point, 2> ends = {unit_of(job.triangulation, a),
                                        unit_of(job.triangulation, b)};
-    const auto parts = map::line_parts(ends, false, job.tolerance);
+    // Between opposite ends every half of a great circle is as short as the others.
+    const bool are_opposite = ends[0] == Point{-ends[1].x, -ends[1].y, -ends[1].z};
+    const auto parts = are_opposite ? std::vector<std::vector<LonLat>>()
+                                    : map::line_parts(ends, false, job.tolerance);
     if (parts.empty()) {
       text += "null}";
     } else {

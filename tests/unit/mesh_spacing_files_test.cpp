@@ -243,6 +243,31 @@ TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
   EXPECT_NE(message({100, 9000, 5, 200}).find("at place 1"), std::string::npos);
 }
 
+TEST(mesh_spacing_files, tells_of_places_without_a_value_and_of_contradictions) {
+  const std::string path = temporary_path("contradictions.csv");
+  const auto remarks_on = [&](const std::string& rows, bool is_density) {
+    std::ofstream(path)
+        << "lon,lat,h\n0,0,100\n90,0,100\n180,0,100\n-90,0,100\n0,90,100\n0,-90,100\n"
+        << rows;
+    std::vector<std::string> remarks;
+    if (is_density) {
+      (void)read_density({path, {}}, "h", 16, {}, &remarks);
+    } else {
+      (void)read_spacings({path, {}}, "h", 1e-3, 16, {}, &remarks);
+    }
+    return remarks;
+  };
+  using Remarks = std::vector<std::string>;
+  for (const bool is_density : {false, true}) {
+    EXPECT_EQ(remarks_on("45,45,200\n360,0,100\n", is_density), Remarks{});
+    EXPECT_EQ(remarks_on("45,45,\n45,50,nan\n", is_density),
+              Remarks{"2 of 8 places have no value: it is interpolated between the others"});
+    EXPECT_EQ(remarks_on("-360,0,200\n77,90,300\n", is_density),
+              Remarks{"2 of 8 places are at the place of another one with another value: of each "
+                      "place the first value counts"});
+  }
+}
+
 TEST(mesh_spacing_files, names_the_line_and_column_of_a_table) {
   const std::string path = temporary_path("spacings_of_lines.csv");
   std::ofstream(path) << "lon,lat,h,d\n0,0,,1\n\n90,30,100,-2\n180,-30,-5,1\n";

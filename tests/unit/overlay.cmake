@@ -15,6 +15,7 @@ rondel_add_test(overlay_test
   overlay_parts_test.cpp
   overlay_plane_test.cpp
   overlay_polar_test.cpp
+  overlay_poles_test.cpp
   overlay_polygons_test.cpp
   overlay_regions_test.cpp
   overlay_remap_test.cpp

@@ -159,6 +159,32 @@ TEST(overlay_plane, whole_degrees_in_line_have_no_area) {
             "feature 0 (f0): ring 0 of part 0 runs to and fro along a line at -45 14");
 }
 
+// A sliver with a corner that others have, too, on its long side up to rounding, is closed by them. A
+// ring that runs to and fro as it is given stays an error.
+TEST(overlay_plane, slivers_that_neighbors_close_are_left_out) {
+  const LonLat a{10, 10};
+  const LonLat b{13, 11};
+  const LonLat c{11, 10 + 1.0 / 3};
+  ASSERT_NE((b.lon_deg - a.lon_deg) * (c.lat_deg - a.lat_deg) -
+                (b.lat_deg - a.lat_deg) * (c.lon_deg - a.lon_deg),
+            0);
+  const std::string below = planar_polygon({{a, {12, 5}, b}});
+  const std::string above = planar_polygon({{a, c, {9, 15}}});
+  const std::string sliver = planar_polygon({{a, c, b}});
+  const std::string rounding = "no wider than rounding of the corners (some 2e-13 degrees), ";
+  const PolygonTable alone = planar_table({{below}, {sliver}, {above}});
+  EXPECT_EQ(alone.remarks,
+            std::vector<std::string>{"feature 1 (f1) is " + rounding + "so nothing is left"});
+  EXPECT_EQ(areas(alone.cells)[1], 0);
+  const PolygonTable part = planar_table({{below, sliver}, {above}});
+  EXPECT_EQ(part.remarks, std::vector<std::string>{"feature 0 (f0) has rings " + rounding +
+                                                   "which are left out"});
+  EXPECT_EQ(areas(part.cells), areas(planar_table({{below}, {above}}).cells));
+  const std::string line = planar_polygon({{a, {12, 12}, {11, 11}}});
+  EXPECT_EQ(planar_message({{below, line}, {planar_polygon({{{11, 11}, {14, 10}, {14, 14}}})}}),
+            "feature 0 (f0): ring 0 of part 1 runs to and fro along a line at 10 10");
+}
+
 TEST(overlay_plane, the_map_is_the_whole_sphere) {
   const double sphere = 4 * std::numbers::pi;
   for (const std::vector<std::string>& parts : std::vector<std::vector<std::string>>{

@@ -347,6 +347,16 @@ TEST(overlay_polygons, advice_is_about_sides_across_the_map) {
   EXPECT_EQ(crossing.find("crosses the map"), std::string::npos) << crossing;
 }
 
+TEST(overlay_polygons, collections_are_nested_as_deep_as_the_text_may_be) {
+  std::string geometry = polygon(ring_of_box(10, 40, 50, 60));
+  for (int k = 0; k < 40; ++k) {
+    geometry = R"({"type":"GeometryCollection","geometries":[)" + geometry + "]}";
+  }
+  const PolygonTable table = table_of(geometry);
+  ASSERT_EQ(table.cells.num_cells(), 1U);
+  EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
+}
+
 TEST(overlay_polygons, messages_say_where) {
   EXPECT_EQ(message_of(R"({"type":"Point","coordinates":[1,2]})"),
             R"(1: type "Point" where a Polygon is needed)");
@@ -355,7 +365,12 @@ TEST(overlay_polygons, messages_say_where) {
   EXPECT_EQ(message_of("{\"type\":\"FeatureCollection\",\"features\":[\n"
                        R"({"type":"Feature","geometry":)" +
                        polygon("[[0,0],[1,91],[0,1],[0,0]]") + "}]}"),
-            "2: feature 0: latitude 91 is outside [-90, 90]");
+            "2: feature 0: coordinates \"[1,91]\": latitude 91 is outside [-90, 90]");
+  EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,-95],[0,0]]")),
+            "1: coordinates \"[0,-95]\": latitude -95 is outside [-90, 90]");
+  const std::string ring = polygon("[[0,0],[1,1],[0,1],[0,0]]");
+  EXPECT_EQ(message_of(ring + std::string(1, '\0') + ring),
+            "1: not JSON: a byte 0 at position " + std::to_string(ring.size()) + " of the file");
   EXPECT_EQ(message_of(""), " the file is empty");
   EXPECT_THROW((void)table_of("{}", {.tolerance_deg = 0}), InvalidInput);
 }
