@@ -114,11 +114,11 @@ RONDEL_API CentersOutside centers_outside(const CellRings& cells, std::span<cons
 /// 4. A cell that the file masks has a mask of 0. So has a cell with a corner that is missing (NaN,
 ///    a fill value); it has no ring.
 ///    Centers of CF that are outside of their cells (centers_outside()) are an error if they are
-///    more than half (zeros under land do not count); otherwise, and with other conventions, there is a remark.
+///    more than half (zeros under land do not count), and otherwise told.
 /// 5. `FILE.nc:NAME` chooses one of several grids by one of its variables: a coordinate, a UGRID
 ///    topology, or values on the grid.
 /// 6. Corners that are no nodes may only stand at the end of rows that no counts belong to, or make up
-///    all of a row. The center of a cell is refused if it belongs to another cell by the rule in
+///    all of a row. With other conventions the center of a cell is refused if it belongs to another cell by the rule in
 ///    docs/guide/formats.md (cells), and otherwise told if it is outside of the circle around the
 ///    corners. Masked cells may have any corners and centers.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.

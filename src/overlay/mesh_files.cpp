@@ -143,15 +143,13 @@ void require_centers(overlay::MeshContent& mesh) {
   }
 }
 
-// Compares the centers with the cells. If more than half of the cells of CF do not contain their
-// center, the corners are those of other places: throws BadValue. Other conventions may have
-// centers that are no means, and users who need none.
+// Compares the centers of CF with the cells, where files have zeros under land. If more than half
+// of the cells do not contain their center, the corners are those of other places: throws BadValue.
+// For other conventions require_own_centers() does this.
 void require_centers_in_cells(const overlay::MeshContent& mesh, CellTable& table) {
-  if (mesh.grid || table.centers.empty()) return;
+  if (table.convention != "CF" || table.grid || table.centers.empty()) return;
   const CentersOutside outside = centers_outside(table.cells, table.centers, table.mask);
-  const bool is_most = outside.are_most();
-  const bool is_cf = table.convention == "CF";
-  if (outside.number == 0 || (!is_most && !is_cf)) return;
+  if (outside.number == 0) return;
   const LonLat& center = table.centers[outside.first];
   const std::string text = std::to_string(outside.number) + " of " + std::to_string(outside.of) +
                            " cells with the corners " + mesh.names +
@@ -159,7 +157,7 @@ void require_centers_in_cells(const overlay::MeshContent& mesh, CellTable& table
                            std::to_string(outside.first) + " with the center " +
                            system::shortest_text(center.lon_deg) + " " +
                            system::shortest_text(center.lat_deg);
-  if (is_most && is_cf) {
+  if (outside.are_most()) {
     throw io::BadValue(text + ": corners and centers are of different places or orders");
   }
   table.remarks.push_back(text);
