@@ -286,7 +286,8 @@ void test_any_cells(const CellRings& rings, const Partition& target) {
     const std::vector<CrossingCells> overlaps = overlapping_cells(rings);
     require(cells.num_cells() == rings.num_cells() && cells.areas().size() == cells.num_cells(),
             "an area for each cell");
-    require(Partition(cells.given_rings()).num_cells() == cells.num_cells(), "the same cells again");
+    require(Partition(cells.given_rings()).num_cells() == cells.num_cells(),
+            "the same cells again");
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
     require(overlaps.empty(), "cells that overlap are refused");
