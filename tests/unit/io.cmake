@@ -11,6 +11,8 @@ rondel_add_test(io_test
   io_features_test.cpp
   io_conventions_test.cpp
   io_mutation_test.cpp
+  io_netcdf_boxes_test.cpp
+  io_netcdf_header_test.cpp
   io_netcdf_test.cpp
   io_number_test.cpp
   io_pvtp_test.cpp
