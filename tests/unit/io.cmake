@@ -8,6 +8,7 @@ rondel_add_test(io_test
   io_axes_test.cpp
   io_binary_test.cpp
   io_cf_names_test.cpp
+  io_cf_reader_test.cpp
   io_circles_test.cpp
   io_columns_test.cpp
   io_features_test.cpp
