@@ -13,9 +13,11 @@ rondel_add_test(io_test
   io_columns_test.cpp
   io_features_test.cpp
   io_conventions_test.cpp
+  io_folders_test.cpp
   io_json_test.cpp
   io_meshes_test.cpp
   io_mutation_test.cpp
+  io_netcdf4_test.cpp
   io_netcdf_boxes_test.cpp
   io_netcdf_header_test.cpp
   io_netcdf_test.cpp
