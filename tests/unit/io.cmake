@@ -13,6 +13,7 @@ rondel_add_test(io_test
   io_columns_test.cpp
   io_features_test.cpp
   io_conventions_test.cpp
+  io_files_test.cpp
   io_folders_test.cpp
   io_json_test.cpp
   io_meshes_test.cpp
