@@ -293,6 +293,29 @@ TEST(netcdf_reader, finds_variables_and_attributes_by_name) {
   EXPECT_EQ(io::find_attribute(attributes, "units"), &attributes[1]);
 }
 
+TEST(netcdf_reader, tells_of_integers_that_are_rounded) {
+  for (const NetcdfType type : {NetcdfType::int64, NetcdfType::uint64}) {
+    for (const std::size_t odd : {0U, 1U, 2U, 3U}) {  // 3: none of the three
+      ClassicFile file;
+      file.version = 5;
+      file.dimensions = {{"x", 3}};
+      file.variables = {classic_variable("v", type, {0}, {0x1p62, 0x1p61, 0x1p60})};
+      std::string bytes = file.bytes();
+      if (odd < 3) bytes[bytes.size() - 8 * (2 - odd) - 1] = 1;
+      const NetcdfReader reader(bytes);
+      bool is_rounded = false;
+      EXPECT_EQ(reader.rounded_numbers(reader.require("v"), is_rounded),
+                (Doubles{0x1p62, 0x1p61, 0x1p60}));
+      EXPECT_EQ(is_rounded, odd < 3);
+      is_rounded = true;
+      static_cast<void>(reader.rounded_numbers(reader.require("v"), is_rounded));
+      EXPECT_TRUE(is_rounded);
+      if (odd == 3) continue;
+      EXPECT_THROW((void)reader.numbers(reader.require("v")), io::BadValue);
+    }
+  }
+}
+
 TEST(netcdf_reader, has_the_lengths_of_grids_from_the_slowest_on) {
   const auto shape = [](const Doubles& lengths, std::uint64_t size) {
     ClassicFile file;
