@@ -13,7 +13,7 @@
 #include "io_support.h"
 #include "rondel/conventions.h"
 
-namespace rondel::test {
+namespace rondel::test::of_names {
 namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
@@ -374,4 +374,4 @@ TEST(netcdf_groups, names_are_searched_from_the_group_up) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_names

@@ -16,7 +16,7 @@
 #include "io_support.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_degrees {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -303,4 +303,4 @@ TEST(cf_reader, places_of_mpas_are_those_of_its_points) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_degrees

@@ -12,7 +12,7 @@
 #include "io/site_formats.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_columns {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -298,4 +298,4 @@ TEST(column_text, is_a_table_that_is_read_again) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_columns

@@ -12,7 +12,7 @@
 #include "io/npy_header.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_files {
 namespace {
 
 using Shape = std::vector<std::uint64_t>;
@@ -244,9 +244,8 @@ TEST(npy_table, has_numbers_of_known_types) {
                                                      : found.at<std::uint16_t>(row, column);
         text += " " + std::to_string(number);
         const std::uint64_t place = found.place(row, column);
-        EXPECT_EQ(static_cast<unsigned char>(
-                      bytes[place + (dtype[0] == '>' ? found.type()[1] - '1' : 0)]),
-                  number & 0xFFU);
+        const std::uint64_t lowest = dtype[0] == '>' ? place + 1 : place;  // of two bytes
+        EXPECT_EQ(static_cast<unsigned char>(bytes[lowest]), number & 0xFFU);
       }
     }
     EXPECT_EQ(found.row_bytes(), found.num_columns() * (found.type() == "u1" ? 1 : 2));
@@ -279,4 +278,4 @@ TEST(npy_table, has_numbers_of_known_types) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_files

@@ -12,7 +12,7 @@
 #include "io/zarr_mesh.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_folders {
 namespace {
 
 namespace fs = std::filesystem;
@@ -303,4 +303,4 @@ TEST(zarr_group, has_nodes_of_several_blocks) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_folders

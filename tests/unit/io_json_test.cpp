@@ -11,7 +11,7 @@
 #include "io/json_tree.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_json {
 namespace {
 
 using io::JsonTree;
@@ -298,4 +298,4 @@ TEST(geojson_properties, have_free_keys) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_json

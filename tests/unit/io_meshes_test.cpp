@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Readers of triangles, with files that the test writes byte by byte, and what they say of damaged ones.
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <utility>
@@ -12,7 +13,7 @@
 #include "io/triangle_formats.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_meshes {
 namespace {
 
 using Read = std::vector<Triple> (*)(std::string_view);
@@ -295,4 +296,4 @@ TEST(vtp, is_refused_with_what_is_wrong) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_meshes

@@ -13,7 +13,7 @@
 #include "io/netcdf_writer.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_netcdf4_files {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -173,4 +173,4 @@ TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_netcdf4_files

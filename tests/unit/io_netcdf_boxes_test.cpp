@@ -14,7 +14,7 @@
 #include "io_support.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_boxes {
 namespace {
 
 using Shape = std::vector<std::uint64_t>;
@@ -188,4 +188,4 @@ TEST(netcdf_boxes, of_no_dimensions_are_one_number) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_boxes

@@ -14,7 +14,7 @@
 #include "io_classic_file.h"
 #include "io_support.h"
 
-namespace rondel::test {
+namespace rondel::test::of_headers {
 namespace {
 
 using io::NetcdfReader;
@@ -357,4 +357,4 @@ TEST(netcdf_format, sizes_of_types_and_padding) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_headers
