@@ -84,9 +84,7 @@ std::optional<std::size_t> find(const Header& header, const Coordinate& coordina
   const std::string_view chosen = trim(coordinate.chosen);
   std::vector<std::size_t> fitting;
   if (!chosen.empty()) {
-    fitting = all_equal_to(header, chosen);
-    if (fitting.size() > 1) refuse_equal(header, fitting);
-    if (!fitting.empty()) return fitting.front();
+    if (const auto exact = find_column(header, chosen)) return exact;
   }
   const auto fits = [&](std::string_view name) {
     if (!chosen.empty()) return equal_but_for_case(name, chosen);

@@ -7,10 +7,20 @@ rondel_add_test(io_test
   io_atomic_file_test.cpp
   io_axes_test.cpp
   io_binary_test.cpp
+  io_cf_names_test.cpp
+  io_cf_reader_test.cpp
   io_circles_test.cpp
+  io_columns_test.cpp
   io_features_test.cpp
   io_conventions_test.cpp
+  io_files_test.cpp
+  io_folders_test.cpp
+  io_json_test.cpp
+  io_meshes_test.cpp
   io_mutation_test.cpp
+  io_netcdf4_test.cpp
+  io_netcdf_boxes_test.cpp
+  io_netcdf_header_test.cpp
   io_netcdf_test.cpp
   io_number_test.cpp
   io_pvtp_test.cpp

@@ -20,7 +20,7 @@ namespace rondel::test {
 namespace {
 
 using Doubles = std::vector<double>;
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // Lines of cells, which increase. Numbers are multiples of 1/8, so that halves are exact.
 Doubles random_lines(Random& random, bool is_longitude, bool is_whole_circle) {
@@ -238,7 +238,7 @@ TEST(axes, lines_of_longitudes) {
   EXPECT_THROW((void)lines({25, 35}, {0, 10, 20}), InvalidInput);
   EXPECT_THROW((void)lines({-175, -165}, {0, 10, 10, 20}), InvalidInput);
   EXPECT_THROW((void)lines({5}), InvalidInput);
-  EXPECT_THROW((void)lines({5, not_there}), InvalidInput);
+  EXPECT_THROW((void)lines({5, no_number}), InvalidInput);
 }
 
 TEST(axes, lines_of_latitudes) {
@@ -327,8 +327,8 @@ TEST(axes, are_within_a_million_degrees) {
   EXPECT_EQ(refusal({999'999, 1e6}, {}), Refusal());
   EXPECT_EQ(refusal({999'999, 1'000'001}, {}), Refusal("longitude 1 is too large", 1));
   EXPECT_EQ(refusal({0, -1'000'001}, {}), Refusal("longitude 1 is too large", 1));
-  EXPECT_EQ(refusal({0, not_there}, {}), Refusal("longitude 1 is not finite", 1));
-  EXPECT_EQ(refusal({0, 1}, {-1, not_there, 2}), Refusal("bound of longitudes 1 is not finite", 1));
+  EXPECT_EQ(refusal({0, no_number}, {}), Refusal("longitude 1 is not finite", 1));
+  EXPECT_EQ(refusal({0, 1}, {-1, no_number, 2}), Refusal("bound of longitudes 1 is not finite", 1));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ PolygonFeatures read(const std::string& text, FeatureKinds kinds = FeatureKinds:
 }
 
 // The message for a geometry, without the file and its place in it; empty if there is none.
-std::string refusal(const std::string& text, FeatureKinds kinds = FeatureKinds::all) {
+std::string refusal_of_features(const std::string& text, FeatureKinds kinds = FeatureKinds::all) {
   const std::string message = message_of([&] { (void)read(text, kinds); });
   const std::string start = file_of("") + ":1: feature 0: ";
   EXPECT_TRUE(message.empty() || message.starts_with(start)) << message;
@@ -90,9 +90,9 @@ TEST(geojson_features, may_go_around_a_pole) {
   EXPECT_FALSE(ring("[-180,60]").is_turn);
   EXPECT_EQ(ring("[180,60]").positions, (Ring{{-180, 60}, {-60, 60}, {60, 60}}));
   for (const char* const last : {"[180,61]", "[179,60]", "[-180,59]"}) {
-    EXPECT_EQ(
-        refusal(geometry("Polygon", "[[[-180,60],[-60,60],[60,60]," + std::string(last) + "]]")),
-        "a ring that is not closed");
+    EXPECT_EQ(refusal_of_features(
+                  geometry("Polygon", "[[[-180,60],[-60,60],[60,60]," + std::string(last) + "]]")),
+              "a ring that is not closed");
   }
 }
 
@@ -108,38 +108,43 @@ TEST(geojson_features, have_lines_and_points_where_these_are_wanted) {
     const PolygonFeatures features = read(text);
     EXPECT_EQ(features.lines.at(0), lines) << text;
     EXPECT_TRUE(features.rings.at(0).empty());
-    EXPECT_NE(refusal(text, FeatureKinds::polygons), "") << text;
+    EXPECT_NE(refusal_of_features(text, FeatureKinds::polygons), "") << text;
   }
-  EXPECT_EQ(refusal(geometry("Point", "[1,2]"), FeatureKinds::polygons),
+  EXPECT_EQ(refusal_of_features(geometry("Point", "[1,2]"), FeatureKinds::polygons),
             R"(type "Point" where a Polygon is needed)");
 }
 
 TEST(geojson_features, are_refused_with_what_is_wrong) {
-  EXPECT_EQ(refusal(geometry("Circle", "[1,2]")), R"(type "Circle" where a geometry is needed)");
-  EXPECT_EQ(refusal(geometry("Polygon", "7")), "Polygon without an array of coordinates");
-  EXPECT_EQ(refusal(geometry("Polygon", "{}")), "Polygon without an array of coordinates");
+  EXPECT_EQ(refusal_of_features(geometry("Circle", "[1,2]")),
+            R"(type "Circle" where a geometry is needed)");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "7")),
+            "Polygon without an array of coordinates");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "{}")),
+            "Polygon without an array of coordinates");
   for (const char* const type : {"MultiPolygon", "MultiPoint", "MultiLineString"}) {
-    EXPECT_EQ(refusal(geometry(type, "{}")),
+    EXPECT_EQ(refusal_of_features(geometry(type, "{}")),
               std::string(type) + " without an array of coordinates");
   }
-  EXPECT_EQ(refusal(geometry("MultiPolygon", "[7]")), "Polygon without an array of coordinates");
-  EXPECT_EQ(refusal(geometry("Polygon", "[7]")), "a ring that is no array");
-  EXPECT_EQ(refusal(geometry("Polygon", "[[[0,0],[1,0],[0,0]]]")), "a ring of 3 positions");
-  EXPECT_EQ(refusal(geometry("Polygon", "[[]]")), "a ring of 0 positions");
-  EXPECT_EQ(refusal(geometry("Polygon", "[[[0,0],[1,0],[1,1],[0,1]]]")),
+  EXPECT_EQ(refusal_of_features(geometry("MultiPolygon", "[7]")),
+            "Polygon without an array of coordinates");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "[7]")), "a ring that is no array");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "[[[0,0],[1,0],[0,0]]]")),
+            "a ring of 3 positions");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "[[]]")), "a ring of 0 positions");
+  EXPECT_EQ(refusal_of_features(geometry("Polygon", "[[[0,0],[1,0],[1,1],[0,1]]]")),
             "a ring that is not closed");
-  EXPECT_EQ(refusal(geometry("LineString", "{}")), "a line that is no array");
-  EXPECT_EQ(refusal(geometry("LineString", "[[1,2]]")), "a line of 1 positions");
-  EXPECT_EQ(refusal(geometry("MultiLineString", "[[[1,2],[3,4]],[[1,2]]]")),
+  EXPECT_EQ(refusal_of_features(geometry("LineString", "{}")), "a line that is no array");
+  EXPECT_EQ(refusal_of_features(geometry("LineString", "[[1,2]]")), "a line of 1 positions");
+  EXPECT_EQ(refusal_of_features(geometry("MultiLineString", "[[[1,2],[3,4]],[[1,2]]]")),
             "a line of 1 positions");
-  EXPECT_EQ(refusal(R"({"type": "GeometryCollection", "geometries": 7})"),
+  EXPECT_EQ(refusal_of_features(R"({"type": "GeometryCollection", "geometries": 7})"),
             "GeometryCollection without members");
   for (const char* const wrong : {"7", "[1]", R"(["1",2])", R"([1,"2"])", "[null,2]", "{}"}) {
     const std::string message =
-        refusal(geometry("MultiPoint", "[[1,2]," + std::string(wrong) + "]"));
+        refusal_of_features(geometry("MultiPoint", "[[1,2]," + std::string(wrong) + "]"));
     EXPECT_TRUE(message.ends_with(" are not [lon, lat]")) << message;
   }
-  EXPECT_NE(refusal(geometry("Point", "[1,91]")), "");
+  EXPECT_NE(refusal_of_features(geometry("Point", "[1,91]")), "");
 }
 
 TEST(geojson_features, are_in_a_file_that_has_some) {

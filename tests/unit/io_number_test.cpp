@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "io/csv_records.h"
@@ -99,6 +100,95 @@ TEST(number, text_of_a_tie_is_that_of_the_standard_library) {
       expect_usual_text(std::ldexp(static_cast<double>((random() >> 39U) | 1U), -bits));
     }
   }
+}
+
+// What is said of a text that is no number.
+std::string refusal_of_number(std::string_view text) {
+  try {
+    parse_number(text, "x");
+  } catch (const BadValue& bad) {
+    return bad.what();
+  }
+  return {};
+}
+
+TEST(number, says_why_a_text_is_none) {
+  EXPECT_EQ(refusal_of_number(" "), "x is empty");
+  EXPECT_EQ(refusal_of_number("12,5"), "x \"12,5\" is not a number: its decimal point is a comma");
+  EXPECT_EQ(refusal_of_number("-1,25"),
+            "x \"-1,25\" is not a number: its decimal point is a comma");
+  for (const char* const text : {"12,", ",5", "12,x5", "12,5x", "1x,5", "12,5,6", "a"}) {
+    EXPECT_EQ(refusal_of_number(text), "x \"" + std::string(text) + "\" is not a number");
+  }
+  EXPECT_EQ(refusal_of_number("1e400"), "x \"1e400\" is beyond the largest number");
+  EXPECT_EQ(refusal_of_number("-inf"), "x \"-inf\" is not finite");
+  EXPECT_EQ(refusal_of_number("+nan"), "x \"+nan\" is not finite");
+  EXPECT_EQ(refusal_of_number("1e-400"), "");
+  EXPECT_EQ(parse_number("+5", "x"), 5);
+}
+
+TEST(number, integers_have_all_bits) {
+  EXPECT_EQ(parse_integer(" -9223372036854775808\t", "n"),
+            std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(parse_integer("9223372036854775807", "n"), std::numeric_limits<std::int64_t>::max());
+  for (const char* const text : {"", "9223372036854775808", "1.0", "1 2", "x", "+1"}) {
+    EXPECT_THROW((void)parse_integer(text, "n"), BadValue) << text;
+  }
+  std::string text = "-";
+  append_integer(text, 0);
+  append_integer(text, ~std::uint64_t{0});
+  EXPECT_EQ(text, "-018446744073709551615");
+}
+
+TEST(number, indices_are_of_32_bits) {
+  EXPECT_EQ(checked_index(std::int64_t{0}), 0U);
+  EXPECT_EQ(checked_index(std::uint64_t{4294967295}), 4294967295U);
+  EXPECT_THROW((void)checked_index(std::uint64_t{4294967296}), BadValue);
+  EXPECT_THROW((void)checked_index(std::int64_t{-1}), BadValue);
+  EXPECT_EQ(checked_index(std::int32_t{2147483647}), 2147483647U);
+}
+
+TEST(number, positions_are_on_the_sphere) {
+  EXPECT_EQ(checked_position(7, 90, false), (LonLat{7, 90}));
+  EXPECT_EQ(checked_position(-700, -90, false), (LonLat{-700, -90}));
+  const double beyond = std::nextafter(90.0, 100.0);
+  EXPECT_THROW(checked_position(0, beyond, false), BadValue);
+  EXPECT_THROW(checked_position(0, -beyond, false), BadValue);
+  constexpr double half = std::numbers::pi / 2;
+  EXPECT_EQ(checked_position(half, half, true), (LonLat{90, 90}));
+  EXPECT_EQ(checked_position(-half, -half, true), (LonLat{-90, -90}));
+  EXPECT_EQ(checked_position(0, half + 8e-16, true).lat_deg, 90);
+  EXPECT_EQ(checked_position(0, -half - 8e-16, true).lat_deg, -90);
+  EXPECT_THROW(checked_position(0, half + 2e-15, true), BadValue);
+  EXPECT_THROW(checked_position(0, -half - 2e-15, true), BadValue);
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const bool is_radians : {false, true}) {
+    EXPECT_THROW(checked_position(infinite, 0, is_radians), BadValue);
+    EXPECT_THROW(checked_position(0, -infinite, is_radians), BadValue);
+  }
+  EXPECT_EQ(checked_radius(0, false), 0);
+  EXPECT_EQ(checked_radius(std::nextafter(90.0, 0.0), false), std::nextafter(90.0, 0.0));
+  EXPECT_EQ(checked_radius(half / 2, true), 45);
+  for (const double bad : {90.0, -1e-300, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW((void)checked_radius(bad, false), BadValue);
+  }
+  EXPECT_THROW((void)checked_radius(half, true), BadValue);
+  EXPECT_EQ(checked_point({1, -2, 3}), (Point{1, -2, 3}));
+  EXPECT_THROW((void)checked_point({infinite, 0, 0}), BadValue);
+  EXPECT_THROW((void)checked_point({0, infinite, 0}), BadValue);
+  EXPECT_THROW((void)checked_point({0, 0, -infinite}), BadValue);
+}
+
+TEST(number, lines_are_cut_between_letters) {
+  EXPECT_EQ(one_line("abcd", 4), "abcd");
+  EXPECT_EQ(one_line("abcd", 3), "abc...");
+  EXPECT_EQ(one_line("a\xC3\xA9z", 3), "a...");
+  EXPECT_EQ(one_line("a\xC3\xA9z", 2), "a...");
+  EXPECT_EQ(one_line("a\xE2\x82\xAC", 3), "a...");
+  EXPECT_EQ(one_line("a\xE2\x82\xAC", 4), "a\xE2\x82\xAC");
+  EXPECT_EQ(one_line("\x1F \x7F~", 9), "? ?~");
+  EXPECT_EQ(trim("\t a b \t"), "a b");
+  EXPECT_EQ(trim(" \t"), "");
 }
 
 TEST(number, degrees_of_a_longitude_in_radians_are_finite) {

@@ -56,7 +56,7 @@ std::string deflated(std::string_view text) {
 struct Part {
   std::string name;
   std::string text;
-  int method = 0;  // 0: stored, 8: deflated
+  std::uint64_t method = 0;  // 0: stored, 8: deflated
   std::string comment{};
   std::string extra{};                  // fields of the directory before that of zip64
   bool has_wide_fields = false;         // the sizes and the place are in the field of zip64
@@ -70,7 +70,7 @@ struct Archive {
   bool has_wide_end = false;  // the directory's place and length are in the records of zip64
 };
 
-std::string bytes_of(const Archive& archive) {
+std::string bytes_of_archive(const Archive& archive) {
   std::string bytes;
   std::string directory;
   for (const Part& part : archive.parts) {
@@ -133,7 +133,7 @@ TEST(zip_reader, has_the_members_of_archives_of_every_kind) {
                                 {"nothing.npy", "", 8, "", "", is_wide}},
                                "of the archive",
                                has_wide_end};
-      const std::string bytes = bytes_of(archive);
+      const std::string bytes = bytes_of_archive(archive);
       for (const Part& part : archive.parts) {
         EXPECT_EQ(member(bytes, part.name), part.text) << part.name;
         EXPECT_TRUE(io::has_zip_member(bytes, part.name));
@@ -145,7 +145,7 @@ TEST(zip_reader, has_the_members_of_archives_of_every_kind) {
 }
 
 TEST(zip_reader, finds_the_directory_before_the_longest_comment) {
-  const std::string bytes = bytes_of({{{"a", "text"}}, std::string(0xffff, 'c')});
+  const std::string bytes = bytes_of_archive({{{"a", "text"}}, std::string(0xffff, 'c')});
   EXPECT_EQ(member(bytes, "a"), "text");
   EXPECT_EQ(member(bytes + "c", "a"), "! the zip archive has no directory");
 }
@@ -153,7 +153,7 @@ TEST(zip_reader, finds_the_directory_before_the_longest_comment) {
 TEST(zip_reader, inflates_no_more_than_the_size_says) {
   const std::string text = pattern(5000);
   const std::string packed = deflated(text);
-  const auto read = [](Part part) { return member(bytes_of({{std::move(part)}}), "a"); };
+  const auto read = [](Part part) { return member(bytes_of_archive({{std::move(part)}}), "a"); };
   const std::string damaged = "! the zip archive is damaged";
   EXPECT_EQ(read({"a", text, 8}), text);
   EXPECT_EQ(read({"a", text, 8, "", "", false, packed, text.size() - 1}), damaged);
@@ -173,7 +173,7 @@ TEST(zip_reader, says_that_what_is_no_archive_is_none) {
   EXPECT_EQ(member("", "a"), "! not a zip archive");
   EXPECT_EQ(member(std::string(21, 'x'), "a"), "! not a zip archive");
   EXPECT_EQ(member(std::string(22, 'x'), "a"), "! the zip archive has no directory");
-  EXPECT_EQ(member(bytes_of({}), "a"), "! no \"a\" in the archive");
+  EXPECT_EQ(member(bytes_of_archive({}), "a"), "! no \"a\" in the archive");
 }
 
 // Whatever a byte of the archive becomes, a member has its text or is refused.
@@ -183,7 +183,7 @@ TEST(zip_reader, refuses_damage_or_is_not_misled_by_it) {
         {{"stored", pattern(40), 0, "c", "", is_wide}, {"packed", pattern(40), 8, "", "", is_wide}},
         "comment",
         is_wide};
-    const std::string good = bytes_of(archive);
+    const std::string good = bytes_of_archive(archive);
     for (std::size_t i = 0; i < good.size(); ++i) {
       for (const int change : {1, 0x80, 0xff}) {
         std::string bytes = good;
