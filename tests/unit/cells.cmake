@@ -12,6 +12,7 @@ rondel_add_test(cells_test
   cells_settled_test.cpp
   cells_tips_test.cpp
   cells_write_test.cpp
+  map_faces_test.cpp
   map_mending_test.cpp
   map_nested_test.cpp
   map_plane_test.cpp

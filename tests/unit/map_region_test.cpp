@@ -181,6 +181,77 @@ TEST(map_regions, caps_and_what_is_between_them) {
   }
 }
 
+// True if a loop has the expected positions within half a degree, beginning anywhere.
+bool is_nearly(const std::vector<LonLat>& loop, const std::vector<LonLat>& expected) {
+  if (loop.size() != expected.size()) return false;
+  for (std::size_t first = 0; first < loop.size(); ++first) {
+    bool is_same = true;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const LonLat& p = loop[(first + k) % loop.size()];
+      is_same = is_same && std::abs(p.lon_deg - expected[k].lon_deg) < 0.5 &&
+                std::abs(p.lat_deg - expected[k].lat_deg) < 0.5;
+    }
+    if (is_same) return true;
+  }
+  return false;
+}
+
+std::vector<std::vector<LonLat>> coarse_loops(const std::vector<std::vector<LonLat>>& corners) {
+  std::vector<std::vector<Point>> rings;
+  for (const std::vector<LonLat>& some : corners) {
+    std::vector<Point>& ring = rings.emplace_back();
+    for (const LonLat& p : some) ring.push_back(place_on_sphere(p.lon_deg, p.lat_deg));
+  }
+  std::vector<map::UnitVectors> spans(rings.begin(), rings.end());
+  return map::region_loops(spans, 4);
+}
+
+// All but three sectors at a pole: the loop goes along the border from each to the next one, and around the map.
+TEST(map_regions, all_but_sectors_at_a_pole) {
+  std::vector<std::vector<LonLat>> sectors = {{{20, 60}, {10, 60}, {0, 90}},
+                                              {{60, 60}, {50, 60}, {0, 90}},
+                                              {{-90, 60}, {-100, 60}, {0, 90}}};
+  std::vector<LonLat> expected = {
+      {20, 90},   {20, 60},    {10, 60},   {10, 90},  {-90, 90}, {-90, 60}, {-100, 60}, {-100, 90},
+      {-180, 90}, {-180, -90}, {180, -90}, {180, 90}, {60, 90},  {60, 60},  {50, 60},   {50, 90}};
+  const auto north = coarse_loops(sectors);
+  ASSERT_EQ(north.size(), 1U);
+  EXPECT_TRUE(is_nearly(north[0], expected));
+  const auto mirror = [](std::vector<LonLat>& positions) {
+    for (LonLat& p : positions) p.lat_deg = -p.lat_deg;
+    std::ranges::reverse(positions);
+  };
+  std::ranges::for_each(sectors, mirror);
+  mirror(expected);
+  const auto south = coarse_loops(sectors);
+  ASSERT_EQ(south.size(), 1U);
+  EXPECT_TRUE(is_nearly(south[0], expected));
+}
+
+// Three boxes across the antimeridian have two loops each; all but them has one.
+TEST(map_regions, all_but_boxes_at_the_antimeridian) {
+  std::vector<std::vector<LonLat>> boxes;
+  std::vector<LonLat> west;
+  std::vector<LonLat> east;
+  for (const double lat : {40.0, 0.0, -40.0}) {
+    boxes.push_back({{170, lat - 5}, {170, lat + 5}, {-170, lat + 5}, {-170, lat - 5}});
+    for (const LonLat& p :
+         {LonLat{-180, lat + 5}, {-170, lat + 5}, {-170, lat - 5}, {-180, lat - 5}}) {
+      west.push_back(p);
+      east.push_back({-p.lon_deg, -p.lat_deg});
+    }
+  }
+  std::vector<LonLat> expected = west;
+  expected.insert(expected.end(), {{-180, -90}, {180, -90}});
+  expected.insert(expected.end(), east.begin(), east.end());
+  expected.insert(expected.end(), {{180, 90}, {-180, 90}});
+  const auto loops = coarse_loops(boxes);
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_TRUE(is_nearly(loops[0], expected));
+  for (std::vector<LonLat>& box : boxes) std::ranges::reverse(box);
+  EXPECT_EQ(coarse_loops(boxes).size(), 6U);
+}
+
 TEST(map_regions, without_rings_are_the_whole_map) {
   const std::vector<LonLat> border = {{-180, -90}, {180, -90}, {180, 90}, {-180, 90}};
   EXPECT_EQ(map::border_loop(), border);
