@@ -8,11 +8,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
+#include "cells_planar.h"
 #include "exact/vector.h"
+#include "map/cell_map.h"
 #include "map/face_map.h"
 #include "rondel/delaunay.h"
 #include "support/random.h"
@@ -97,6 +99,58 @@ TEST(face_map, sides_are_near_their_arcs) {
     }
   }
   EXPECT_GT(num_divided, 50);
+}
+
+// Each cell contains its site, also with a tolerance much larger than the distance of sites.
+void expect_sites_inside(const std::vector<Point>& sites, double tolerance_deg, const char* name) {
+  const Triangulation triangulation = delaunay(sites);
+  const Cells diagram = cells(triangulation);
+  const map::CellMap map(triangulation, diagram, tolerance_deg, {.threads = 1});
+  map::CellMap::Pen pen;
+  for (std::size_t site = 0; site < sites.size(); ++site) {
+    const auto& polygons = map.polygons(site, pen);
+    EXPECT_EQ(fault(polygons), "") << name << ", site " << site;
+    const Point& p = sites[site];
+    const LonLat position{std::atan2(p.y, p.x) / face_degree, std::asin(p.z) / face_degree};
+    EXPECT_TRUE(contains(polygons, position)) << name << ", site " << site;
+  }
+}
+
+// Two sites are next to each other in the north and the south, so that the line between their cells may not be far from its
+// arc, while the other lines of the cells may.
+TEST(cell_map, lines_between_close_sites_are_near_their_arcs) {
+  Random random(77);
+  std::vector<Point> sites;
+  for (int x = 0; x < 6; ++x) {
+    for (int y = 0; y < 5; ++y) {
+      const LonLat p{30 + 4 * (x + 0.2 * random.unit()), 44 + 3 * (y + 0.2 * random.unit())};
+      sites.push_back(at_position(p));
+      sites.push_back(at_position({p.lon_deg, p.lat_deg + 0.002}));
+    }
+  }
+  expect_sites_inside(sites, 1, "pairs");
+  for (int round = 0; round < 4; ++round) {
+    random.shuffle(sites);
+    expect_sites_inside(sites, 1, "shuffled pairs");
+  }
+}
+
+// Of sites on the equator or a meridian two are close: those at each place, also the first and the last one.
+TEST(cell_map, two_sites_of_a_great_circle_are_close) {
+  constexpr int count = 6;
+  for (int close = 0; close < count; ++close) {
+    for (int first = 0; first < count; ++first) {
+      std::vector<Point> sites;
+      for (int k = 0; k < count; ++k) {
+        const int place = (k + first) % count;
+        const double angle = place == close ? place + 0.9999 : place;
+        sites.push_back({std::cos(angle), std::sin(angle), 0});
+      }
+      expect_sites_inside(sites, 5, "equator");
+      for (Point& p : sites) p = {0, p.x, p.y};
+      expect_sites_inside(sites, 5, "meridian");
+    }
+  }
 }
 
 }  // namespace
