@@ -15,29 +15,29 @@
 namespace rondel::test {
 namespace {
 
-using Positions = std::vector<LonLat>;
+using WrittenLoop = std::vector<LonLat>;
 
-map::Trace closed_trace(const Positions& loop) {
+map::Trace closed_trace(const WrittenLoop& loop) {
   map::Trace trace;
   for (const LonLat& p : loop) trace.points.push_back({{1, 0, 0}, p});
   return trace;
 }
 
-std::vector<Positions> rings_of(const map::Trace& trace) {
-  std::vector<Positions> rings;
+std::vector<WrittenLoop> rings_of(const map::Trace& trace) {
+  std::vector<WrittenLoop> rings;
   for (const map::LonLatPolygon& polygon : map::polygons_of(trace)) rings.push_back(polygon.ring);
   return rings;
 }
 
 TEST(polygons_of, a_whole_ring_is_turned_to_be_counterclockwise) {
-  const Positions loop = {{10, 10}, {14, 10}, {10, 13}};
+  const WrittenLoop loop = {{10, 10}, {14, 10}, {10, 13}};
   const map::Trace trace = closed_trace(loop);
-  EXPECT_EQ(rings_of(trace), (std::vector<Positions>{{loop[0], loop[1], loop[2], loop[0]}}));
+  EXPECT_EQ(rings_of(trace), (std::vector<WrittenLoop>{{loop[0], loop[1], loop[2], loop[0]}}));
   EXPECT_FALSE(map::is_turned_over(trace));
   const map::Trace turned = closed_trace({loop[2], loop[1], loop[0]});
-  EXPECT_EQ(rings_of(turned), (std::vector<Positions>{{loop[0], loop[1], loop[2], loop[0]}}));
+  EXPECT_EQ(rings_of(turned), (std::vector<WrittenLoop>{{loop[0], loop[1], loop[2], loop[0]}}));
   EXPECT_TRUE(map::is_turned_over(turned));
-  EXPECT_EQ(map::drawn_loops(turned), (std::vector<Positions>{{loop[2], loop[1], loop[0]}}));
+  EXPECT_EQ(map::drawn_loops(turned), (std::vector<WrittenLoop>{{loop[2], loop[1], loop[0]}}));
   // What is no wider than rounding is not told to be turned over.
   EXPECT_FALSE(map::is_turned_over(closed_trace({{10, 10}, {10, 10 + 1e-10}, {10 + 1e-10, 10}})));
   EXPECT_TRUE(rings_of(closed_trace({{10, 10}, {11, 11}, {13, 13}})).empty());
@@ -46,38 +46,38 @@ TEST(polygons_of, a_whole_ring_is_turned_to_be_counterclockwise) {
 
 // Two triangles with a common corner: the one that is clockwise is dropped.
 TEST(polygons_of, a_ring_that_touches_itself_is_divided) {
-  const Positions both = {{0, 0}, {4, -2}, {4, 2}, {0, 0}, {-4, 2}, {-4, -2}};
-  const Positions right = {{0, 0}, {4, -2}, {4, 2}, {0, 0}};
-  const Positions left = {{0, 0}, {-4, 2}, {-4, -2}, {0, 0}};
-  EXPECT_EQ(rings_of(closed_trace(both)), (std::vector<Positions>{right, left}));
+  const WrittenLoop both = {{0, 0}, {4, -2}, {4, 2}, {0, 0}, {-4, 2}, {-4, -2}};
+  const WrittenLoop right = {{0, 0}, {4, -2}, {4, 2}, {0, 0}};
+  const WrittenLoop left = {{0, 0}, {-4, 2}, {-4, -2}, {0, 0}};
+  EXPECT_EQ(rings_of(closed_trace(both)), (std::vector<WrittenLoop>{right, left}));
   EXPECT_FALSE(map::is_turned_over(closed_trace(both)));
-  const Positions one = {{0, 0}, {4, -2}, {4, 2}, {0, 0}, {-4, -2}, {-4, 2}};
-  EXPECT_EQ(rings_of(closed_trace(one)), std::vector<Positions>{right});
+  const WrittenLoop one = {{0, 0}, {4, -2}, {4, 2}, {0, 0}, {-4, -2}, {-4, 2}};
+  EXPECT_EQ(rings_of(closed_trace(one)), std::vector<WrittenLoop>{right});
   EXPECT_TRUE(map::is_turned_over(closed_trace(one)));
   // The same with so many corners that they are sorted to be compared.
-  Positions many = {{0, 0}};
+  WrittenLoop many = {{0, 0}};
   for (int k = 0; k <= 40; ++k) many.push_back({4, -2 + k / 10.0});
-  Positions arm = many;
+  WrittenLoop arm = many;
   arm.push_back({0, 0});
   many.insert(many.end(), both.begin() + 3, both.end());
-  EXPECT_EQ(rings_of(closed_trace(many)), (std::vector<Positions>{arm, left}));
+  EXPECT_EQ(rings_of(closed_trace(many)), (std::vector<WrittenLoop>{arm, left}));
 }
 
 TEST(polygons_of, sides_that_go_back_are_removed) {
-  const Positions ring = {{0, 0}, {4, 0}, {4, 4}, {0, 0}};
+  const WrittenLoop ring = {{0, 0}, {4, 0}, {4, 4}, {0, 0}};
   EXPECT_EQ(rings_of(closed_trace({{0, 0}, {4, 0}, {6, 0}, {4, 0}, {4, 4}})),
-            std::vector<Positions>{ring});
+            std::vector<WrittenLoop>{ring});
   EXPECT_EQ(rings_of(closed_trace({{0, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 0}, {0, 0}})),
-            std::vector<Positions>{ring});
+            std::vector<WrittenLoop>{ring});
 }
 
 TEST(polygons_of, plain_loops) {
-  EXPECT_TRUE(map::is_plain_loop(Positions{{0, 0}, {4, 0}, {4, 4}}));
-  EXPECT_FALSE(map::is_plain_loop(Positions{{4, 4}, {4, 0}, {0, 0}}));
-  EXPECT_FALSE(map::is_plain_loop(Positions{{0, 0}, {4, 0}}));
-  EXPECT_FALSE(map::is_plain_loop(Positions{{0, 0}, {4, 0}, {4, 4}, {0, 0}}));
-  EXPECT_FALSE(map::is_plain_loop(Positions{{0, 0}, {4, 0}, {6, 0}, {5, 0}, {4, 4}}));
-  Positions parabola;
+  EXPECT_TRUE(map::is_plain_loop(WrittenLoop{{0, 0}, {4, 0}, {4, 4}}));
+  EXPECT_FALSE(map::is_plain_loop(WrittenLoop{{4, 4}, {4, 0}, {0, 0}}));
+  EXPECT_FALSE(map::is_plain_loop(WrittenLoop{{0, 0}, {4, 0}}));
+  EXPECT_FALSE(map::is_plain_loop(WrittenLoop{{0, 0}, {4, 0}, {4, 4}, {0, 0}}));
+  EXPECT_FALSE(map::is_plain_loop(WrittenLoop{{0, 0}, {4, 0}, {6, 0}, {5, 0}, {4, 4}}));
+  WrittenLoop parabola;
   for (std::size_t k = 0; k < map::longest_plain; ++k) {
     const auto x = static_cast<double>(k);
     parabola.push_back({x, x * x / 16});
@@ -87,9 +87,9 @@ TEST(polygons_of, plain_loops) {
   EXPECT_FALSE(map::is_plain_loop(parabola));
 }
 
-map::Trace trace_of_chains(const std::vector<Positions>& chains, bool has_north_corners) {
+map::Trace trace_of_chains(const std::vector<WrittenLoop>& chains, bool has_north_corners) {
   map::Trace trace;
-  for (const Positions& chain : chains) {
+  for (const WrittenLoop& chain : chains) {
     trace.starts.push_back(trace.points.size());
     for (const LonLat& p : chain) {
       const double pole = p.lat_deg == 90 ? 1 : -1;
@@ -103,7 +103,7 @@ map::Trace trace_of_chains(const std::vector<Positions>& chains, bool has_north_
 
 // Loops around the corners of the map, each written from the end of a chain along the border to the next start.
 TEST(polygons_of, chains_are_joined_along_the_border) {
-  using Rings = std::vector<Positions>;
+  using Rings = std::vector<WrittenLoop>;
   // Around the north pole, and around the south pole.
   EXPECT_EQ(rings_of(trace_of_chains({{{-180, 50}, {0, 40}, {180, 50}}}, true)),
             (Rings{{{-180, 50}, {0, 40}, {180, 50}, {180, 90}, {-180, 90}, {-180, 50}}}));
@@ -132,9 +132,9 @@ TEST(polygons_of, nearly_all_of_the_map_is_nothing) {
   const map::Trace trace = trace_of_chains({{{-180, -80}, {0, -89}, {180, -80}}}, true);
   EXPECT_TRUE(rings_of(trace).empty());
   EXPECT_TRUE(map::is_turned_over(trace));
-  const std::vector<Positions> loops = map::drawn_loops(trace);
+  const std::vector<WrittenLoop> loops = map::drawn_loops(trace);
   ASSERT_EQ(loops.size(), 2U);
-  EXPECT_EQ(loops[1], (Positions{{-180, 90}, {180, 90}, {180, -90}, {-180, -90}}));
+  EXPECT_EQ(loops[1], (WrittenLoop{{-180, 90}, {180, 90}, {180, -90}, {-180, -90}}));
   const map::Trace half = trace_of_chains({{{-180, 10}, {0, -10}, {180, 10}}}, true);
   EXPECT_EQ(rings_of(half).size(), 1U);
   EXPECT_EQ(map::drawn_loops(half).size(), 1U);
