@@ -181,11 +181,9 @@ CommonCorners::CommonCorners(const CellRings& cells, std::span<const Point> poin
       const Point& corner = corners[c];
       boxes.find(corner, [&](std::size_t i) {
         const auto& [p, q] = arcs[i];
-        if (corner == p || corner == q) return;
+        if (distance(corner, p) <= merge_distance || distance(corner, q) <= merge_distance) return;
         const std::optional<Point> foot = foot_on_arc(corner, p, q);
-        if (foot && distance(*foot, corner) <= merge_distance &&
-            distance(corner, p) > merge_distance && distance(corner, q) > merge_distance)
-          found[c].push_back(i);
+        if (foot && distance(*foot, corner) <= merge_distance) found[c].push_back(i);
       });
     }
   });

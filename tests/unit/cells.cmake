@@ -12,4 +12,11 @@ rondel_add_test(cells_test
   cells_settled_test.cpp
   cells_tips_test.cpp
   cells_write_test.cpp
+  map_faces_test.cpp
+  map_mending_test.cpp
+  map_nested_test.cpp
+  map_plane_test.cpp
+  map_polygon_test.cpp
+  map_region_test.cpp
+  map_trace_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
