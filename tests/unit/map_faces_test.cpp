@@ -19,7 +19,7 @@
 #include "rondel/delaunay.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_faces {
 namespace {
 
 constexpr double face_degree = std::numbers::pi / 180;
@@ -166,4 +166,4 @@ TEST(cell_map, two_sites_of_a_great_circle_are_close) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_faces

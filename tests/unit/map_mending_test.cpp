@@ -13,7 +13,7 @@
 #include "map/mending.h"
 #include "map/shared_lines.h"
 
-namespace rondel::test {
+namespace rondel::test::of_mending {
 namespace {
 
 using map::DirectedLine;
@@ -267,4 +267,4 @@ TEST(mending, turns_a_loop_without_feet_by_the_middles_of_its_lines) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_mending

@@ -12,7 +12,7 @@
 #include "map/planar_loops.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_nested {
 namespace {
 
 using map::Loop;
@@ -114,4 +114,4 @@ TEST(doubled_loop_area, of_triangles) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_nested

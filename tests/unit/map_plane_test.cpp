@@ -16,7 +16,7 @@
 #include "map/rectangles.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_plane {
 namespace {
 
 // Positions (-1, -1) to (2, 2) and one beside the grid.
@@ -198,4 +198,4 @@ TEST(rectangles, find_what_all_pairs_say) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_plane

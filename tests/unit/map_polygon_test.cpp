@@ -12,7 +12,7 @@
 #include "map/planar_loops.h"
 #include "map/polygon.h"
 
-namespace rondel::test {
+namespace rondel::test::of_polygon {
 namespace {
 
 using WrittenLoop = std::vector<LonLat>;
@@ -173,4 +173,4 @@ TEST(outside_loops, are_what_regions_leave) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_polygon

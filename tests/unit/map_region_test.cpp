@@ -20,7 +20,7 @@
 #include "map/settled_regions.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_region {
 namespace {
 
 constexpr double one_degree = std::numbers::pi / 180;
@@ -323,4 +323,4 @@ TEST(settled_regions, fill_a_hole_and_keep_what_is_beside_it) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_region

@@ -19,7 +19,7 @@
 #include "map/trace.h"
 #include "support/random.h"
 
-namespace rondel::test {
+namespace rondel::test::of_trace {
 namespace {
 
 constexpr double radian = std::numbers::pi / 180;
@@ -287,4 +287,4 @@ TEST(ring_area, of_known_shapes) {
 }
 
 }  // namespace
-}  // namespace rondel::test
+}  // namespace rondel::test::of_trace

@@ -363,7 +363,8 @@ TEST(overlay_mesh_faults, centers_of_other_cells_are_refused) {
   for (const RingsOfFile& sound : {rings_of_sites(40, 3), lonlat_rings(10), three_cells()}) {
     for (const std::size_t by : {std::size_t{1}, sound.rings.size() / 2}) {
       RingsOfFile mesh = sound;
-      std::ranges::rotate(mesh.centers, mesh.centers.begin() + static_cast<std::ptrdiff_t>(by));
+      std::rotate(mesh.centers.begin(), mesh.centers.begin() + static_cast<std::ptrdiff_t>(by),
+                  mesh.centers.end());
       EXPECT_TRUE(
           fault_of(esmf_of(mesh))
               .starts_with("centers belong to other cells than the corners in \"nodeCoords\": "));
