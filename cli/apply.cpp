@@ -51,7 +51,7 @@ ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Poi
           std::ranges::equal(unit_vectors(lonlats(own)), unit_vectors(known), is_near)};
 }
 
-// ValuesAtSources that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
+// Values that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
 // but their hash.
 void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                     const std::vector<Point>& places, bool is_table) {
@@ -175,7 +175,7 @@ struct AppliedCounts {
 };
 
 // Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so that
-// fields may be larger than memory. ValuesAtSources that are missing are NaN.
+// fields may be larger than memory. Values that are missing are NaN.
 template <typename Function>
 void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
                     const ValuesAtSources& in, Function take) {

@@ -49,7 +49,7 @@ class MeasureCheck {
     const Point a = unit(arrays_.cell_points[first]);
     const Point b = unit(arrays_.cell_points[second]);
     const double distance = length_between(a, b);
-    require_length("dcEdge", e, given_distance, distance, distance);
+    require_length("dcEdge", e, given_distance, distance, 0);
     require_length("dvEdge", e, given_side, side, distance);
     require_angle(e, a, b);
   }

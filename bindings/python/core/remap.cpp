@@ -167,12 +167,7 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
           to_array<double>(std::move(found.target_fractions))};
 }
 
-}  // namespace
-
-void add_remap(nb::module_& module) {
-  nb::class_<CellColumns>(module, "CellColumns")
-      .def(nb::init<>())
-      .def_prop_rw("columns", &texts_of_columns, &set_columns);
+void add_partition(nb::module_& module) {
   nb::class_<Partition>(module, "Partition")
       .def_static(
           "voronoi",
@@ -222,6 +217,15 @@ void add_remap(nb::module_& module) {
       .def("weight_corners", [](const Partition& self) {
         return to_array<double>(unlocked([&] { return weight_corners(self); }));
       });
+}
+
+}  // namespace
+
+void add_remap(nb::module_& module) {
+  nb::class_<CellColumns>(module, "CellColumns")
+      .def(nb::init<>())
+      .def_prop_rw("columns", &texts_of_columns, &set_columns);
+  add_partition(module);
   module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
              nb::arg("threads"));
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
