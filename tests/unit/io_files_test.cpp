@@ -157,7 +157,7 @@ TEST(npy_header, is_a_dictionary_in_any_order) {
   for (const int version : {1, 2, 3}) {
     for (const char* const text :
          {"{'descr': '<f8', 'fortran_order': True, 'shape': (10, 3), }\n",
-          "{'shape':(10,3),'fortran_order':True,\"descr\":\"<f8\"}",
+          R"({'shape':(10,3),'fortran_order':True,"descr":"<f8"})",
           " {\t'fortran_order' : True , 'shape' : ( 10 , 3 , ) , 'descr' : '<f8' , } "}) {
       const std::string bytes = npy(text, version);
       const io::NpyHeader header = io::parse_npy_header(bytes + "data");

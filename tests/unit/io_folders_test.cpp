@@ -297,7 +297,7 @@ TEST(zarr_group, has_nodes_of_several_blocks) {
   }
   const auto xyz = doubles("/sites/c.0.0");
   ASSERT_EQ(xyz.size(), 3 * (count + 2));
-  EXPECT_EQ(xyz[3 * 70'000], 70'000);
+  EXPECT_EQ(xyz[std::size_t{3} * 70'000], 70'000);
   EXPECT_EQ(xyz[3 * 70'000 + 1], 1);
   EXPECT_EQ(xyz.back(), -2);
 }

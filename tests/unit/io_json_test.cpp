@@ -49,7 +49,7 @@ std::string refused(const Action& action) {
 
 TEST(json_tree, has_the_text_that_it_was_made_of) {
   for (const char* const text :
-       {"null", "true", "false", "-7", "18446744073709551615", "0.5", "\"a\\\"b\"", "[]", "{}",
+       {"null", "true", "false", "-7", "18446744073709551615", "0.5", R"("a\"b")", "[]", "{}",
         "[1]", "[1,[],{}]", R"({"a":1,"b":[true,null],"c":{"d":"e"}})",
         "123456789012345678901234567890", "[-99999999999999999999]"}) {
     EXPECT_EQ(tree_of(text).text(), text);
@@ -194,7 +194,7 @@ TEST(geojson_items, are_in_degrees) {
   EXPECT_FALSE(is_known("\"EPSG:3857\""));
   // Wherever it is, also before the positions.
   const std::string bad = R"("crs":{"properties":{"name":"EPSG:3857"}},)";
-  const std::string message = "the member \"crs\" names \"EPSG:3857\"";
+  const std::string message = R"(the member "crs" names "EPSG:3857")";
   EXPECT_NE(items_of(features_of(feature_of(point), bad)).find(message), std::string::npos);
   EXPECT_EQ(items_of(features_of(feature_of(point), bad)).find("Point"), std::string::npos);
   EXPECT_TRUE(items_of(features_of("{" + bad + feature_of(point).substr(1)))

@@ -151,7 +151,7 @@ TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
   }
   for (const std::size_t most : {1U, 100U, 65'000U, 70'000U, 1U << 20U}) {
     const io::NetcdfBox box{{7, 40}, {280, 30}};
-    Doubles found(280 * 30);
+    Doubles found(std::size_t{280} * 30);
     io::read_in_order(reader, v, box, std::vector<std::size_t>{1, 0}, found, most);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const std::size_t row = 7 + i % 280;

@@ -28,7 +28,7 @@ struct BoxFile {
   std::vector<double> values;
   std::string bytes;
 
-  explicit BoxFile(const Shape& of, NetcdfType type = NetcdfType::int8) : shape(of) {
+  explicit BoxFile(Shape of, NetcdfType type = NetcdfType::int8) : shape(std::move(of)) {
     ClassicFile file;
     std::uint64_t size = 1;
     std::vector<std::size_t> dimensions;
