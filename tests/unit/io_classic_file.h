@@ -100,8 +100,10 @@ struct ClassicFile {
     return bytes;
   }
 
+  // False for a dimension that the file does not have, as files with faults may name one.
   [[nodiscard]] bool has_records(const ClassicVariable& variable) const {
-    return !variable.dimensions.empty() && dimensions[variable.dimensions[0]].size == 0;
+    return !variable.dimensions.empty() && variable.dimensions[0] < dimensions.size() &&
+           dimensions[variable.dimensions[0]].size == 0;
   }
   static std::string word(std::uint64_t value) {
     return big_endian(static_cast<std::uint32_t>(value));
