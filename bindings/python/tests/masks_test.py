@@ -57,7 +57,7 @@ def test_masked_cells_of_conventions_are_left_out(make, name):
     told = pytest.warns(UserWarning, match=f"23 of 162 cells are masked by '{name}'")
     with told:
         found = ds.rondel.interpolate((TO_LON, TO_LAT), "linear", grid=True).h.values.squeeze()
-    # Of the others alone.
+    # The warning names the others alone.
     sites, lat = (a.reshape(-1) for a in np.meshgrid(TO_LON, TO_LAT))
     tri = rondel.delaunay_lonlat(LON[used], LAT[used])
     right = tri.interpolate(smooth(LON, LAT)[used], rondel.unit_vectors(sites, lat), "linear")
