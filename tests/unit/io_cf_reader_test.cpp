@@ -40,16 +40,6 @@ struct OpenFile {
   }
 };
 
-template <class Action>
-std::string refused(const Action& action) {
-  try {
-    action();
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
-}
-
 TEST(cf_reader, headers_have_names_and_texts) {
   ClassicFile file;
   file.dimensions = {{"x", 3}, {"y", 2}};

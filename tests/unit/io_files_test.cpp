@@ -17,16 +17,6 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
-template <class Action>
-std::string refused(const Action& action) {
-  try {
-    action();
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
-}
-
 std::string some_bytes(std::size_t size) {
   std::string bytes;
   for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>('a' + (i * 7 + i / 300) % 26);

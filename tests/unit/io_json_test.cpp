@@ -37,16 +37,6 @@ JsonTree tree_of(const std::string& text, Seen* seen = nullptr) {
   return builder.root();
 }
 
-template <class Action>
-std::string refused(const Action& action) {
-  try {
-    action();
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
-}
-
 TEST(json_tree, has_the_text_that_it_was_made_of) {
   for (const char* const text :
        {"null", "true", "false", "-7", "18446744073709551615", "0.5", R"("a\"b")", "[]", "{}",

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/bad_value.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 #include "support/temporary_files.h"
@@ -41,6 +42,17 @@ std::string message_of(Action action) {
     action();
   } catch (const FileError& error) {
     return error.what();
+  }
+  return {};
+}
+
+// The message of the BadValue that `action` throws; empty if it throws none.
+template <class Action>
+std::string refused(const Action& action) {
+  try {
+    action();
+  } catch (const io::BadValue& bad) {
+    return bad.what();
   }
   return {};
 }
