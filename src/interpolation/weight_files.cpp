@@ -100,13 +100,11 @@ std::vector<LonLat> lonlats(std::span<const Point> points) {
   std::vector<LonLat> result;
   result.reserve(points.size());
   for (const Point& point : points) {
-    if (point == Point{0, 0, 0}) {  // no ray goes through the origin
+    const Point u = map::direction(point, {});
+    if (!(norm(u) > 0)) {  // no ray goes through the origin, or a coordinate is not finite
       constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
       result.push_back({no_place, no_place});
-      continue;
-    }
-    const Point u = map::direction(point, {});
-    if (map::is_pole(u)) {
+    } else if (map::is_pole(u)) {
       result.push_back({0, std::copysign(90.0, u.z)});
     } else {
       result.push_back(map::lonlat_of(u, true));

@@ -155,6 +155,10 @@ TEST(weight_files, of_esmf_have_points_as_cells_of_one_corner) {
 }
 
 TEST(weight_files, have_no_place_for_cells_without_one) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const LonLat& place : lonlats(std::vector<Point>{{std::nan(""), 0, 1}, {infinite, 0, 0}})) {
+    EXPECT_TRUE(std::isnan(place.lon_deg) && std::isnan(place.lat_deg));
+  }
   const std::vector<Point> points = {{0, 0, 0}, {0, 0, -2}, {3, 0, 0}};
   const std::vector<LonLat> places = lonlats(points);
   EXPECT_TRUE(std::isnan(places[0].lon_deg) && std::isnan(places[0].lat_deg));

@@ -18,6 +18,7 @@
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
 #include "rondel/hull.h"
+#include "rondel/weight_files.h"
 
 namespace rondel::python {
 namespace {
@@ -153,6 +154,12 @@ void add_triangulation(nb::module_& module) {
         return points_out(unlocked([&] { return unit_vectors(rows_of<LonLat>(lonlat)); }));
       },
       nb::arg("lonlat").noconvert());
+  module.def(
+      "lonlats",
+      [](const PointsIn& points) {
+        return to_array<double>(unlocked([&] { return lonlats(points_of(points)); }));
+      },
+      nb::arg("points").noconvert());
   module.def(
       "polar_points",
       [](const PointsIn& centers, const NumbersIn& radii_deg) {

@@ -320,13 +320,13 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
 
 
 def degrees_of(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
-    """What `lonlat` returns, also of points without a direction, which are at (0, 0)."""
+    """What `lonlat` returns, NaN for points without a direction."""
     xyz = as_floats(points, "points")
     origin = as_center(center)
     if any(origin):
         xyz = xyz - np.asarray(origin)
-    x, y, z = xyz[..., 0], xyz[..., 1], xyz[..., 2]
-    return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=-1))
+    rows = np.ascontiguousarray(xyz.reshape(-1, 3))
+    return _core.lonlats(rows).reshape(*xyz.shape[:-1], 2)
 
 
 def unmasked(values: Any, name: str = "values") -> Any:

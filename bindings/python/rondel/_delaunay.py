@@ -216,7 +216,7 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
     @cached_property
     def lonlat(self) -> FloatArray:
         """Ndarray of float64, shape (n, 2): longitudes and latitudes of the points in degrees, as
-        given to `delaunay_lonlat`, or of the rays through the points.
+        given to `delaunay_lonlat`, or of the rays through the points; NaN for the center.
         """
         if self._degrees is not None:
             return self._degrees

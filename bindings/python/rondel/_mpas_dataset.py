@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import degrees_of
 from ._types import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -28,9 +29,9 @@ def _padded_rows(offsets: npt.NDArray[np.int64], entries: IntArray) -> IntArray:
 def _places(kind: str, points: FloatArray) -> dict[str, Any]:
     """Coordinates of cells, edges or vertices."""
     x, y, z = points.T
-    lon = np.arctan2(y, x) % (2 * np.pi)
+    lon, lat = np.radians(degrees_of(points)).T
+    lon = np.where(lon < 0, lon + 2 * np.pi, lon)
     lon[lon >= 2 * np.pi] = 0
-    lat = np.arctan2(z, np.hypot(x, y))
     dimension = "nVertices" if kind == "Vertex" else f"n{kind}s"
     coordinates = {"x": x, "y": y, "z": z, "lon": lon, "lat": lat}
     return {axis + kind: (dimension, values) for axis, values in coordinates.items()}

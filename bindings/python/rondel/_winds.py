@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_fields, as_floats, as_threads, target_vectors
+from ._arrays import as_fields, as_floats, as_threads, target_vectors, unit_vectors
 from ._interpolation import (
     Interpolation,
     Method,
@@ -23,9 +23,11 @@ from ._types import ArrayLike, FloatArray, Progress
 
 def directions(lon: FloatArray, lat: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The unit vectors to the east and to the north at some places, shape (..., 3)."""
-    a, b = np.radians(lon), np.radians(lat)
-    east = np.stack([-np.sin(a), np.cos(a), np.zeros_like(a)], axis=-1)
-    north = np.stack([-np.sin(b) * np.cos(a), -np.sin(b) * np.sin(a), np.cos(b)], axis=-1)
+    along_equator = unit_vectors(lon, np.zeros_like(lat))
+    up = unit_vectors(np.zeros_like(lon), lat)
+    cosine, sine = along_equator[..., 0], along_equator[..., 1]
+    east = np.stack([-sine, cosine, np.zeros_like(sine)], axis=-1)
+    north = np.stack([-up[..., 2] * cosine, -up[..., 2] * sine, up[..., 0]], axis=-1)
     return east, north
 
 

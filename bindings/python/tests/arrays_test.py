@@ -423,6 +423,15 @@ def test_integers_that_no_double_equals_are_refused():
         assert caught.value.index == 3
 
 
+def test_the_degrees_of_points_do_not_depend_on_where_they_are_in_memory():
+    points = clouds.uniform(1000)
+    one = np.array([rondel.lonlat(point) for point in points])
+    wide = np.zeros((1000, 4))
+    wide[:, 1:] = points
+    for same in (points, np.asfortranarray(points), wide[:, 1:], wide[:, :0:-1][:, ::-1]):
+        assert rondel.lonlat(same).tobytes() == one.tobytes()
+
+
 def test_lonlat_refuses_points_without_direction():
     assert np.isnan(rondel.lonlat([np.nan, 0, 1])).any()
     with pytest.raises(rondel.InvalidInput, match="point 1 is the center") as caught:
