@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rondel/types.h"
@@ -37,6 +38,32 @@ struct CellRings {
   /// True if a cell is the whole sphere.
   [[nodiscard]] bool is_whole(std::size_t cell) const {
     return std::ranges::binary_search(whole, cell);
+  }
+  /// Returns the corners of a ring, as indices into `points`.
+  [[nodiscard]] std::span<const Index> corners_of(std::uint64_t ring) const {
+    return std::span(corners).subspan(rings[ring], rings[ring + 1] - rings[ring]);
+  }
+
+  /// Ends a ring, whose corners are those that were appended after the ring before it.
+  void end_ring() { rings.push_back(corners.size()); }
+  /// Ends a cell, whose rings are those that ended after the cell before it.
+  void end_cell() { cells.push_back(rings.size() - 1); }
+  /// Appends a ring of some corners, which must not be those of this object.
+  void append_ring(std::span<const Index> ring) {
+    corners.insert(corners.end(), ring.begin(), ring.end());
+    end_ring();
+  }
+  /// Appends the rings of a cell of others, which have the same points, and does not end the cell.
+  void append_rings(const CellRings& others, std::size_t cell) {
+    for (std::uint64_t r = others.cells[cell]; r < others.cells[cell + 1]; ++r) {
+      append_ring(others.corners_of(r));
+    }
+  }
+  /// Appends a cell of others, which have the same points.
+  void append_cell(const CellRings& others, std::size_t cell) {
+    if (others.is_whole(cell)) whole.push_back(static_cast<Index>(num_cells()));
+    append_rings(others, cell);
+    end_cell();
   }
 };
 

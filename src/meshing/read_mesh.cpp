@@ -157,13 +157,7 @@ void leave_out_masked(CellTable& table) {
   std::vector<LonLat> centers;
   for (std::size_t i = 0; i < table.mask.size(); ++i) {
     if (table.mask[i] == 0) continue;
-    for (std::uint64_t r = table.cells.cells[i]; r < table.cells.cells[i + 1]; ++r) {
-      for (std::uint64_t k = table.cells.rings[r]; k < table.cells.rings[r + 1]; ++k) {
-        kept.corners.push_back(table.cells.corners[k]);
-      }
-      kept.rings.push_back(kept.corners.size());
-    }
-    kept.cells.push_back(kept.rings.size() - 1);
+    kept.append_cell(table.cells, i);
     centers.push_back(table.centers[i]);
   }
   table.cells = std::move(kept);

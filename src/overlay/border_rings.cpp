@@ -259,10 +259,9 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
   for (const auto& of_key : rings) {
     for (const std::vector<Index>& ring : of_key) {
       for (const Index p : ring) new_names[p] = 0;
-      result.corners.insert(result.corners.end(), ring.begin(), ring.end());
-      result.rings.push_back(result.corners.size());
+      result.append_ring(ring);
     }
-    result.cells.push_back(result.rings.size() - 1);
+    result.end_cell();
   }
   for (std::size_t p = 0; p < all.points.size(); ++p) {
     if (new_names[p] == no_index) continue;

@@ -13,22 +13,20 @@ namespace rondel::overlay {
 std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
   std::vector<Point> points;
   points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
-  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
-    points.push_back(cells.points[cells.corners[k]]);
-  }
+  for (const Index corner : cells.corners_of(ring)) points.push_back(cells.points[corner]);
   return points;
 }
 
 CellRings one_cell(const CellRings& cells, Index cell) {
   CellRings one;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {
-    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+    for (const Index corner : cells.corners_of(r)) {
       one.corners.push_back(static_cast<Index>(one.points.size()));
-      one.points.push_back(cells.points[cells.corners[k]]);
+      one.points.push_back(cells.points[corner]);
     }
-    one.rings.push_back(one.corners.size());
+    one.end_ring();
   }
-  one.cells.push_back(one.rings.size() - 1);
+  one.end_cell();
   if (cells.is_whole(cell)) one.whole = {0};
   return one;
 }
@@ -53,7 +51,7 @@ void append(const CellRings& one, CellRings& all) {
   for (const Index corner : one.corners) all.corners.push_back(first + corner);
   for (std::size_t r = 1; r < one.rings.size(); ++r) all.rings.push_back(begin + one.rings[r]);
   if (!one.whole.empty()) all.whole.push_back(static_cast<Index>(all.num_cells()));
-  all.cells.push_back(all.rings.size() - 1);
+  all.end_cell();
 }
 
 void merge_equal_points(CellRings& cells) {

@@ -4,6 +4,7 @@
 #include "overlay/filling.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -186,9 +187,8 @@ void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) {
       const Index b = apex(p, a);
       if (p < a && p < b) {
         const auto name = static_cast<Index>(triangles.num_cells());
-        triangles.corners.insert(triangles.corners.end(), {p, a, b});
-        triangles.rings.push_back(triangles.corners.size());
-        triangles.cells.push_back(triangles.rings.size() - 1);
+        triangles.append_ring(std::array{p, a, b});
+        triangles.end_cell();
         for (const auto& [from, to] : {std::pair(p, a), {a, b}, {b, p}}) {
           sides_.make(from, to).triangle = name;
         }

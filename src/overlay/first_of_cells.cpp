@@ -47,18 +47,6 @@ std::vector<std::size_t> layers_of(const CellRings& cells, std::span<const Cross
   return layers;
 }
 
-// Appends a cell of `from`, whose points begin at `first_point` in `to`.
-void append_cell(const CellRings& from, std::size_t cell, std::size_t first_point, CellRings& to) {
-  if (from.is_whole(cell)) to.whole.push_back(static_cast<Index>(to.num_cells()));
-  for (std::uint64_t r = from.cells[cell]; r < from.cells[cell + 1]; ++r) {
-    for (std::uint64_t k = from.rings[r]; k < from.rings[r + 1]; ++k) {
-      to.corners.push_back(static_cast<Index>(first_point + from.corners[k]));
-    }
-    to.rings.push_back(to.corners.size());
-  }
-  to.cells.push_back(to.rings.size() - 1);
-}
-
 // Returns the cells of one layer; all other cells are empty.
 CellRings cells_of_layer(const CellRings& cells, const std::vector<std::size_t>& layers,
                          std::size_t layer) {
@@ -66,9 +54,9 @@ CellRings cells_of_layer(const CellRings& cells, const std::vector<std::size_t>&
   kept.points = cells.points;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
     if (layers[c] == layer) {
-      append_cell(cells, c, 0, kept);
+      kept.append_cell(cells, c);
     } else {
-      kept.cells.push_back(kept.rings.size() - 1);
+      kept.end_cell();
     }
   }
   return kept;
@@ -83,11 +71,11 @@ CellRings with_outside(CellRings cells, const Execution& execution) {
     for (std::uint64_t k = all.rings[r + 1]; k-- > all.rings[r];) {
       cells.corners.push_back(static_cast<Index>(cells.points.size()) + all.corners[k]);
     }
-    cells.rings.push_back(cells.corners.size());
+    cells.end_ring();
   }
   cells.points.insert(cells.points.end(), all.points.begin(), all.points.end());
   if (all.corners.empty() && !all.is_whole(0)) cells.whole.push_back(static_cast<Index>(n));
-  cells.cells.push_back(cells.rings.size() - 1);
+  cells.end_cell();
   return cells;
 }
 
@@ -114,9 +102,9 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
   CellRings result;
   result.points = cells.points;
   result.points.insert(result.points.end(), all.points.begin(), all.points.end());
+  for (Index& corner : all.corners) corner += static_cast<Index>(cells.points.size());
   for (std::size_t c = 0; c < n; ++c) {
-    const bool is_kept = layers[c] == no_layer;
-    append_cell(is_kept ? cells : all, c, is_kept ? 0 : cells.points.size(), result);
+    result.append_cell(layers[c] == no_layer ? cells : all, c);
   }
   Distinct<Point> places = distinct(result.points);
   for (Index& corner : result.corners) corner = places.numbers[corner];

@@ -44,7 +44,7 @@ class GeodesicCells {
           given.corners.push_back(static_cast<Index>(k));
           given.points.push_back(arcs_[k].from);
         }
-        given.rings.push_back(arcs_.size());
+        given.end_ring();
         require_area(f, r, first);
         if (!rings[r].is_hole) {
           part = first;
@@ -54,7 +54,7 @@ class GeodesicCells {
                          "the holes of " + ring_name(rings, shell) + " leave nothing of it");
         }
       }
-      given.cells.push_back(given.rings.size() - 1);
+      given.end_cell();
     }
     for (const CrossingCells& pair : crossing_cells(given, execution_)) {
       if (pair.first != pair.second) continue;
@@ -111,15 +111,9 @@ class GeodesicCells {
     parts.points = given.points;
     for (std::uint64_t r = given.cells[feature]; r < given.cells[feature + 1]; ++r) {
       const bool is_hole = features_.rings[feature][r - given.cells[feature]].is_hole;
-      for (std::uint64_t k = given.rings[r]; k < given.rings[r + 1]; ++k) {
-        parts.corners.push_back(given.corners[k]);
-      }
-      parts.rings.push_back(parts.corners.size());
-      if (is_hole && parts.num_cells() > 0) {
-        parts.cells.back() = parts.rings.size() - 1;
-      } else {
-        parts.cells.push_back(parts.rings.size() - 1);
-      }
+      parts.append_ring(given.corners_of(r));
+      if (is_hole && parts.num_cells() > 0) parts.cells.pop_back();
+      parts.end_cell();
     }
     for (const CrossingCells& pair : overlapping_cells(parts, execution_)) {
       const std::string first = "part " + std::to_string(pair.first);

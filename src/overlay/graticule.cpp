@@ -240,9 +240,8 @@ CellRings rings_of(const LonLatGrid& grid) {
                                  corner(north, west)};
       ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
       if (ring.front() == ring.back()) ring.pop_back();
-      rings.corners.insert(rings.corners.end(), ring.begin(), ring.end());
-      rings.rings.push_back(rings.corners.size());
-      rings.cells.push_back(rings.rings.size() - 1);
+      rings.append_ring(ring);
+      rings.end_cell();
     }
   }
   return rings;

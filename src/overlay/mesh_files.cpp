@@ -84,12 +84,11 @@ class RingsOfNodes {
       points_.clear();
       for (const Index corner : ring_) points_.push_back(made_.points[corner]);
       if (map::is_clockwise(points_)) std::ranges::reverse(ring_);
-      made_.corners.insert(made_.corners.end(), ring_.begin(), ring_.end());
-      made_.rings.push_back(made_.corners.size());
+      made_.append_ring(ring_);
     }
     ring_.clear();
   }
-  void end_cell() { made_.cells.push_back(made_.rings.size() - 1); }
+  void end_cell() { made_.end_cell(); }
   CellRings take() && { return std::move(made_); }
 
  private:

@@ -134,12 +134,9 @@ CellRings rings_of(const Subdivision& cells, std::span<const Index> some) {
   CellRings rings;
   for (const Index cell : some) {
     for (Index ring = cells.cells[cell]; ring < cells.cells[cell + 1]; ++ring) {
-      for (Halfedge h = cells.rings[ring]; h < cells.rings[ring + 1]; ++h) {
-        rings.corners.push_back(cells.corners[h]);
-      }
-      rings.rings.push_back(rings.corners.size());
+      rings.append_ring(cells.corners_of(ring));
     }
-    rings.cells.push_back(rings.rings.size() - 1);
+    rings.end_cell();
   }
   std::vector<Index> used = rings.corners;
   std::ranges::sort(used);

@@ -121,11 +121,9 @@ CellRings rings_of(const Subdivision& cells) {
   result.points = cells.points;
   for (const Index c : places) {
     for (Index ring = cells.cells[c]; ring < cells.cells[c + 1]; ++ring) {
-      result.corners.insert(result.corners.end(), cells.corners.begin() + cells.rings[ring],
-                            cells.corners.begin() + cells.rings[ring + 1]);
-      result.rings.push_back(result.corners.size());
+      result.append_ring(cells.corners_of(ring));
     }
-    result.cells.push_back(result.rings.size() - 1);
+    result.end_cell();
   }
   return result;
 }
@@ -164,7 +162,7 @@ CellRings rings_of(Cells cells) {
   rings.corners = std::move(cells.rings);
   for (std::size_t i = 0; i + 1 < cells.offsets.size(); ++i) {
     if (cells.offsets[i + 1] > cells.offsets[i]) rings.rings.push_back(cells.offsets[i + 1]);
-    rings.cells.push_back(rings.rings.size() - 1);
+    rings.end_cell();
   }
   return rings;
 }
@@ -279,9 +277,8 @@ Partition Partition::triangles(const Triangulation& triangulation, const Executi
   if (triangulation.dimension() == 2) {
     for (Index f = 0; f < triangulation.num_faces(); ++f) {
       if (triangulation.is_ghost(f)) continue;
-      for (const Index v : triangulation.faces()[f]) rings.corners.push_back(v);
-      rings.rings.push_back(rings.corners.size());
-      rings.cells.push_back(rings.rings.size() - 1);
+      rings.append_ring(triangulation.faces()[f]);
+      rings.end_cell();
     }
   }
   return of_apart(rings, execution);

@@ -63,14 +63,7 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
   result.offsets = {0};
   for (Index i = 0; i < cells.num_cells(); ++i) {
     if (others[i].empty()) {
-      if (cells.is_whole(i)) all.whole.push_back(static_cast<Index>(all.num_cells()));
-      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + std::size_t{1}]; ++r) {
-        for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-          all.corners.push_back(cells.corners[k]);
-        }
-        all.rings.push_back(all.corners.size());
-      }
-      all.cells.push_back(all.rings.size() - 1);
+      all.append_cell(cells, i);
       own({i});
       continue;
     }
@@ -98,16 +91,11 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
   CellRings result;
   result.points = cells.points;
   for (Index i = 0; i < cells.num_cells(); ++i) {
-    if (!is_masked(mask, i)) {
-      if (cells.is_whole(i)) result.whole.push_back(i);
-      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + std::size_t{1}]; ++r) {
-        for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-          result.corners.push_back(cells.corners[k]);
-        }
-        result.rings.push_back(result.corners.size());
-      }
+    if (is_masked(mask, i)) {
+      result.end_cell();
+    } else {
+      result.append_cell(cells, i);
     }
-    result.cells.push_back(result.rings.size() - 1);
   }
   return result;
 }

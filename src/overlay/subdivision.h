@@ -80,6 +80,9 @@ struct Subdivision {
   }
   [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
 
+  [[nodiscard]] std::span<const Index> corners_of(Index ring) const {
+    return std::span(corners).subspan(rings[ring], rings[ring + 1] - rings[ring]);
+  }
   // Copies the corners of a ring of any cell.
   void copy_ring(Index ring, std::vector<Point>& corners_of_ring) const {
     corners_of_ring.clear();

@@ -169,16 +169,6 @@ class NamesOfCorners {
   std::vector<Index> names_;
 };
 
-// Appends the rings of a cell to cells that have the same points.
-void append_rings(const CellRings& cells, std::size_t cell, CellRings& result) {
-  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-    result.corners.insert(result.corners.end(),
-                          cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
-                          cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
-    result.rings.push_back(result.corners.size());
-  }
-}
-
 }  // namespace
 
 Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
@@ -238,7 +228,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     if (cells.is_whole(i)) result.whole.push_back(static_cast<Index>(i));
     if (!has_changed(i)) {
-      append_rings(cells, i, result);
+      result.append_rings(cells, i);
     } else {
       has_any = true;
       const Index key = keys[i];
@@ -248,18 +238,18 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
       }
       if (turned(i) == Turn::of_rounding) {
         if (areas_after[key] < areas_before[key]) result.whole.push_back(static_cast<Index>(i));
-        result.cells.push_back(result.rings.size() - 1);
+        result.end_cell();
         continue;
       }
       const NamesOfCorners names(cells, i);
       for (std::uint64_t r = left.cells[key]; r < left.cells[key + std::size_t{1}]; ++r) {
-        for (std::uint64_t k = left.rings[r]; k < left.rings[r + 1]; ++k) {
-          result.corners.push_back(names[left.points[left.corners[k]]]);
+        for (const Index corner : left.corners_of(r)) {
+          result.corners.push_back(names[left.points[corner]]);
         }
-        result.rings.push_back(result.corners.size());
+        result.end_ring();
       }
     }
-    result.cells.push_back(result.rings.size() - 1);
+    result.end_cell();
   }
   if (!has_any) return std::nullopt;
   return result;

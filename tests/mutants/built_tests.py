@@ -30,10 +30,14 @@ def run(command):
 
 def copy_tree(changed=None):
     """The tracked files as they are now, with the texts of `changed` (name: bytes) instead of their own; a file that stays
-    the same keeps its time, for the build."""
-    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True,
-                           text=True).stdout.split("\0")
-    for name in filter(None, names):
+    the same keeps its time, for the build, and one that is tracked no longer goes."""
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    names = set(listed.split("\0"))
+    for old in TREE.rglob("*"):
+        name = old.relative_to(TREE)
+        if old.is_file() and name.parts[0] != "build" and name.as_posix() not in names:
+            old.unlink()
+    for name in sorted(filter(None, names)):
         source, target = ROOT / name, TREE / name
         if not source.is_file():
             continue  # deleted, and not yet committed

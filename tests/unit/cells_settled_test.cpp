@@ -135,6 +135,38 @@ TEST(map_grid, pixels_are_half_open) {
   EXPECT_TRUE(map::meets_pixel({0, 0}, {10, 20}, center));
 }
 
+// Looks at every point of the line from a to b at which a coordinate may be that of a border of the
+// pixel [-1, 1) x [-1, 1), and at points between all of these.
+bool has_a_point_in_pixel(const map::GridPlace& a, const map::GridPlace& b) {
+  const std::int64_t dx = b.x - a.x;
+  const std::int64_t dy = b.y - a.y;
+  const std::int64_t n =
+      2 * std::max<std::int64_t>(std::abs(dx), 1) * std::max<std::int64_t>(std::abs(dy), 1);
+  const auto is_within = [&](std::int64_t start, std::int64_t step, std::int64_t k) {
+    const std::int64_t place = n * start + k * step;
+    return place >= -n && place < n;
+  };
+  for (std::int64_t k = 0; k <= n; ++k) {
+    if (is_within(a.x, dx, k) && is_within(a.y, dy, k)) return true;
+  }
+  return false;
+}
+
+TEST(map_grid, all_short_lines_meet_the_pixels_in_which_they_have_a_point) {
+  constexpr std::int64_t far = 3;
+  std::vector<map::GridPlace> places;
+  for (std::int64_t x = -far; x <= far; ++x) {
+    for (std::int64_t y = -far; y <= far; ++y) places.push_back({x, y});
+  }
+  for (const map::GridPlace& a : places) {
+    for (const map::GridPlace& b : places) {
+      if (a == b) continue;
+      EXPECT_EQ(map::meets_pixel(a, b, {0, 0}), has_a_point_in_pixel(a, b))
+          << a.x << ' ' << a.y << " to " << b.x << ' ' << b.y;
+    }
+  }
+}
+
 TEST(map_grid, rounds_crossings_to_the_pixel_that_has_them) {
   Random random(13);
   for (int round = 0; round < 2000; ++round) {
