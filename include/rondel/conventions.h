@@ -135,6 +135,12 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
                                                  std::span<const double> lon,
                                                  std::span<const double> lat);
 
+/// True if models give this name to the dimension of their cells (`nCells`, `ncol`, `cell` ...).
+RONDEL_API bool is_name_of_cells(std::string_view dimension);
+
+/// True if the dimension has a usual name of time (`time`, `Time`, `record` ...).
+RONDEL_API bool is_name_of_time(std::string_view dimension);
+
 /// Returns the lines between the cells along an axis, in degrees: one more than cells. They come
 /// from the two bounds of each cell (n, 2), or are the bounds themselves (n + 1), or, without
 /// bounds, are half way between the coordinates.

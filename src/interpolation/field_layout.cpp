@@ -81,6 +81,7 @@ FieldDimensions FieldDimensionFinder::layout_along(const LayoutVariable& variabl
   FieldDimensions found;
   for (const std::size_t dimension : known.dimensions) {
     const auto at = std::ranges::find(variable.dimensions, dimension);
+    if (at == variable.dimensions.end()) return {};  // the places move, and the field has no time
     found.points.push_back(static_cast<std::size_t>(at - variable.dimensions.begin()));
   }
   const std::vector<std::size_t> before = found.points;

@@ -157,7 +157,7 @@ void FieldDimensionFinder::choose_dimension_of_cells(
     for (std::size_t d = 0; d < variable->shape.size(); ++d) {
       const std::size_t dimension = variable->dimensions[d];
       if (variable->shape[d] != num_points_ || num_points_ < 2) continue;
-      if (!io::is_name_of_cells(file_.dimensions()[dimension].name)) continue;
+      if (!is_name_of_cells(file_.dimensions()[dimension].name)) continue;
       dimensions_of_points_ = {dimension};
       first_by_lengths_ = variable->name;
       are_along_cells_ = true;
@@ -169,12 +169,12 @@ void FieldDimensionFinder::choose_dimension_of_cells(
 // Whether the dimension has an axis of times or heights, so that no places are along it.
 bool FieldDimensionFinder::is_other_axis(std::size_t dimension) const {
   const std::string& name = file_.dimensions()[dimension].name;
-  if (io::is_name_of_time(name)) return true;
+  if (is_name_of_time(name)) return true;
   return std::ranges::any_of(headers_, [&](const VariableHeader& header) {
     const std::string axis = header.text("axis");
     return header.name == name && header.dimensions.size() == 1 && header.dimensions[0] == name &&
            (axis == "T" || axis == "Z" || !header.text("positive").empty() ||
-            header.text("units").find(" since ") != std::string::npos);
+            io::lower_case(header.text("units")).find(" since ") != std::string::npos);
   });
 }
 
@@ -197,7 +197,7 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(
       for (std::size_t d = begin; d < end; ++d) {
         has_other_axis = has_other_axis || (shape[d] > 1 && is_other_axis(variable.dimensions[d]));
       }
-      const int preference = is_single && io::is_name_of_cells(name)                         ? 4
+      const int preference = is_single && is_name_of_cells(name)                         ? 4
                              : std::ranges::equal(shape.subspan(begin, end - begin), shape_) ? 3
                              : !has_other_axis                                               ? 2
                                                                                              : 1;

@@ -155,8 +155,8 @@ std::optional<std::int64_t> start_day(Calendar calendar, const Date& date) {
 }
 
 // Returns the seconds by which the clock of a time zone is ahead of UTC; nothing for other texts.
-// "+05:30", "-03", "+0530", "Z" and "UTC" are time zones.
-std::optional<std::int64_t> zone_seconds(std::string_view text) {
+// "+05:30", "-03", "+0530", "Z" and "UTC" are time zones, "-6:00" and "-3" behind a clock alone.
+std::optional<std::int64_t> zone_seconds(std::string_view text, bool has_clock) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   if (text.empty() || text == "Z" || text == "UTC" || text == "GMT") return 0;
   const bool is_west = text.front() == '-';
@@ -165,9 +165,12 @@ std::optional<std::int64_t> zone_seconds(std::string_view text) {
   const std::size_t digits = std::min(rest.find(':'), rest.size());
   const auto first = take_number(rest, ":");
   const auto second = rest.empty() ? std::optional<std::int64_t>(0) : take_number(rest, "");
-  if (!first || !second || !rest.empty() || (digits != 2 && digits != 4)) return std::nullopt;
-  const std::int64_t hours = digits == 4 ? *first / 100 : *first;
-  const std::int64_t minutes = digits == 4 ? *first % 100 : *second;
+  if (!first || !second || !rest.empty() || digits > 4) return std::nullopt;
+  if (digits < 2 && !has_clock) return std::nullopt;
+  const bool has_minutes = digits > 2;  // as in "0530"
+  if (has_minutes && digits + 1 < text.size()) return std::nullopt;
+  const std::int64_t hours = has_minutes ? *first / 100 : *first;
+  const std::int64_t minutes = has_minutes ? *first % 100 : *second;
   if (hours > 14 || minutes > 59) return std::nullopt;
   return (is_west ? -60 : 60) * (60 * hours + minutes);
 }
@@ -179,7 +182,7 @@ void take_zero_fraction(std::string_view& text) {
 }
 
 std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) {
-  const std::size_t since = text.find(" since ");
+  const std::size_t since = io::lower_case(text).find(" since ");
   if (since == std::string::npos) return std::nullopt;
   const std::string unit =
       io::lower_case(io::without_blanks(std::string_view(text).substr(0, since)));
@@ -195,6 +198,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
   const std::optional<std::int64_t> days = start_day(calendar, {*year, *month, *day});
   if (!days) return std::nullopt;
   std::int64_t clock = 0;
+  const bool has_clock = !rest.empty() && rest.front() >= '0' && rest.front() <= '9';
   for (const std::int64_t of_number : {3600, 60, 1}) {
     if (rest.empty() || rest.front() < '0' || rest.front() > '9') break;
     const auto number = take_number(rest, ":");
@@ -202,7 +206,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
     clock += *number * of_number;
   }
   take_zero_fraction(rest);
-  const std::optional<std::int64_t> zone = zone_seconds(rest);
+  const std::optional<std::int64_t> zone = zone_seconds(rest, has_clock);
   if (!zone) return std::nullopt;
   return TimeUnits{*seconds, *days * seconds_per_day + clock - *zone};
 }

@@ -185,11 +185,13 @@ class CoordinateSearch {
     if (!are_axes(lon, lat) && !has_same_dimensions(variables_[lon], variables_[lat])) return false;
     return values_ == none || (is_along_values(lon) && is_along_values(lat));
   }
-  // True if all dimensions of a variable are dimensions of the values.
+  // True if all dimensions of a variable are dimensions of the values. Values without time may have
+  // coordinates that are repeated along time, as WRF's HGT(south_north, west_east) has.
   [[nodiscard]] bool is_along_values(std::size_t index) const {
+    const std::vector<std::string>& own = variables_[index].dimensions;
     const std::vector<std::string>& of_values = variables_[values_].dimensions;
-    return std::ranges::all_of(variables_[index].dimensions, [&](const std::string& name) {
-      return std::ranges::count(of_values, name) != 0;
+    return std::ranges::all_of(own, [&](const std::string& name) {
+      return std::ranges::count(of_values, name) != 0 || (own.size() > 1 && is_name_of_time(name));
     });
   }
 
@@ -347,7 +349,7 @@ std::vector<bool> repeated_dimensions(std::span<const std::string> names,
     const std::size_t block = stride;  // number of values for one index of the dimensions before
                                        // this one
     stride = shape[d] == 0 ? 0 : block / shape[d];
-    const bool is_time = io::is_name_of_time(names[d]);
+    const bool is_time = is_name_of_time(names[d]);
     if (shape[d] == 0 || (shape[d] == 1 && !is_time) || num_kept == 1) continue;
     bool changes = false;
     for (std::size_t i = 0; i < size && !changes; ++i) {

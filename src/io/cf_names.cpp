@@ -101,13 +101,6 @@ bool is_connectivity(const VariableHeader& variable) {
   return is_of_mpas || is_of_icon || variable.text("cf_role").ends_with("_connectivity");
 }
 
-bool is_name_of_cells(std::string_view dimension) {
-  constexpr std::array<std::string_view, 9> names = {"nCells",    "ncells",       "cell",
-                                                     "ncol",      "n_face",       "nMesh2_face",
-                                                     "grid_size", "elementCount", "cells"};
-  return std::ranges::find(names, dimension) != names.end();
-}
-
 bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
   if (name.starts_with(bounds_beginning)) {
     return name.substr(bounds_beginning.size()) == coordinate;
@@ -116,10 +109,21 @@ bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
          std::ranges::find(bounds_endings, name.substr(coordinate.size())) != bounds_endings.end();
 }
 
-bool is_name_of_time(std::string_view name) {
-  const std::string lower = lower_case(name);
+}  // namespace rondel::io
+
+namespace rondel {
+
+bool is_name_of_cells(std::string_view dimension) {
+  constexpr std::array<std::string_view, 9> names = {"nCells",    "ncells",       "cell",
+                                                     "ncol",      "n_face",       "nMesh2_face",
+                                                     "grid_size", "elementCount", "cells"};
+  return std::ranges::find(names, dimension) != names.end();
+}
+
+bool is_name_of_time(std::string_view dimension) {
+  const std::string lower = io::lower_case(dimension);
   return lower == "time" || lower == "t" || lower == "times" || lower == "ntime" ||
          lower == "time_counter" || lower == "ocean_time" || lower == "record";
 }
 
-}  // namespace rondel::io
+}  // namespace rondel

@@ -45,11 +45,6 @@ bool is_in_radians(std::string_view name);
 // True if the variable has the name of a list of neighbors or corners in MPAS or ICON, or a cf_role
 // of such a list in UGRID.
 RONDEL_API bool is_connectivity(const VariableHeader& variable);
-// True if models give this name to the dimension of their cells.
-RONDEL_API bool is_name_of_cells(std::string_view dimension);
 // True if `name` is a usual name of the bounds of `coordinate`.
 bool is_name_of_bounds(std::string_view name, std::string_view coordinate);
-// True if the dimension has a usual name of time.
-RONDEL_API bool is_name_of_time(std::string_view name);
-
 }  // namespace rondel::io

@@ -178,7 +178,7 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
   for (std::size_t d = 0; d < lon.shape.size() && lon.shape.size() > 2; ++d) {
     if (d != corner) mesh.shape.push_back(lon.shape[d]);
   }
-  end_cells_of_nodes(lon.shape[corner], mesh.shape.empty(), mesh);
+  end_cells_of_nodes(lon.shape[corner], !has_rows(mesh.shape), mesh);
   take_mask(file, *chosen + ".msk", mesh.cells.size() - 1, MaskedBy::others, mesh);
   take_centers(file, centers, {&lon, &lat}, UsualUnits::degrees, mesh);
   return mesh;

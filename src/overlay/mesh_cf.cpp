@@ -323,7 +323,7 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
     mesh.nodes = corners_of_grid(mesh.nodes, last_two_of(lon_bounds.shape), mesh.centers,
                                  last_two_of(places.shape));
   }
-  end_cells_of_nodes(of_each, places.dimensions.size() < 2, mesh);
+  end_cells_of_nodes(of_each, !has_rows(places.shape), mesh);
   if (places.shape.size() > 1) mesh.shape = places.shape;
   return mesh;
 }

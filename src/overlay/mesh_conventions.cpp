@@ -179,7 +179,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
   if (const MeshVariable* const dims = file.find("grid_dims")) {
     mesh.shape = io::shape_of_grid(file, *dims, num_cells);
   }
-  end_cells_of_nodes(of_each, mesh.shape.size() < 2, mesh);
+  end_cells_of_nodes(of_each, !has_rows(mesh.shape), mesh);
   take_mask(file, "grid_imask", num_cells, MaskedBy::zero, mesh);
   take_centers(file, centers, {lon, lat}, UsualUnits::degrees, mesh);
   return mesh;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -96,6 +97,8 @@ bool is_missing_place(const LonLat& place);
 // Returns a place, with a latitude that rounding has put beyond a pole moved to the pole. Throws
 // BadValue, with i and the names of the variables, if the numbers are no place.
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);
+// True if more than one of the lengths is above 1: the cells of (1, n) are a list.
+bool has_rows(std::span<const std::uint64_t> shape);
 // Makes cells that have corners of their own: the nodes, `of_each` for each cell. If
 // `may_be_fewer`, missing nodes at the end of a cell are no corners.
 void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh);

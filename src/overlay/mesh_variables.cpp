@@ -4,6 +4,7 @@
 // Functions that the readers of all conventions share.
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "io/bad_value.h"
@@ -246,6 +247,10 @@ void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
   mesh.nodes = positions_of(file, nodes, centers, usual);
   mesh.names = io::in_quotes(nodes.lon->name) + " and " + io::in_quotes(nodes.lat->name);
   mesh.is_single = nodes.lon->type == io::NetcdfType::float32;
+}
+
+bool has_rows(std::span<const std::uint64_t> shape) {
+  return std::ranges::count_if(shape, [](std::uint64_t length) { return length > 1; }) > 1;
 }
 
 void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh) {

@@ -125,6 +125,11 @@ void test_repeated(ByteSource& source) {
   const std::vector<bool> repeated = repeated_dimensions(of_dimensions, shape, lon, lat);
   require(repeated.size() == shape.size(), "each dimension has an answer");
   require(shape.empty() || std::ranges::count(repeated, false) > 0, "one dimension is left");
+  for (std::size_t d = 0; d < shape.size(); ++d) {
+    const bool is_time = is_name_of_time(of_dimensions[d]);
+    require(!repeated[d] || shape[d] != 1 || is_time, "one place is no repetition but of time");
+    require(!is_time || !is_name_of_cells(of_dimensions[d]), "times are no cells");
+  }
 }
 
 void test_missing(ByteSource& source) {

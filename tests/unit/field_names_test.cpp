@@ -99,6 +99,19 @@ TEST(field_names, are_dates_by_the_units_and_calendars_of_cf) {
        "standard",
        {0.5, 24},
        {"1999-12-31T19:00:00", "2000-01-01T18:30:00"}},
+      // The example of CF, whose hour has one digit, and others of UDUNITS.
+      {"seconds since 1992-10-8 15:15:42 -6:00",
+       "",
+       {0, 18},
+       {"1992-10-08T21:15:42", "1992-10-08T21:16:00"}},
+      {"Hours Since 2000-01-01 00:00 -6",
+       "",
+       {0, 18.5},
+       {"2000-01-01T06:00:00", "2000-01-02T00:30:00"}},
+      {"hours since 2000-01-01 00:00 +530",
+       "",
+       {0.5, 24},
+       {"1999-12-31T19:00:00", "2000-01-01T18:30:00"}},
       // Half a second apart; a float32 that is off by less than a hundredth counts as a whole second.
       {"seconds since 1970-01-01",
        "",
@@ -167,14 +180,15 @@ TEST(field_names, are_dates_from_the_first_to_the_last_that_there_is) {
         axis("time", {0, 1}, {{"units", "s since " + start}, {"calendar", calendar}}));
     return found != Names{"0", "1"};
   };
-  for (const char* start : {"1583-1-1", "9999-12-1", "2001-12-31", "2000-2-29", "2001-1-1 23:59:59",
-                            "2001-1-1 0:0:0.0", "2001-1-1 0", "2001-1-1 0:0:0 UTC"}) {
+  for (const char* start :
+       {"1583-1-1", "9999-12-1", "2001-12-31", "2000-2-29", "2001-1-1 23:59:59", "2001-1-1 0:0:0.0",
+        "2001-1-1 0", "2001-1-1 0:0:0 UTC", "2001-1-1 0:0 +1"}) {
     EXPECT_TRUE(has_dates(start)) << start;
   }
   for (const char* start :
        {"1582-10-5", "1582-10-14", "10000-1-1", "2001-0-1", "2001-13-1", "2001-1-0", "2001-4-31",
         "2001-2-29", "1900-2-29", "2001-1-1 24", "2001-1-1 0:1440", "2001-1-1 0:0:0.5", "2001-1",
-        "2001-1-1 -1", "2001-1-1 0:0 +1", "2001-1-1 0:0 +05:60", "2001-1-1 0:0 CET"}) {
+        "2001-1-1 -1", "2001-1-1 -1:00", "2001-1-1 0:0 +05:60", "2001-1-1 0:0 CET"}) {
     EXPECT_FALSE(has_dates(start)) << start;
   }
   EXPECT_TRUE(has_dates("2001-2-30", "360_day"));
@@ -211,7 +225,9 @@ TEST(field_names, have_no_clock_where_all_times_are_midnight) {
 TEST(field_names, are_numbers_where_units_or_calendars_are_not_known) {
   for (const char* units :
        {"fortnights since 2000-01-01", "days since then", "days", "hPa", "days since 2000-13-01",
-        "days since 2000-02-30", "days since 2000-01-01 00:00:00 CET", "days since 1200-01-01"}) {
+        "days since 2000-02-30", "days since 2000-01-01 00:00:00 CET", "days since 1200-01-01",
+        "days since 2000-01-01 00:00 -15:00", "days since 2000-01-01 00:00 +0530:00",
+        "days since 2000-01-01 00:00 +5:60", "days since 2000-01-01 00:00 +00530"}) {
     EXPECT_EQ(places_on_axis(axis("time", {0.5, 1000}, {{"units", units}})), (Names{"0.5", "1000"}))
         << units;
   }

@@ -89,6 +89,17 @@ std::vector<std::string> names_of(const FieldSet& fields) {
   return names;
 }
 
+// A field without time whose coordinates have one, as WRF has them, on a square with its dimensions
+// in the other order.
+PlacedFile turned_file(const Numbers& later_lon) {
+  Numbers lon = {0, 10, 1, 11};
+  lon.insert(lon.end(), later_lon.begin(), later_lon.end());
+  return {{{"Time", 2}, {"x", 2}, {"y", 2}},
+          {{"XLONG", {0, 1, 2}, east, lon},
+           {"XLAT", {0, 1, 2}, north, {0, 1, 10, 11, 0, 1, 10, 11}},
+           {"HGT", {2, 1}, {{"coordinates", "XLONG XLAT"}}, {1, 2, 3, 4}}}};
+}
+
 class FieldPlaces : public testing::Test {
  protected:
   [[nodiscard]] std::string path() const { return directory_.file("f.nc"); }
@@ -117,6 +128,19 @@ class FieldPlaces : public testing::Test {
 };
 
 using Names = std::vector<std::string>;
+
+TEST_F(FieldPlaces, of_fields_without_time_may_repeat_along_time) {
+  turned_file({0, 10, 1, 11}).write(path());
+  for (const std::uint64_t num_points : {0U, 4U}) {
+    const FieldSet fields = read({"HGT"}, num_points);
+    ASSERT_EQ(fields.arrays.size(), 1U);
+    EXPECT_EQ(fields.arrays[0].values, (Numbers{1, 3, 2, 4}));  // in the order of the places
+    EXPECT_TRUE(fields.remarks.empty());
+  }
+  // Places that move have no field without time.
+  turned_file({0, 10, 1, 12}).write(path());
+  EXPECT_NE(refusal([&] { (void)read({"HGT"}); }), "");
+}
 
 TEST_F(FieldPlaces, of_another_grid_of_the_same_lengths_are_left_out_and_told) {
   staggered_file().write(path());

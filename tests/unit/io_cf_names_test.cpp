@@ -135,9 +135,9 @@ TEST(cf_names, say_what_variables_are) {
   EXPECT_FALSE(io::is_connectivity(variable_of("a", {"n"}, {{"cf_role", "mesh_topology"}})));
   for (const char* const name : {"nCells", "ncells", "cell", "ncol", "n_face", "nMesh2_face",
                                  "grid_size", "elementCount", "cells"}) {
-    EXPECT_TRUE(io::is_name_of_cells(name)) << name;
+    EXPECT_TRUE(is_name_of_cells(name)) << name;
   }
-  EXPECT_FALSE(io::is_name_of_cells("Cells") || io::is_name_of_cells("x"));
+  EXPECT_FALSE(is_name_of_cells("Cells") || is_name_of_cells("x"));
   for (const char* const end : {"_bnds", "_bounds", "_b", "_vertices", "_corners"}) {
     EXPECT_TRUE(io::is_name_of_bounds(std::string("lon") + end, "lon"));
     EXPECT_FALSE(io::is_name_of_bounds(std::string("lon") + end, "lat"));
@@ -149,9 +149,9 @@ TEST(cf_names, say_what_variables_are) {
   EXPECT_FALSE(io::is_name_of_bounds("lon", "lon"));
   for (const char* const name :
        {"time", "T", "Times", "ntime", "time_counter", "ocean_time", "RECORD"}) {
-    EXPECT_TRUE(io::is_name_of_time(name)) << name;
+    EXPECT_TRUE(is_name_of_time(name)) << name;
   }
-  EXPECT_FALSE(io::is_name_of_time("x") || io::is_name_of_time("tim"));
+  EXPECT_FALSE(is_name_of_time("x") || is_name_of_time("tim"));
   for (const char* const name :
        {"grid_longitude", "grid_latitude", "projection_x_coordinate", "projection_y_coordinate",
         "projection_x_angular_coordinate", "projection_y_angular_coordinate"}) {

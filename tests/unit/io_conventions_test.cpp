@@ -391,6 +391,32 @@ TEST(conventions, of_one_variable_are_those_of_its_own_attribute) {
   EXPECT_THROW((void)coordinates_of(headers, 6), InvalidInput);
 }
 
+TEST(conventions, values_without_time_have_coordinates_that_repeat_along_it) {
+  const std::vector<VariableHeader> headers = {
+      header("XLONG", {"Time", "y", "x"}, {{"units", "degree_east"}}),
+      header("XLAT", {"Time", "y", "x"}, {{"units", "degree_north"}}),
+      header("HGT", {"y", "x"}),
+      header("ZNU", {"x"}),
+      header("T2", {"Time", "y", "x"}),
+      header("lon", {"Time"}, {{"units", "degree_east"}}),
+      header("lat", {"Time"}, {{"units", "degree_north"}}),
+      header("depth", {"level", "x"})};
+  for (const std::size_t variable : {2U, 4U}) {
+    const std::vector<CoordinatePair> pairs = coordinates_of(headers, variable);
+    ASSERT_FALSE(pairs.empty());
+    const auto is_of_grid = [](const CoordinatePair& pair) {
+      return pair.lon == 0 && pair.lat == 1;
+    };
+    EXPECT_TRUE(std::ranges::any_of(pairs, is_of_grid)) << variable;
+    // A track in time is no place of a field without time.
+    const bool has_track =
+        std::ranges::any_of(pairs, [](const auto& pair) { return pair.lon == 5; });
+    EXPECT_EQ(has_track, variable == 4) << variable;
+  }
+  EXPECT_TRUE(coordinates_of(headers, 3).empty());
+  EXPECT_TRUE(coordinates_of(headers, 7).empty());
+}
+
 TEST(conventions, rotated_coordinates_have_no_unit) {
   VariableHeader rotated = header("rlon", {"rlon"}, {{"units", "degrees_east"}});
   rotated.texts.emplace_back("standard_name", "grid_longitude");

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -249,6 +250,31 @@ TEST(overlay_mesh_blocks, oasis_with_a_mask) {
   ASSERT_EQ(table.num_cells(), 6U);
   EXPECT_EQ(table.cells.cells, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(table.centers[4], (LonLat{15, 7.5}));
+}
+
+// Files of OASIS have lists of cells as grids of one row, or of one column. Their cells may end with
+// corners that are missing; on a grid of rows such a cell is left out.
+TEST(overlay_mesh_blocks, cells_of_oasis_in_one_row_may_have_fewer_corners) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [rows, columns] :
+       {std::pair<std::uint64_t, std::uint64_t>{1, 4}, {4, 1}, {2, 2}}) {
+    MeshWriter file;
+    const MeshWriter::Dimensions corners = {{"crn", 4}, {"y", rows}, {"x", columns}};
+    file.add("tri.lon", {{"y", rows}, {"x", columns}}, {3, 12, 23, 32});
+    file.add("tri.lat", {{"y", rows}, {"x", columns}}, {2, 4, 2, 4});
+    // The corners are the first dimension: the first ones of all cells, the second ones, ...
+    file.add("tri.clo", corners, {0, 10, 20, 30, 5, 15, 25, 35, 5, 15, 25, 35, none, 10, none, 30});
+    file.add("tri.cla", corners, {0, 0, 0, 0, 0, 0, 0, 0, 8, 8, 8, 8, none, 8, none, 8});
+    const CellTable table = cells_of_file(file);
+    ASSERT_EQ(table.num_cells(), 4U);
+    if (rows == 2) {
+      EXPECT_EQ(table.mask, (std::vector<std::int32_t>{0, 1, 0, 1}));
+      EXPECT_EQ(table.remarks.size(), 1U);
+    } else {
+      EXPECT_TRUE(table.mask.empty() && table.remarks.empty());
+      EXPECT_EQ(table.cells.rings, (std::vector<std::uint64_t>{0, 3, 7, 10, 14}));
+    }
+  }
 }
 
 TEST(overlay_mesh_blocks, oasis_corners_without_units_have_those_of_the_centers) {

@@ -117,6 +117,12 @@ void add_conventions(nb::module_& module) {
       },
       nb::arg("texts"));
   module.def(
+      "is_name_of_cells", [](const std::string& dimension) { return is_name_of_cells(dimension); },
+      nb::arg("dimension"));
+  module.def(
+      "is_name_of_time", [](const std::string& dimension) { return is_name_of_time(dimension); },
+      nb::arg("dimension"));
+  module.def(
       "repeated_dimensions",
       [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
          const NumbersIn& lon, const NumbersIn& lat) {

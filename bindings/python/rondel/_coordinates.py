@@ -97,6 +97,11 @@ class Coordinates:
         attrs = {**variable.attrs, "standard_name": standard_name, "units": units}
         return xarray.Variable(variable.dims, degrees, attrs)
 
+    def in_degrees(self) -> dict[Hashable, xarray.Variable]:
+        """The longitudes and latitudes with all dimensions that they have in the data, by name."""
+        names = (self.lon_name, self.lat_name)
+        return {name: self._read(name, self._units[k]) for k, name in enumerate(names)}
+
     def _drop_repeated(self, *, are_times: bool) -> None:
         """Takes the first along dimensions in which places do not change, as time of WRF."""
         flat = [
@@ -108,7 +113,7 @@ class Coordinates:
         first = {
             dim: 0
             for dim, is_same in zip(self.lon.dims, repeated, strict=True)
-            if is_same and (_is_time(str(dim)) or not are_times)
+            if is_same and (_core.is_name_of_time(str(dim)) or not are_times)
         }
         self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
 
@@ -161,11 +166,6 @@ class Coordinates:
             first_dims = variable.dims
             made.append(np.asarray(variable.values, np.float64) * unit)
         return made
-
-
-def _is_time(name: str) -> bool:
-    """Whether the library takes a dimension of this name for time: it drops one place of it."""
-    return _core.repeated_dimensions([name, "place"], [1, 2], np.array([0.0, 1]), np.zeros(2))[0]
 
 
 def parts_of_grids(data: Any) -> set[str]:

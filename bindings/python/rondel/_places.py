@@ -102,11 +102,15 @@ class Places:
     def require_same(self, data: Any) -> None:
         """Refuses data that have coordinates of the same names with other values."""
         known = data.variables if isinstance(data, xarray.Dataset) else data.coords
-        for name in self.coordinates:
-            own = self._data[name]
+        try:
+            there = Coordinates(data, self._found.lon_name, self._found.lat_name).in_degrees()
+        except ValueError:
+            there = {}  # the data have one of them, or none
+        for name, own in self._found.in_degrees().items():
             if name not in known or (own.dims, own.shape) != (known[name].dims, known[name].shape):
                 continue
-            away = np.asarray(known[name].values, np.float64) - np.asarray(own.values, np.float64)
+            other = there.get(name, known[name])
+            away = np.asarray(other.values, np.float64) - np.asarray(own.values, np.float64)
             away -= 360 * np.round(away / 360)
             if not np.all((np.abs(away) <= MOST_APART) | np.isnan(away)):
                 raise ValueError(
@@ -155,12 +159,19 @@ class Places:
         if self._partition is None or set(self.dims) <= set(data.dims):
             return data, self
         is_array = isinstance(data, xarray.DataArray)
-        if is_array and data.shape[-len(self.shape) :] == self.shape:
+        if is_array and len(self.shape) > 1 and data.shape[-len(self.shape) :] == self.shape:
             return data, self
-        found = [
-            dim for dim in (data.dims[-1:] if is_array else data.sizes) if data.sizes[dim] == n
-        ]
-        if len(found) != 1:
+        found = [dim for dim in data.sizes if data.sizes[dim] == n]
+        if len(found) > 1:
+            found = [dim for dim in found if not _core.is_name_of_time(str(dim))]
+        named = [dim for dim in found if _core.is_name_of_cells(str(dim))]
+        found = named if len(named) == 1 else found
+        if len(found) > 1:
+            raise ValueError(
+                f"{' and '.join(map(repr, found))} are dimensions of {n:,}, as many as the source "
+                "has cells: rename the one of the cells to 'cell'"
+            )
+        if not found:
             return data, self
         flat = Partition._of(
             self._partition._partition, self._partition._mask, file_centers=self.pairs()

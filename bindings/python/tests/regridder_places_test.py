@@ -241,3 +241,59 @@ def test_masked_arrays_keep_their_type():
     assert found.dtype == np.float32
     np.testing.assert_array_equal(found, regridder(np.ma.filled(masked, np.nan)))
     assert regridder(np.ma.masked_less(field.astype("i4"), 0)).dtype == np.float64
+
+
+def test_the_cells_of_a_partition_are_a_dimension_by_name_or_length():
+    cells = rondel.Partition.voronoi(
+        rondel.delaunay(rondel.unit_vectors([0, 90, 200, 10], [0, 5, 0, 70]))
+    )
+    regridder = rondel.Regridder(cells, rondel.lonlat_grid(6, 3), "conservative")
+    values = np.array([1.0, 2, 4, 8])
+    right = regridder(values)
+    for levels in (3, 4):  # as many levels as cells, too
+        columns = values[:, None] + 100 * np.arange(levels)
+        for name in ("nCells", "ncol", "cell", "cells"):
+            data = xarray.DataArray(columns, dims=(name, "nVertLevels"), name="t")
+            for turned in (data, data.T):
+                for found in (regridder(turned), regridder(turned.to_dataset()).t):
+                    assert found.dims == ("nVertLevels", *found.dims[1:])
+                    np.testing.assert_allclose(found.values[0], right, rtol=1e-14)
+    for dims in (("a", "b"), ("ncol", "nCells")):
+        data = xarray.DataArray(np.zeros((4, 4)), dims=dims, name="t")
+        for given in (data, data.to_dataset()):
+            with pytest.raises(
+                ValueError, match=f"'{dims[0]}' and '{dims[1]}' are dimensions of 4"
+            ):
+                regridder(given)
+    # Times are no cells; one other dimension of the length is that of the cells by any name.
+    found = regridder(xarray.DataArray(np.outer(np.arange(4), values), dims=("time", "a")))
+    np.testing.assert_allclose(found.values[2], 2 * right, rtol=1e-14)
+    found = regridder(xarray.DataArray(np.outer(values, np.arange(3)), dims=("a", "b")))
+    np.testing.assert_allclose(found.values[2], 2 * right, rtol=1e-14)
+
+
+def test_coordinates_in_radians_are_those_in_degrees(tmp_path):
+    grid = rondel.lonlat_grid(6, 3)
+    lon, lat = np.meshgrid(np.arange(-150.0, 180, 60), np.arange(-60.0, 61, 60))
+    regridder = rondel.Regridder(grid, rondel.lonlat_grid(3, 2), "conservative")
+    data = np.arange(18.0).reshape(3, 6)
+    right = regridder(data)
+
+    def labeled(shift, units):
+        """The data with coordinates of the names that the grid has."""
+        scale = np.pi / 180 if units else 1
+        attrs = [{"units": units}] * 2 if units else [EAST, NORTH]
+        coords = {
+            "lat": (("y", "x"), (lat + shift) * scale, attrs[1]),
+            "lon": (("y", "x"), lon * scale, attrs[0]),
+        }
+        return xarray.DataArray(data, coords, ("y", "x"), "t")
+
+    for units in ("", "radian", "radians", "rad"):
+        here = labeled(0, units)
+        for given in (here, here.to_dataset()):
+            found = regridder(given)
+            found = found.t if hasattr(found, "data_vars") else found
+            np.testing.assert_array_equal(found.values, right)
+        with pytest.raises(ValueError, match=r"places of the source|not that of the source"):
+            regridder(labeled(1, units))
