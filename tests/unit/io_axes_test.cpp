@@ -127,6 +127,30 @@ TEST(axes, have_the_lines_that_bounds_say_in_every_form) {
   }
 }
 
+TEST(axes, of_narrow_cells_go_across_the_first_meridian) {
+  const Doubles centers = {359.875, 0.125, 0.375};
+  EXPECT_TRUE(are_same(axis_lines(centers, Doubles{359.75, 360, 0, 0.25, 0.25, 0.5}, true),
+                       {-0.25, 0, 0.25, 0.5}, true));
+  EXPECT_TRUE(
+      are_same(axis_lines(reversed(centers), Doubles{0.25, 0.5, 0, 0.25, 359.75, 360}, true),
+               {0.5, 0.25, 0, -0.25}, true));
+}
+
+// A coordinate of single precision may be beside a cell that is narrower than its rounding.
+TEST(axes, may_be_beside_their_cells_by_rounding) {
+  const Doubles bounds = {99.999995, 100.000005, 100.000005, 100.000015};
+  for (const bool is_longitude : {false, true}) {
+    const double moved = is_longitude ? 0 : -50;
+    Doubles there = bounds;
+    for (double& x : there) x += moved;
+    EXPECT_EQ(axis_lines(Doubles{100.00005 + moved, 100.00006 + moved}, there, is_longitude).size(),
+              3U);
+    EXPECT_THROW(
+        (void)axis_lines(Doubles{100.0003 + moved, 100.00031 + moved}, there, is_longitude),
+        InvalidInput);
+  }
+}
+
 TEST(axes, without_bounds_have_lines_halfway) {
   Random random(6);
   for (int k = 0; k < 4000; ++k) {

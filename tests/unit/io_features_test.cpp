@@ -88,6 +88,8 @@ TEST(geojson_features, may_go_around_a_pole) {
   EXPECT_TRUE(ring("[180,60]").is_turn);
   EXPECT_TRUE(ring("[540,60]").is_turn);
   EXPECT_FALSE(ring("[-180,60]").is_turn);
+  EXPECT_TRUE(
+      read(geometry("Polygon", "[[[10,60],[130,60],[250,60],[370,60]]]")).rings[0][0].is_turn);
   EXPECT_EQ(ring("[180,60]").positions, (Ring{{-180, 60}, {-60, 60}, {60, 60}}));
   for (const char* const last : {"[180,61]", "[179,60]", "[-180,59]"}) {
     EXPECT_EQ(refusal_of_features(
