@@ -15,8 +15,11 @@ rondel_add_test(cells_test
   map_faces_test.cpp
   map_mending_test.cpp
   map_nested_test.cpp
+  map_planar_faces_test.cpp
+  map_planar_loops_test.cpp
   map_plane_test.cpp
   map_polygon_test.cpp
   map_region_test.cpp
   map_trace_test.cpp
+  map_troubles_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
