@@ -12,6 +12,7 @@ rondel_add_test(cells_test
   cells_settled_test.cpp
   cells_tips_test.cpp
   cells_write_test.cpp
+  map_cells_test.cpp
   map_faces_test.cpp
   map_mending_test.cpp
   map_nested_test.cpp
@@ -20,6 +21,7 @@ rondel_add_test(cells_test
   map_plane_test.cpp
   map_polygon_test.cpp
   map_region_test.cpp
+  map_ring_area_test.cpp
   map_trace_test.cpp
   map_troubles_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
