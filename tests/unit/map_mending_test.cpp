@@ -159,6 +159,33 @@ TEST(mending, divides_lines_at_their_crossing_at_last) {
   expect_mended({Kind::crossing, a, b, c, {40, -90}}, {{a, b, c}});
 }
 
+// The ends of a short line have feet on a long line, and its ends have none on the short one. The long line is divided at the
+// first foot, and nothing else changes.
+TEST(mending, divides_a_long_line_at_the_foot_of_a_short_one) {
+  const LonLat a{0, 0};
+  const LonLat b{40, 0};
+  const LonLat c{19, 4};
+  const LonLat d{21, -2};
+  expect_mended({Kind::crossing, a, b, c, d}, {{a, b, {19, 0}}});
+  expect_mended({Kind::crossing, a, b, d, c}, {{a, b, {21, 0}}});
+  expect_mended({Kind::crossing, c, d, a, b}, {{a, b, {19, 0}}});
+  expect_mended({Kind::crossing, d, c, a, b}, {{a, b, {21, 0}}});
+}
+
+// Next to a pole, ends are near on the sphere and far apart on the map. They are not merged, and the lines are aligned.
+TEST(mending, aligns_lines_whose_near_ends_it_cannot_merge) {
+  const LonLat a{0, 90 - 1e-13};
+  const LonLat b{30, 0};
+  const LonLat c{40, 90 - 1e-13};
+  const LonLat d{-10, 20};
+  map::SharedLines lines;
+  map::Mending mending(lines, 0);
+  mending.mend({Kind::crossing, a, b, c, d});
+  ASSERT_EQ(mending.changes().size(), 1U);
+  EXPECT_FALSE(mending.changes()[0].is_merge);
+  EXPECT_NEAR(mending.changes()[0].position.lat_deg, foot_latitude(20, 40), 1e-9);
+}
+
 TEST(mending, merges_ends_within_reach) {
   const LonLat a{10, 20};
   const LonLat near{10, 20 + 1e-13};

@@ -63,6 +63,16 @@ TEST(polygons_of, a_ring_that_touches_itself_is_divided) {
   EXPECT_EQ(rings_of(closed_trace(many)), (std::vector<WrittenLoop>{arm, left}));
 }
 
+// Three petals around (0, 0), which the ring visits three times.
+TEST(polygons_of, a_ring_that_touches_itself_twice_in_one_place_is_divided) {
+  const WrittenLoop petals = {{0, 0},  {4, -1}, {4, 1},  {0, 0},  {1, 4},
+                              {-1, 4}, {0, 0},  {-4, 1}, {-4, -1}};
+  EXPECT_EQ(rings_of(closed_trace(petals)),
+            (std::vector<WrittenLoop>{{{0, 0}, {4, -1}, {4, 1}, {0, 0}},
+                                      {{0, 0}, {1, 4}, {-1, 4}, {0, 0}},
+                                      {{0, 0}, {-4, 1}, {-4, -1}, {0, 0}}}));
+}
+
 TEST(polygons_of, sides_that_go_back_are_removed) {
   const WrittenLoop ring = {{0, 0}, {4, 0}, {4, 4}, {0, 0}};
   EXPECT_EQ(rings_of(closed_trace({{0, 0}, {4, 0}, {6, 0}, {4, 0}, {4, 4}})),
@@ -138,6 +148,18 @@ TEST(polygons_of, nearly_all_of_the_map_is_nothing) {
   const map::Trace half = trace_of_chains({{{-180, 10}, {0, -10}, {180, 10}}}, true);
   EXPECT_EQ(rings_of(half).size(), 1U);
   EXPECT_EQ(map::drawn_loops(half).size(), 1U);
+}
+
+// All but the strip between longitudes -1 and 1 are two loops; each covers less than half of the map, and both together
+// nearly all of it.
+TEST(polygons_of, two_loops_are_nearly_all_of_the_map_together) {
+  const map::Trace trace = trace_of_chains({{{-1, -90}, {-1, 90}}, {{1, 90}, {1, -90}}}, true);
+  EXPECT_TRUE(rings_of(trace).empty());
+  EXPECT_TRUE(map::is_turned_over(trace));
+  EXPECT_EQ(map::drawn_loops(trace),
+            (std::vector<WrittenLoop>{{{-1, -90}, {-1, 90}, {-180, 90}, {-180, -90}},
+                                      {{1, 90}, {1, -90}, {180, -90}, {180, 90}},
+                                      {{-180, 90}, {180, 90}, {180, -90}, {-180, -90}}}));
 }
 
 double total_doubled_area(const std::vector<map::Loop>& loops) {

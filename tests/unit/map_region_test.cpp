@@ -259,6 +259,42 @@ TEST(map_regions, without_rings_are_the_whole_map) {
   EXPECT_EQ(map::draw_region({}, 0.1).border, map::BorderKnowledge::is_known);
 }
 
+// The ring of a place and back encloses nothing.
+TEST(map_regions, rings_of_two_points_are_nothing) {
+  const std::vector<Point> ring = {place_on_sphere(10, 0), place_on_sphere(20, 0),
+                                   place_on_sphere(20, 10)};
+  const std::vector<Point> line = {place_on_sphere(40, 0), place_on_sphere(60, 30)};
+  EXPECT_EQ(loops_of_rings({ring, line}), loops_of_rings({ring}));
+  EXPECT_TRUE(loops_of_rings({line}).empty());
+  const std::vector<map::UnitVectors> spans = {line};
+  EXPECT_EQ(map::draw_region(spans, 0.1).border, map::BorderKnowledge::seems_outside);
+}
+
+// A triangle and all but it, in the middle of the map, across the antimeridian and around a pole. The tolerance is large, so
+// that the loops are those of the corners.
+TEST(map_regions, of_a_triangle_and_all_but_it) {
+  const std::vector<LonLat> corners = {{10, 0}, {20, 0}, {20, 10}};
+  const auto inside = coarse_loops({corners});
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_TRUE(is_nearly(inside[0], corners));
+  const auto outside = coarse_loops({{corners[2], corners[1], corners[0]}});
+  ASSERT_EQ(outside.size(), 2U);
+  EXPECT_TRUE(is_nearly(outside[0], {corners[2], corners[1], corners[0]}));
+  EXPECT_EQ(outside[1], map::border_loop());
+  const std::vector<LonLat> around_pole = {{0, 80}, {120, 80}, {-120, 80}};
+  const auto cap = coarse_loops({around_pole});
+  ASSERT_EQ(cap.size(), 1U);
+  EXPECT_EQ(std::ranges::count(cap[0], LonLat{180, 90}), 1);
+  EXPECT_EQ(std::ranges::count(cap[0], LonLat{-180, 90}), 1);
+  EXPECT_EQ(times_around(cap, {33, 89}), 1);
+  EXPECT_EQ(times_around(cap, {33, -89}), 0);
+  const auto rest = coarse_loops({{around_pole[2], around_pole[1], around_pole[0]}});
+  ASSERT_EQ(rest.size(), 1U);
+  EXPECT_EQ(std::ranges::count(rest[0], LonLat{180, -90}), 1);
+  EXPECT_EQ(times_around(rest, {33, 89}), 0);
+  EXPECT_EQ(times_around(rest, {33, -89}), 1);
+}
+
 TEST(line_parts, are_cut_at_the_antimeridian) {
   const std::vector<Point> line = {place_on_sphere(170, 0), place_on_sphere(-170, 0),
                                    place_on_sphere(-170, 0), place_on_sphere(-160, 0)};
