@@ -142,6 +142,9 @@ TEST(trace, lines_are_cut) {
   expect_positions(over, {{10, -20}, {10, 90}, {-170, 90}, {-170, 70}});
   expect_positions(traced_line({{0, 90}, {30, 40}}), {{30, 90}, {30, 40}});
   expect_positions(traced_line({{30, 40}, {0, 90}}), {{30, 40}, {30, 90}});
+  const map::Trace from_pole = traced_line({{0, 90}, {170, 20}, {-170, 20}});
+  expect_positions(from_pole, {{170, 90}, {170, 20}, {180, lat}, {-180, lat}, {-170, 20}});
+  EXPECT_EQ(from_pole.starts, (Starts{0, 3}));
   // An arc that passes the pole at a distance is cut nowhere but at the antimeridian.
   EXPECT_EQ(traced_line({{10, 80}, {100, 80}}).points.size(), 2U);
   EXPECT_EQ(traced_line({{10, 80}, {-169.999, 80}}).points.size(), 2U);
