@@ -9,6 +9,7 @@ rondel_add_test(interpolation_test
   LIBS rondel_remap rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_natural_test
+  interpolation_natural_cell_test.cpp
   interpolation_natural_laws_test.cpp
   interpolation_natural_test.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/natural_oracle.cpp

@@ -129,6 +129,17 @@ TEST(planar_loops, a_walk_that_visits_positions_twice_is_divided) {
   EXPECT_EQ(doubled, expected);
 }
 
+// Two holes that touch their ring in (6, 0), where one walk through the region comes by three times.
+TEST(planar_loops, a_ring_that_two_holes_touch_in_one_corner_is_divided) {
+  const Loop ring = {{-6, -6}, {6, 0}, {-6, 6}};
+  const Loop north = {{6, 0}, {2, 0.5}, {2, 1.5}};
+  const Loop south = {{6, 0}, {2, -1.5}, {2, -0.5}};
+  const std::vector<Loop> loops = map::traced_loops(sides_of({ring, north, south}));
+  ASSERT_EQ(loops.size(), 3U);
+  for (const Loop& expected : {ring, north, south})
+    EXPECT_NE(std::ranges::find(loops, expected), loops.end());
+}
+
 // A ring with two holes, and an island in one of them that has a hole itself.
 TEST(planar_loops, become_polygons_with_their_holes) {
   const Loop ring = box(0, 20, 0, 10);

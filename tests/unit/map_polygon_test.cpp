@@ -63,14 +63,19 @@ TEST(polygons_of, a_ring_that_touches_itself_is_divided) {
   EXPECT_EQ(rings_of(closed_trace(many)), (std::vector<WrittenLoop>{arm, left}));
 }
 
-// Three petals around (0, 0), which the ring visits three times.
+// Three petals around (0, 0), which the ring visits three times, wherever it begins.
 TEST(polygons_of, a_ring_that_touches_itself_twice_in_one_place_is_divided) {
-  const WrittenLoop petals = {{0, 0},  {4, -1}, {4, 1},  {0, 0},  {1, 4},
-                              {-1, 4}, {0, 0},  {-4, 1}, {-4, -1}};
+  WrittenLoop petals = {{0, 0},  {4, -1}, {4, 1},  {0, 0},  {1, 4},
+                        {-1, 4}, {0, 0},  {-4, 1}, {-4, -1}};
   EXPECT_EQ(rings_of(closed_trace(petals)),
             (std::vector<WrittenLoop>{{{0, 0}, {4, -1}, {4, 1}, {0, 0}},
                                       {{0, 0}, {1, 4}, {-1, 4}, {0, 0}},
                                       {{0, 0}, {-4, 1}, {-4, -1}, {0, 0}}}));
+  std::rotate(petals.begin(), petals.begin() + 1, petals.end());
+  EXPECT_EQ(rings_of(closed_trace(petals)),
+            (std::vector<WrittenLoop>{{{0, 0}, {1, 4}, {-1, 4}, {0, 0}},
+                                      {{0, 0}, {-4, 1}, {-4, -1}, {0, 0}},
+                                      {{4, -1}, {4, 1}, {0, 0}, {4, -1}}}));
 }
 
 TEST(polygons_of, sides_that_go_back_are_removed) {

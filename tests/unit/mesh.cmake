@@ -3,6 +3,7 @@
 rondel_add_test(mesh_test
   mesh_arrays_test.cpp
   mesh_border_test.cpp
+  mesh_cell_corners_test.cpp
   mesh_cull_test.cpp
   mesh_files_test.cpp
   mesh_quality_test.cpp

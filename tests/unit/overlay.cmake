@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
+  overlay_filling_test.cpp
   overlay_flips_test.cpp
   overlay_grid_test.cpp
   overlay_hostile_test.cpp
@@ -13,6 +14,7 @@ rondel_add_test(overlay_test
   overlay_oracle.cpp
   overlay_overlaps_test.cpp
   overlay_parts_test.cpp
+  overlay_pieces_test.cpp
   overlay_plane_test.cpp
   overlay_polar_test.cpp
   overlay_poles_test.cpp
@@ -21,6 +23,9 @@ rondel_add_test(overlay_test
   overlay_remap_test.cpp
   overlay_rings_test.cpp
   overlay_shapes.cpp
+  overlay_snaps_test.cpp
+  overlay_subdivision_test.cpp
+  overlay_sweep_test.cpp
   overlay_thin_test.cpp
   overlay_touching_test.cpp
   overlay_trial.cpp
