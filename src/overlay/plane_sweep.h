@@ -29,8 +29,8 @@ struct PlaneSide {
 enum class PlaneFaultKind : std::uint8_t {
   crossing,  // sides of two rings cross, or two sides of one ring
   overlap,   // the second ring's polygon lies in the polygon of the first ring
-  // The second ring is a hole that does not lie in its shell, or that lies in another hole, the
-  // first ring.
+  // The second ring is a hole that lies in another hole, the first ring, or one that does not lie in
+  // its shell; then the first ring is one of another polygon around the place, or no_index.
   outside,
   no_area,  // all sides of the ring cancel
   filled,   // the holes of the ring, a shell, leave nothing of it

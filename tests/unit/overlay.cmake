@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
+  overlay_arcs_test.cpp
   overlay_filling_test.cpp
   overlay_flips_test.cpp
   overlay_grid_test.cpp
@@ -8,6 +9,7 @@ rondel_add_test(overlay_test
   overlay_inside_cases_test.cpp
   overlay_inside_plane_test.cpp
   overlay_inside_test.cpp
+  overlay_measure_test.cpp
   overlay_mesh_blocks_test.cpp
   overlay_mesh_faults_test.cpp
   overlay_mesh_files_test.cpp

@@ -11,14 +11,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <vector>
 
-#include "overlay/pieces.h"
 #include "exact/vector.h"
+#include "overlay/measure.h"
+#include "overlay/pieces.h"
 #include "overlay/subdivision.h"
+#include "overlay_support.h"
 #include "rondel/error.h"
 
 namespace rondel::test::of_pieces {
@@ -141,6 +144,92 @@ TEST(overlay_pieces, of_parts_that_overlap_are_refused) {
   const Subdivision overlapping(both, false, 1);
   EXPECT_THROW(overlay::pieces_of_parts(octants, octant_sizes, overlapping, false, {}),
                InvalidInput);
+}
+
+// The sides of a cube in four by four cells each, turned by some axes.
+CellRings cube_cells(const Point& a, const Point& b, const Point& c) {
+  CellRings cells;
+  const auto add = [&](const Point& p) {
+    const auto at = std::ranges::find(cells.points, p);
+    cells.corners.push_back(static_cast<Index>(at - cells.points.begin()));
+    if (at == cells.points.end()) cells.points.push_back(p);
+  };
+  for (const auto& [front, right, up] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
+    for (const double side : {1.0, -1.0}) {
+      // Lines are at the tangents of equal angles, or their negatives, so that neighbors have equal corners.
+      constexpr std::array<double, 5> lines{-1, -0.4, 0, 0.4, 1};
+      const auto corner = [&](std::size_t i, std::size_t k) {
+        const Point p = side * front + lines[i] * right + lines[k] * up;
+        const Point rounded = normalized(p);
+        const double steps = 0x1p40;
+        return normalized(Point{std::round(rounded.x * steps) / steps,
+                                std::round(rounded.y * steps) / steps,
+                                std::round(rounded.z * steps) / steps});
+      };
+      for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+          std::array<Point, 4> ring = {corner(i, k), corner(i + 1, k), corner(i + 1, k + 1),
+                                       corner(i, k + 1)};
+          if (side < 0) std::ranges::reverse(ring);
+          std::ranges::for_each(ring, add);
+          cells.rings.push_back(cells.corners.size());
+          cells.cells.push_back(cells.rings.size() - 1);
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+LongRing ring_of_cell(const CellRings& cells, std::size_t i) {
+  LongRing ring;
+  for (std::uint64_t k = cells.rings[i]; k < cells.rings[i + 1]; ++k)
+    ring.push_back(long_vector(cells.points[cells.corners[k]]));
+  return ring;
+}
+
+// Small cells, whose pieces are found in the other way, by clipping one cell by the other.
+TEST(overlay_pieces, of_cells_on_a_cube) {
+  const CellRings given = cube_cells({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  const Point a = normalized(Point{0.8, 0.5, -0.3});
+  const Point b = normalized(cross(a, Point{0.1, 0.2, 1}));
+  const CellRings turned = cube_cells(a, b, cross(a, b));
+  const Subdivision cells(given, false, 1);
+  const Subdivision cover(turned, false, 1);
+  ASSERT_TRUE(cells.is_closed);
+  ASSERT_TRUE(cover.is_closed);
+  std::vector<double> areas;
+  std::vector<Point> moments;
+  for (std::size_t i = 0; i < 96; ++i) {
+    areas.push_back(static_cast<double>(area_of(ring_of_cell(given, i))));
+    Point moment{};
+    for (std::uint64_t k = given.rings[i]; k < given.rings[i + 1]; ++k) {
+      const std::uint64_t next = k + 1 < given.rings[i + 1] ? k + 1 : given.rings[i];
+      moment = moment + overlay::moment_of_arc(given.points[given.corners[k]],
+                                               given.points[given.corners[next]]);
+    }
+    moments.push_back(moment);
+  }
+  const std::vector<double> lengths(96, 2);
+  const PieceRows found = overlay::pieces(cells, {areas, lengths}, cover, true, {});
+  for (std::size_t i = 0; i < 96; ++i) {
+    Point moment{};
+    std::uint64_t k = found.offsets[i];
+    for (Index j = 0; j < 96; ++j) {
+      LongRing ring = ring_of_cell(given, i);
+      const LongRing other = ring_of_cell(turned, j);
+      for (std::size_t side = 0; side < 4; ++side)
+        ring = clipped(ring, other[side], other[(side + 1) % 4]);
+      const bool has_piece = k < found.offsets[i + 1] && found.columns[k] == j;
+      EXPECT_NEAR(has_piece ? found.areas[k] : 0, static_cast<double>(area_of(ring)), 1e-14)
+          << i << ' ' << j;
+      if (!has_piece) continue;
+      moment = moment + found.moments[k];
+      ++k;
+    }
+    EXPECT_EQ(k, found.offsets[i + 1]);
+    EXPECT_LT(norm(moment - moments[i]), 1e-14) << i;
+  }
 }
 
 // Three rows and four columns:   . 1 . 2      Columns become rows, with ascending columns.

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "exact/vector.h"
@@ -113,6 +114,11 @@ TEST(snaps, divide_a_side_at_several_corners) {
   Sides expected = path;
   std::ranges::sort(expected);
   EXPECT_EQ(found, expected);
+  Sides back = snaps.applied(Sides{{1, 0, a}});
+  std::ranges::sort(back);
+  for (OwnedSide& side : expected) std::swap(side.from, side.to);
+  std::ranges::sort(expected);
+  EXPECT_EQ(back, expected);
 }
 
 // A triangle no higher than rounding: its sides cancel.

@@ -184,6 +184,24 @@ TEST(subdivision, tells_the_shapes_of_cells) {
   EXPECT_EQ(shape_of(twice), Shape::other);
 }
 
+// Squares around one center, which the curve cannot tell apart, are in the order of their least corners.
+TEST(subdivision, cells_with_one_center_have_one_order) {
+  std::vector<Point> points;
+  for (const double half : {1.0, 2.0, 3.0}) {
+    for (const auto& [east, north] :
+         {std::array{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+      points.push_back(near_x(east, north));
+  }
+  std::vector<Rings> squares = {{{0, 1, 2, 3}}, {{4, 5, 6, 7}}, {{8, 9, 10, 11}}};
+  const Subdivision expected(cells_of(points, squares), false, 1);
+  EXPECT_EQ(expected.keys[0], expected.keys[2]);
+  EXPECT_TRUE(std::ranges::equal(expected.names, std::vector<Index>{2, 1, 0}));
+  std::ranges::reverse(squares);
+  const Subdivision other(cells_of(points, squares), false, 1);
+  EXPECT_TRUE(std::ranges::equal(other.names, std::vector<Index>{0, 1, 2}));
+  EXPECT_TRUE(other.points == expected.points);
+}
+
 // A frame with an island of its own, a cell without a ring, and the hole of the frame.
 TEST(subdivision, knows_the_areas_of_cells_with_several_rings) {
   std::vector<Point> points;
