@@ -3,5 +3,6 @@
 rondel_add_test(contours_test
   contours_field_test.cpp
   contours_map_test.cpp
+  contours_pieces_test.cpp
   contours_topology_test.cpp
   LIBS rondel_remap rondel_test_support nlohmann_json::nlohmann_json)

@@ -4,6 +4,7 @@ rondel_add_test(interpolation_test
   interpolation_errors_test.cpp
   interpolation_linear_test.cpp
   interpolation_places_test.cpp
+  interpolation_rings_test.cpp
   interpolation_rules_test.cpp
   interpolation_weights_test.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)

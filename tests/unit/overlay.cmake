@@ -4,6 +4,7 @@ rondel_add_test(overlay_test
   overlay_arcs_test.cpp
   overlay_filling_test.cpp
   overlay_flips_test.cpp
+  overlay_graticule_test.cpp
   overlay_grid_test.cpp
   overlay_hostile_test.cpp
   overlay_inside_cases_test.cpp
