@@ -24,7 +24,9 @@ NEGATION = re.compile(r"(?<=[( ])!(?=[\w(])")
 # Streams, prefetches and sizes of pieces of work change no result; what the first of these lines declare is known to the
 # compiler alone.
 WITHOUT_EFFECT = re.compile(r"^\s*#|^\s*(using|namespace|template|static_assert|friend)\b|prefetch|reserve\(|assert\(|^\}"
-                            r"|(grain|_per_(piece|block|task|step)|of_a_piece) = ")
+                            r"|(grain|_per_(piece|block|task|step|wave)|of_a_piece) = ")
+# A variable whose initial value nobody reads: the next mention of it is its address, where a call puts the value.
+INITIAL = re.compile(r"^\s*[\w:]+ (\w+) = [\w.]+;$")
 TEXT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", re.S)
 
 
@@ -42,6 +44,15 @@ def other_number(text, generator):
     return str(generator.choice([value + 1, value - 1] if value > 0 else [1]))
 
 
+def is_overwritten(line, rest):
+    """Whether the line gives a variable a value that the rest of the code replaces first."""
+    found = INITIAL.match(line)
+    if found is None:
+        return False
+    mention = re.search(rf"(&?)\b{found[1]}\b", rest)
+    return mention is not None and mention[1] == "&"
+
+
 def changes(source, generator):
     """All changes of a source, (line number from 1, begin, end, new text), one for each place."""
     code = blanked(source)
@@ -49,7 +60,7 @@ def changes(source, generator):
     result = []
     for number, begin in enumerate(begins, 1):
         line = code[begin:code.find("\n", begin) if "\n" in code[begin:] else len(code)]
-        if WITHOUT_EFFECT.search(line):
+        if WITHOUT_EFFECT.search(line) or is_overwritten(line, code[begin + len(line):]):
             continue
         for pattern, other in (
             (BINARY, lambda text: generator.choice(OPERATORS[text])),

@@ -31,6 +31,22 @@ TEST(atomic_file, appears_complete) {
   EXPECT_EQ(directory.num_files(), 1U);
 }
 
+TEST(atomic_file, is_closed_whatever_becomes_of_it) {
+  const TemporaryDirectory directory;
+  const auto num_open = [] {
+    const std::filesystem::directory_iterator open("/proc/self/fd");
+    return std::distance(begin(open), end(open));
+  };
+  const auto before = num_open();
+  for (int round = 0; round < 3; ++round) {
+    AtomicFile file(directory.file("a.txt"));
+    EXPECT_EQ(num_open(), before + 1);
+    file.write("text");
+    if (round > 0) file.commit();
+  }
+  EXPECT_EQ(num_open(), before);
+}
+
 TEST(atomic_file, has_the_length_that_is_written_not_the_expected_one) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("a.txt");

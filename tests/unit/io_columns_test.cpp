@@ -212,6 +212,8 @@ TEST(csv_reader, names_lines_that_are_wrong) {
             "2: 4 fields where the header has 2; is the comma both delimiter and decimal point?");
   EXPECT_EQ(message_of_table("lon,lat\n# 1\n"),
             "2: 1 field where the header has 2; a table has no lines of comments");
+  EXPECT_EQ(message_of_table("lon,lat\n# by ship, in May, 2001\n"),
+            "2: 3 fields where the header has 2; a table has no lines of comments");
   EXPECT_EQ(message_of_table("lon,lat\n1,2\n3,x\n"), "3: latitude \"x\" is not a number");
   EXPECT_EQ(message_of_table("x,y,z\n1,,3\n"), "2: y is empty");
   EXPECT_EQ(message_of_table("lon,lat,a,a\n1,2,3,4\n"),
