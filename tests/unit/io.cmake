@@ -28,6 +28,7 @@ rondel_add_test(io_test
   io_sites_test.cpp
   io_triangles_test.cpp
   io_unpacked_test.cpp
+  io_utf8_test.cpp
   io_wide_integers_test.cpp
   io_zarr_test.cpp
   io_zip_test.cpp
