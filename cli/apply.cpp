@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel apply: multiplies fields at the sources of a file of weights by these weights.
+// in    the weights, and fields at their sources: netCDF, .npy, or a table with a row a source
+// out   the same fields at the targets, in the format of OUTPUT
+// index sources: the columns of the weights; targets: their rows
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,10 +22,13 @@
 namespace rondel::cli {
 namespace {
 
-// How far a place may be from its source: longitudes of floats are off by up to 8e-6 degrees, tables have few digits.
+// How far a place may be from its source: longitudes of floats are off by up to 8e-6 degrees,
+// tables have few digits.
 constexpr double most_apart_deg = 1e-4;
+// This is the bound in radians; for such small angles it is also the length of a chord.
 constexpr double most_apart = most_apart_deg * std::numbers::pi / 180;
 
+// Compares unit vectors by the square of their chord.
 bool is_near(const Point& a, const Point& b) {
   const double x = a.x - b.x;
   const double y = a.y - b.y;
@@ -29,6 +36,7 @@ bool is_near(const Point& a, const Point& b) {
   return x * x + y * y + z * z <= most_apart * most_apart;
 }
 
+// Files of weights have NaN, or numbers that are no degrees, for places that they do not know.
 bool is_known(const LonLat& place) {
   return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
 }
@@ -38,6 +46,8 @@ struct ComparedPlaces {
   std::size_t count = 0;
   bool are_near = true;
 };
+// Compares the places that the weights give for their sources with the places of the values; the
+// index of both counts sources.
 ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Point>& places) {
   std::vector<LonLat> known;
   std::vector<Point> own;
@@ -51,8 +61,8 @@ ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Poi
           std::ranges::equal(unit_vectors(lonlats(own)), unit_vectors(known), is_near)};
 }
 
-// Values that have places must have those of the weights, as far as both are known; tables the very numbers, if the file has nothing
-// but their hash.
+// Values that have places must have those of the weights, as far as both are known; tables the very
+// numbers, if the file has nothing but their hash.
 void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                     const std::vector<Point>& places, bool is_table) {
   const bool are_complete =
@@ -107,10 +117,13 @@ std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const
   }
 }
 
+// True if an option names columns of a table that have places.
 bool are_columns_named(const ReadOptions& read) {
   return !(read.lon + read.x + read.radius).empty();  // the others are given together with these
 }
 
+// Checks the places of a table, if it has any, against those of the weights. The table is read here
+// for its places alone; its values are read as fields afterwards.
 void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
   if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
   ReadOptions read = options.common.read;
@@ -169,13 +182,14 @@ ValuesAtSources read_standard_table(const ApplyCommandOptions& options, const We
 // A slice has 32 MiB; larger ones are not faster.
 constexpr std::size_t most_values = std::size_t{1} << 22U;
 
+// The numbers of the report: fields that were written, and values at targets that are missing.
 struct AppliedCounts {
   std::size_t fields = 0;
   std::size_t missing = 0;
 };
 
-// Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so that
-// fields may be larger than memory. Values that are missing are NaN.
+// Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so
+// that fields may be larger than memory. Values that are missing are NaN.
 template <typename Function>
 void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
                     const ValuesAtSources& in, Function take) {
@@ -199,7 +213,7 @@ void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights&
   }
 }
 
-// Whether a value that is not missing is the number that --fill gives to those that are. Then
+// True if a value that is not missing is the number that --fill gives to those that are. Then
 // `_FillValue` in a file of netCDF would make it missing. This applies the weights once more.
 bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const Weights& weights,
                            const ValuesAtSources& in) {
@@ -217,6 +231,7 @@ bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const W
   return is_found;
 }
 
+// Applies the weights to all fields and writes them; missing values become the number of --fill.
 AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                         const ValuesAtSources& in) {
   const Weights& weights = file.weights;

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel check: proves by exact arithmetic that triangles are the triangulation of sites, or says
+// why they are not. A refutation is a result, so its JSON goes to standard output with exit status
+// 1.
 #include "rondel/check.h"
 
 #include <nlohmann/json.hpp>
@@ -12,6 +15,7 @@
 namespace rondel::cli {
 namespace {
 
+// Returns the JSON object of --json; `faces` is the number of triangles in the file.
 std::string json_of(const CheckReport& verdict, const CommonOptions& options, std::size_t sites,
                     std::size_t faces, const Seconds& seconds) {
   const nlohmann::ordered_json json = {
@@ -29,6 +33,7 @@ std::string json_of(const CheckReport& verdict, const CommonOptions& options, st
   return json.dump(2) + '\n';
 }
 
+// Returns the summary for people; it is empty if the triangulation is refuted.
 std::string proof_of(const CheckReport& verdict, const CheckOptions& options, std::size_t sites,
                      std::size_t faces) {
   if (!verdict.is_valid) return {};

@@ -64,6 +64,7 @@ std::vector<double> netcdf_values(const SiteTable& table, const std::string& nam
 
 }  // namespace
 
+// The cells of a column stand in one text, cell after cell; ends[i] is where that of site i ends.
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option) {
   const auto column = std::ranges::find(table.columns, name, &Column::name);

@@ -3,6 +3,10 @@
 
 /// \file
 /// A column of numbers that an option names.
+///
+/// in    a table of sites whose columns were kept (ReadOptions::keep_columns), or a netCDF file
+/// out   doubles
+/// index sites, in the order of the file
 #pragma once
 
 #include <string>

@@ -12,6 +12,9 @@
 ///       add_input_options(*parser, options->common); ...
 ///       return {parser, [options] { return run_plot(*options); }};
 ///     }
+///
+/// in    the command line
+/// out   files, a report on standard output, remarks and errors on standard error, an exit status
 #pragma once
 
 #include <functional>
@@ -35,8 +38,8 @@ class Option;
 
 namespace rondel::cli {
 
-/// The exit status of the tool. An exception becomes one line on stderr, "rondel: <what>", and one of
-/// these: FileError, InvalidInput, bad_alloc, anything else -> failed; UsageError -> usage.
+/// The exit status of the tool. An exception becomes one line on stderr, "rondel: <what>", and one
+/// of these: FileError, InvalidInput, bad_alloc, anything else -> failed; UsageError -> usage.
 enum ExitStatus : int { done = 0, failed = 1, usage = 2 };
 
 /// The command line asks for something that the tool does not offer.
@@ -81,8 +84,12 @@ struct CommonOptions {
   [[nodiscard]] std::string format() const;
 };
 
-/// Makes it a usage error to give an option that has no effect. The conditions are checked when the command line has been parsed, if the
-/// command calls add_report_options(); what they refer to must live until then.
+/// Makes it a usage error to give an option that has no effect. The conditions are checked when the
+/// command line has been parsed, if the command calls add_report_options(); what they refer to must
+/// live until then.
+/// \param options  the options of the command, where the condition is kept
+/// \param option  the option that may have no effect
+/// \param has_effect  answers after parsing whether the option changes anything
 /// \param otherwise  says when there is none: "--count has no effect without --kind circles"
 void require_effect(CommonOptions& options, const CLI::Option* option,
                     std::function<bool()> has_effect, std::string otherwise);
@@ -100,7 +107,9 @@ std::string standard(const std::string& name, const char* stream);
 
 /// Adds INPUT and the options that say how to read it. \pre this comes before add_build_options(),
 /// since --radius sets the model, which --model may contradict.
-/// \param tables  the files for which names of columns, --delimiter and --radians are; --radius is for the first one. By default INPUT
+/// \param what  the help text of INPUT
+/// \param tables  returns the files to which the names of columns, --delimiter and --radians apply;
+/// --radius applies to the first one. By default that is INPUT alone.
 void add_input_options(CLI::App& command, CommonOptions& options,
                        const std::string& what = default_input_help, const TablesRead& tables = {});
 /// Does the same for a command that takes points in space: x, y, z only.
@@ -108,17 +117,23 @@ void add_point_input_options(CLI::App& command, CommonOptions& options);
 /// Adds --output, which the caller may require, and --format. `what` says for the help what is
 /// written, and to which endings.
 CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
+/// Adds --model, --center and --squared-radius, which say what is triangulated, and --threads.
 void add_build_options(CLI::App& command, CommonOptions& options);
 /// Tells that names of columns in `read`, which are for another file, change nothing for this one.
 void tell_of_columns(const std::string& netcdf, const ReadOptions& read);
 /// Throws UsageError if --radians is given and none of the tables has angles.
 void require_angles(const ReadOptions& read, std::span<const SiteTable* const> tables);
+/// Adds --threads; without it a command has one thread for each core.
 void add_threads_option(CLI::App& command, CommonOptions& options);
+/// Adds --json and --quiet, and checks after parsing the options that require_effect() names.
 void add_report_options(CLI::App& command, CommonOptions& options);
 
-/// Throws UsageError unless the output's format is one of those written (`is_known`), if output and report both want standard output,
-/// and as require_separate_files() does; the files that the command has beside INPUT and OUTPUT are `inputs` and `outputs`. Call it
-/// before any work.
+/// Throws UsageError unless the output has a format that the command writes, if output and report
+/// both want standard output, and as require_separate_files() does. It is called before any work.
+/// \param is_known  true if the command writes the format of OUTPUT
+/// \param endings  the formats that it writes, for the message: ".csv .npy"
+/// \param inputs  the files that the command reads beside INPUT
+/// \param outputs  the files that it writes beside OUTPUT
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings,
                     const std::vector<NamedFile>& inputs = {},
                     const std::vector<NamedFile>& outputs = {});
@@ -126,7 +141,8 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
 /// The stages of a job that a command times itself.
 enum class Stage { dual, locator, query, write };
 
-/// Wall time of a job and of its stages.
+/// Wall time of a job and of its stages, in seconds. A stage that a command does not time is a part
+/// of `total` only.
 struct Seconds {
   double read = 0;
   double dual = 0;
@@ -161,8 +177,13 @@ class Job {
   Triangulation triangulate(const SiteTable& table);
   /// Returns the convex hull of the sites. \throws FileError like triangulate()
   Triangulation hull(const SiteTable& table);
-  /// Returns the values as they are shown: where several sites are in one place, each has the first value there. The report will tell how many sites
-  /// have no value, with the consequence ("cells without a value have no color"), and how many have another value than the one shown.
+  /// Returns the values as they are shown: where several sites are in one place, each has the first
+  /// value there. The report will say how many sites have no value, and how many have another value
+  /// than the one shown.
+  /// \param values  a value for each site, by the index of the input; NaN: none
+  /// \param name  the column that the values come from
+  /// \param consequence  what becomes of sites without a value: "cells without a value have no
+  /// color"
   std::vector<double> shown_values(const Triangulation& triangulation,
                                    const std::vector<double>& values, const std::string& name,
                                    const std::string& consequence);
@@ -204,6 +225,8 @@ void require_array(const char* option, const std::string& path);
 /// Writes to stdout and flushes. \throws FileError
 void print(const std::string& text);
 
+/// Each of these functions adds a command with its arguments and its help to the tool. They are in
+/// commands.cpp if no other file is named.
 Command add_delaunay_command(CLI::App& tool);
 Command add_voronoi_command(CLI::App& tool);
 Command add_hull_command(CLI::App& tool);

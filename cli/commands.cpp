@@ -30,12 +30,15 @@ std::string earth_radius_error(const std::string& text) {
   return "'" + text + "' is the radius of a sphere whose area is no number";
 }
 
+// Returns what is wrong with the name of a kind of sites; empty if there is such a kind.
 std::string kind_error(const std::string& text) {
   return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
 }
 
+// Checks a number of sites: at least 1, at most as many as an index can count.
 std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
 
+// Returns the table of kinds for the help of `rondel generate`, a line for each kind.
 std::string kinds_help() {
   const auto list = [](std::span<const inputs::Kind> kinds) {
     std::string text;
@@ -52,8 +55,11 @@ std::string kinds_help() {
          list(inputs::hostile_kinds());
 }
 
+// Checks a distance on the sphere in degrees.
 std::string distance_error(const std::string& text) { return range_error(text, 0, 180); }
 
+// Adds what locate and nearest share: INPUT, QUERIES and where the answers go, by default standard
+// output. `formats` says for the help in which formats answers are written.
 void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats) {
   options.common.output = "-";
   add_input_options(parser, options.common, default_input_help, [&options] {
@@ -70,6 +76,8 @@ void add_query_options(CLI::App& parser, QueryOptions& options, const std::strin
   add_report_options(parser, options.common);
 }
 
+// Adds the files that `rondel delaunay` writes beside the triangles. An array is indexed by site or
+// by face, and each is written only if its option is given.
 void add_arrays(CLI::App& command, DelaunayOptions& options) {
   command
       .add_option("--neighbors", options.neighbors,
@@ -93,6 +101,8 @@ void add_arrays(CLI::App& command, DelaunayOptions& options) {
       ->type_name("FILE");
 }
 
+// Adds the options for sites that do not fit into memory. They go to another program path
+// (out_of_core.cpp), which has no circumcenters.
 void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
   const char* const group = "More sites than fit into memory: .npy to .npy or .zarr";
   CLI::Option* scratch =
@@ -145,6 +155,8 @@ Command add_delaunay_command(CLI::App& tool) {
   return {parser, [options] { return run_delaunay(*options); }};
 }
 
+// Adds the options that say what polygons of files mean: the lines between their positions, and
+// places that several of them have.
 void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
   add_word<PolygonEdges>(
       parser, "--edges", options.edges,
@@ -158,6 +170,8 @@ void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
       "error (default: two of them are named) or first (it is of the first one)");
 }
 
+// Adds --tolerance, the largest distance in degrees between a straight line in longitude and
+// latitude and the great circle that it stands for.
 void add_tolerance(CLI::App& parser, VoronoiOptions& options) {
   const CLI::Option* const tolerance =
       parser

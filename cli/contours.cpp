@@ -17,6 +17,7 @@
 namespace rondel::cli {
 namespace {
 
+// The options of the command, each with its name on the command line.
 struct ContoursOptions {
   CommonOptions common;
   std::string value;           // --value: a column
@@ -26,6 +27,7 @@ struct ContoursOptions {
   double tolerance_deg = 0.01;
 };
 
+// Returns the levels in increasing order, from the list of --levels or the multiples of --step.
 std::vector<double> levels_for(const ContoursOptions& options, const std::vector<double>& values) {
   return options.step > 0 ? levels_at(options.step, values, "--step") : options.levels;
 }
@@ -47,6 +49,7 @@ ExitStatus run_contours(const ContoursOptions& options) {
   const Triangulation triangulation = job.triangulate(table);
   const std::vector<double> values = job.shown_values(
       triangulation, given, options.value, "triangles without three values are left out");
+  // Isolines and bands are traced and written by functions of different types, in the same stages.
   const auto run = [&](const auto& trace, const auto& write) {
     decltype(trace()) traced;
     job.time(Stage::dual, [&] { traced = with_places(table, trace); });
@@ -62,6 +65,7 @@ ExitStatus run_contours(const ContoursOptions& options) {
   return done;
 }
 
+// Adds the options that say which column is contoured, at which levels, and how.
 void add_level_options(CLI::App& parser, ContoursOptions& options) {
   parser
       .add_option("--value", options.value,

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns true if an output of this name replaces a file: standard output, devices and pipes do not.
+// Returns true if an output of this name replaces a file: standard output, devices and pipes do
+// not.
 bool is_file_name(const std::string& path) {
   std::error_code error;
   return !path.empty() && path != "-" && !fs::is_other(path, error);
@@ -32,12 +33,14 @@ fs::path resolved(fs::path path) {
   return whole.has_filename() ? whole : whole.parent_path();  // of a folder with a slash behind it
 }
 
+// Two names are one file if they have the same device and number, or lead to the same path.
 bool are_one_file(const std::string& a, const std::string& b) {
   std::error_code error;
   return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
 }
 
-// Returns the files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a file of the whole name.
+// Returns the files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a
+// file of the whole name.
 std::vector<std::string> readings(const std::string& input) {
   std::error_code error;
   if (!is_file_name(input)) return {};
@@ -50,11 +53,13 @@ std::vector<std::string> readings(const std::string& input) {
   return files;
 }
 
+// The names of standard output, which no two outputs may have.
 bool is_standard_output(const std::string& path) {
   return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
-// Throws FileError if the folder of a file is not there, so that no other output is written before that is noticed.
+// Throws FileError if the folder of a file is not there, so that no other output is written before
+// that is noticed.
 void require_folder(const std::string& path) {
   std::error_code error;
   const fs::path folder = resolved(path).parent_path();

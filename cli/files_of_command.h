@@ -3,6 +3,9 @@
 
 /// \file
 /// The files that a command reads and writes, which have to be different ones.
+///
+/// in    names of files, each with the option that it comes from
+/// out   an exception that names the option and the file, if two of them are one
 #pragma once
 
 #include <string>
@@ -16,11 +19,14 @@ struct NamedFile {
   std::string path;    ///< may be empty, "-", FILE:NAME of an input, or no file at all as grid:1
 };
 
-/// Every command that writes calls it before any work.
-///
-/// \throws UsageError if a file that is written is also read, or is written twice. Files are compared as the system knows them (device
-/// and number), so every spelling and every link of a file is that file; of files that do not exist yet the resolved paths are compared.
-/// Only --output may be standard output. \throws FileError if the folder of an output does not exist
+/// Checks that no output of a command is one of its inputs, or another output. Every command that
+/// writes calls it before any work.
+/// Files are compared as the system knows them (device and number), so every spelling and every
+/// link of a file is that file; of files that do not exist yet the resolved paths are compared.
+/// \param inputs  the files that are read; a name may stand for several files, as FILE:NAME does
+/// \param outputs  the files that are written; only --output may be standard output
+/// \throws UsageError if a file that is written is also read, or is written twice
+/// \throws FileError if the folder of an output does not exist
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
 

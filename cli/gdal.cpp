@@ -27,6 +27,7 @@ void* open_gdal() {
   return nullptr;
 }
 
+// Sets pointers to functions of a loaded library, and remembers whether all of them were found.
 class SymbolLoader {
  public:
   explicit SymbolLoader(void* library) : library_(library) {}
@@ -44,6 +45,7 @@ class SymbolLoader {
   bool has_all_ = true;
 };
 
+// Sets all members by the names that GDAL's C interface gives them; false if one is missing.
 bool load(void* library, Gdal& gdal) {
   SymbolLoader from(library);
   from.get(gdal.all_register, "GDALAllRegister");
@@ -92,6 +94,8 @@ const Gdal& load_gdal(const std::string& path) {
                     ": such files are written by GDAL, which is not found: install libgdal, "
                     "name it by RONDEL_GDAL, or write .geojson for ogr2ogr");
   }
+  // Drivers are registered once for the process. GDAL's own handler would print each error to
+  // stderr.
   static const bool is_ready = [] {
     gdal.push_error_handler(gdal.quiet_error_handler);
     gdal.all_register();

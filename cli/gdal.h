@@ -5,6 +5,9 @@
 /// GDAL, which is loaded when a file is to be written that only GDAL can write; `rondel` is built
 /// and runs without it. The members are functions of its C interface, whose binary form is the same
 /// since GDAL 3.0.
+///
+/// in    a library on this machine
+/// out   pointers to its functions
 #pragma once
 
 #include <string>
@@ -14,6 +17,9 @@ namespace rondel::cli {
 /// GDAL's opaque handles; its documentation says which function takes which handle.
 using GdalHandle = void*;
 
+/// The functions of GDAL that are called. Prefixes of GDAL's names: GDAL (datasets and drivers),
+/// OSR (spatial references), OGR (layers L, fields Fld, features F, geometries G), CPL (errors and
+/// settings), VSI (files, here in memory); load() in gdal.cpp says which member has which name.
 struct Gdal {
   void (*all_register)();
   const char* (*version_info)(const char*);

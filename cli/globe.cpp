@@ -11,6 +11,8 @@
 namespace rondel::cli {
 namespace {
 
+// The geometry of globe.h. Sines and cosines of the standard library are good enough here: pictures
+// are no results that have to agree bit by bit.
 constexpr double pi = std::numbers::pi;
 
 Point cross(const Point& a, const Point& b) {
@@ -19,10 +21,12 @@ Point cross(const Point& a, const Point& b) {
 
 double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+// Returns s a + t b.
 Point combine(double s, const Point& a, double t, const Point& b) {
   return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
 
+// The orthographic projection leaves out the depth z.
 Spot spot(const Point& p) { return {p.x, p.y}; }
 
 // An ellipse center + u cos t + v sin t, which is the projection of a circle of the sphere.
@@ -39,6 +43,7 @@ struct Ellipse {
   }
 };
 
+// The outline of the globe: the unit circle.
 constexpr Ellipse limb{{0, 0}, {1, 0}, {0, 1}};
 
 // Continues the path along the ellipse, in pieces of at most 30 degrees. The usual cubic for an
@@ -108,6 +113,7 @@ bool is_all_in_front(std::span<const Point> corners) {
 
 }  // namespace
 
+// The frame at the center is east, north and up; up_deg turns east and north in the picture.
 View::View(const LonLat& center, double up_deg) : forward_(unit_vector(center)) {
   const Point east = unit_vector({center.lon_deg + 90, 0});
   const Point north = cross(forward_, east);
@@ -181,6 +187,7 @@ void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side) {
 }
 
 bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance) {
+  // The path begins at a corner in front, so that each part along the limb has a begin and an end.
   const auto first = std::find_if(corners.begin(), corners.end(),
                                   [](const Point& corner) { return corner.z > 0; });
   if (first == corners.end()) {

@@ -17,6 +17,9 @@
 ///     |       \    |         where c, on the limb, is the
 ///      \       `c /          crossing: a |b.z| + b |a.z|, normalised
 ///        ' - - - ' `b
+///
+/// in    unit vectors in the view frame; angles in degrees where the name says so, else in radians
+/// out   lines and Bézier curves in the unit disc
 #pragma once
 
 #include <cstddef>
@@ -51,8 +54,11 @@ double signed_area(std::span<const Place> corners) {
 class Pen {
  public:
   virtual ~Pen() = default;
+  /// Begins a new curve at a place.
   virtual void move_to(Spot to) = 0;
+  /// Continues the curve by a straight line.
   virtual void line_to(Spot to) = 0;
+  /// Continues the curve by a cubic Bézier curve with two control points.
   virtual void curve_to(Spot control1, Spot control2, Spot to) = 0;
 };
 
@@ -67,6 +73,7 @@ class View {
   [[nodiscard]] Point turn(const Point& p) const;
 
  private:
+  /// The axes x, y, z of the view frame as unit vectors of the globe.
   Point right_, up_, forward_;
 };
 
@@ -102,6 +109,8 @@ void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side);
 /// Traces the outline of the visible part of a convex region of the sphere, given by its corners
 /// counterclockwise seen from outside; where the region goes beyond the limb the outline follows
 /// the limb. Returns false if nothing is visible.
+/// \param corners  unit vectors in the view frame
+/// \param tolerance  as of trace_arc(), in radii of the globe
 bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance);
 
 }  // namespace rondel::cli

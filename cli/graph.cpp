@@ -17,6 +17,7 @@
 namespace rondel::cli {
 namespace {
 
+// The options of the command; angles are in degrees.
 struct GraphOptions {
   CommonOptions common;
   std::string kind;        // --kind
@@ -26,6 +27,7 @@ struct GraphOptions {
   double tolerance_deg = 0.01;
 };
 
+// Returns the graph of a word of --kind; nothing for words that mean polygons or circles.
 std::optional<GraphKind> graph_kind(const std::string& name) {
   if (name == "delaunay") return GraphKind::delaunay;
   if (name == "urquhart") return GraphKind::urquhart;
@@ -35,11 +37,14 @@ std::optional<GraphKind> graph_kind(const std::string& name) {
   return std::nullopt;
 }
 
+// Returns what is wrong with a word of --kind; empty if nothing is.
 std::string reading_error(const std::string& name) {
   if (graph_kind(name) || name == "hull" || name == "alpha" || name == "circles") return {};
   return "'" + name + "' is not a choice";
 }
 
+// Checks that OUTPUT can hold the result: graphs are rows of two sites, circles are rows of
+// numbers, but polygons need GeoJSON.
 void require_format(const GraphOptions& options) {
   const std::string format = options.common.format();
   const bool is_geojson = format == "geojson";
@@ -53,6 +58,7 @@ void require_format(const GraphOptions& options) {
   }
 }
 
+// Checks, before any file is read, that the options fit the kind.
 void require_options(const GraphOptions& options) {
   require_format(options);
   if (options.common.build.model == Model::weighted) {
@@ -63,8 +69,8 @@ void require_options(const GraphOptions& options) {
   }
 }
 
-// Circles that touch less than three sites are not found. If all sites are in one half of the sphere, the largest circle may be one
-// of them.
+// Circles that touch less than three sites are not found. If all sites are in one half of the
+// sphere, the largest circle may be one of them.
 void tell_of_other_circles(const GraphOptions& options, const SiteTable& table,
                            const Triangulation& triangulation, std::size_t num_found) {
   if (triangulation.num_vertices() == 0) return;
@@ -83,6 +89,8 @@ ExitStatus run_graph(const GraphOptions& options) {
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   const FileName target = options.common.target();
+  // Each kind of result has a type of its own, but is found, written and reported in the same
+  // stages.
   const auto run = [&](const auto& find, const auto& write, const std::string& what) {
     decltype(find()) found;
     job.time(Stage::dual, [&] { found = find(); });

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel hull: the convex hull of points in space, as a closed surface of triangles.
+// in    points x, y, z
+// out   triangles; the volume and the area in the report
+// index points of the input; with --compact the vertices of the hull, numbered in the same order
 #include "rondel/hull.h"
 
 #include <numeric>
@@ -43,6 +47,7 @@ Triangulation two_sided(const Triangulation& flat) {
                                     {.model = Model::weighted, .sphere = flat.sphere()});
 }
 
+// A surface with a table of its own sites, to which its indices refer.
 struct Mesh {
   SiteTable table;
   Triangulation surface;
@@ -50,6 +55,7 @@ struct Mesh {
 
 // Returns the surface with its vertices only, in the order of the input.
 Mesh compact(const SiteTable& table, const Triangulation& surface) {
+  // Holds no_index for points that are no vertices, otherwise their new number.
   std::vector<Index> name(table.sites.size(), no_index);
   for (const Triple& face : surface.faces()) {
     for (const Index corner : face) name[corner] = 0;
@@ -76,6 +82,7 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
   return mesh;
 }
 
+// Checks the format of OUTPUT. GeoJSON is none of the formats: it has positions on the sphere only.
 void require_mesh(const HullCommandOptions& options) {
   const CommonOptions& common = options.common;
   const std::string format = common.format();

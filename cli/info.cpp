@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
+// are in one place or hidden, and which columns there are.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The least and the largest of some numbers. It is empty until a number is added.
 struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
@@ -29,11 +32,13 @@ struct Range {
   [[nodiscard]] bool is_empty() const { return min > max; }
 };
 
+// The range of a coordinate, in the unit of the file: degrees, or any unit of length.
 struct NamedRange {
   const char* name;
   Range range;
 };
 
+// All that the report says beside the table itself.
 struct Facts {
   std::vector<NamedRange> bounds;
   Range height;  // |p - center| - radius
@@ -41,6 +46,7 @@ struct Facts {
   Triangulation triangulation;  // of the sites that are not at the center
 };
 
+// Returns the bounds of the coordinates in which the sites were given.
 std::vector<NamedRange> coordinate_bounds(const SiteTable& table) {
   if (table.is_lonlat()) {
     Range lon;
@@ -62,6 +68,7 @@ std::vector<NamedRange> coordinate_bounds(const SiteTable& table) {
   return {{"x", x}, {"y", y}, {"z", z}};
 }
 
+// Returns also the bounds of the radii in degrees, if the sites are circles.
 std::vector<NamedRange> bounds_of(const SiteTable& table) {
   std::vector<NamedRange> bounds = coordinate_bounds(table);
   if (table.radii_deg.empty()) return bounds;
@@ -81,6 +88,8 @@ double length(double x, double y, double z) {
   return scale * std::sqrt(x * x + y * y + z * z);
 }
 
+// Returns the range of |p - center| - radius: how far sites are above (positive) or below the
+// sphere.
 Range heights_of(std::span<const Point> sites, const Sphere& sphere) {
   const Point& c = sphere.center;
   const double radius = std::sqrt(sphere.squared_radius);
@@ -105,6 +114,7 @@ Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
   return facts;
 }
 
+// Returns null for a range without numbers, since JSON has no infinities.
 Json json_of(const Range& range) {
   if (range.is_empty()) return nullptr;
   return {{"min", range.min}, {"max", range.max}};
@@ -116,6 +126,8 @@ Json json_of_coordinates(const SiteTable& table) {
   return table.is_lonlat() ? "lonlat" : "xyz";
 }
 
+// Returns the object of --json. Names of columns that are not UTF-8 are mended by the replacement
+// character.
 std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& seconds) {
   Json bounds = Json::object();
   for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
@@ -141,6 +153,7 @@ std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& s
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
+// Returns a line with 9 digits; nothing for an empty range.
 std::string text_of(const char* name, const Range& range) {
   if (range.is_empty()) return {};
   char text[128];
@@ -159,6 +172,7 @@ std::string coordinates_of(const SiteTable& table) {
   return given + (table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius");
 }
 
+// Returns the report for people.
 std::string text_of(const SiteTable& table, const Facts& facts) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text =

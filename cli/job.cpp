@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The job of command.h: it reads with a clock, tells what was left out, and reports in the end.
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -30,11 +31,13 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
+// What a job remembers between its stages.
 struct Job::State {
   explicit State(const CommonOptions& common) : options(common), line(common.quiet) {}
 
   CommonOptions options;
   ProgressLine line;
+  // Returns the sum of the seconds of a stage.
   double& clock(Stage stage) {
     switch (stage) {
       case Stage::dual:
@@ -115,6 +118,7 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   return sites;
 }
 
+// The triangulation has a view of the table's sites, not a copy.
 Triangulation Job::triangulate(const SiteTable& table) {
   return with_places(table, [&] {
     return delaunay(Sites::view(table.sites), state_->options.build, execution());
@@ -130,6 +134,7 @@ std::vector<double> Job::shown_values(const Triangulation& triangulation,
                                       const std::string& consequence) {
   std::vector<double> shown = first_values(triangulation, values);
   std::size_t num_other = 0;
+  // Duplicates show what their representative shows; other values of theirs are counted.
   for (const auto& [site, representative] : triangulation.duplicates()) {
     const bool is_shown = std::isnan(values[site]) || values[site] == shown[representative];
     if (!is_shown) ++num_other;
@@ -194,6 +199,7 @@ void Job::report(const std::string& json, const std::string& summary) {
   }
 }
 
+// A full disk or a closed pipe shows only when the buffer is flushed.
 void print(const std::string& text) {
   errno = 0;
   const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();

@@ -15,6 +15,7 @@
 namespace rondel::cli {
 namespace {
 
+// Returns the texts between the commas.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -22,6 +23,7 @@ std::vector<std::string> parts_of(const std::string& text) {
   return parts;
 }
 
+// Returns the number in a text that finite_error() accepts; from_chars does not know a plus sign.
 double number_of(const std::string& text) {
   double value = 0;
   const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
@@ -29,6 +31,7 @@ double number_of(const std::string& text) {
   return value;
 }
 
+// Rounding removes the error of the product: 3 * 0.1 is 0.30000000000000004, but the level is 0.3.
 double rounded_to_15_digits(double value) {
   std::array<char, 32> text{};
   const auto end =
@@ -62,6 +65,7 @@ std::vector<double> levels_of(const std::string& text) {
 
 std::vector<double> levels_at(double step, std::span<const double> values,
                               const std::string& option) {
+  // More levels than this are a step in the wrong unit rather than a map.
   constexpr double most = 10'000;
   double least = std::numeric_limits<double>::infinity();
   double largest = -least;

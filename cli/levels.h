@@ -3,6 +3,9 @@
 
 /// \file
 /// Levels of values: a list, or the multiples of a step.
+///
+/// in    the text of --levels, or a step and the values at the sites
+/// out   levels in increasing order, in the unit of the values
 #pragma once
 
 #include <span>

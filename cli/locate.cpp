@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel locate: the face of the triangulation that the ray through each query meets.
+// in    sites and queries
+// out   a row for each query: vertex, edge, face or outside, the face, and one to three sites
+// index queries and sites in the order of their files; faces as `rondel delaunay` writes them
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -10,10 +14,12 @@
 namespace rondel::cli {
 namespace {
 
+// The words stand in the order of the enumerators of Where.
 constexpr std::array<std::string_view, 4> words_of_place = {"vertex", "edge", "face", "outside"};
 
 std::string_view word_for(Where where) { return words_of_place[static_cast<std::size_t>(where)]; }
 
+// Returns the answers as rows; fields without a meaning, as the third site of an edge, are empty.
 std::string table_of(const std::vector<Location>& locations, char separator) {
   std::string text;
   for (const std::string_view name : {"query", "where", "face", "site_a", "site_b", "site_c"}) {

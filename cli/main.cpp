@@ -24,12 +24,14 @@
 namespace rondel::cli {
 namespace {
 
+// Prints one line; line ends within the message become spaces.
 int fail(ExitStatus status, std::string message) {
   std::ranges::replace(message, '\n', ' ');
   std::fprintf(stderr, "rondel: %s\n", message.c_str());
   return status;
 }
 
+// Adds all commands, in the order in which `rondel --help` shows them.
 std::vector<Command> add_commands(CLI::App& tool) {
   return {
     add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
@@ -43,12 +45,14 @@ std::vector<Command> add_commands(CLI::App& tool) {
   };
 }
 
+// Returns the command that the command line chose, or null if there was only `rondel`.
 const Command* selected(const std::vector<Command>& commands) {
   const auto at = std::ranges::find_if(
       commands, [](const Command& command) { return command.parser->parsed(); });
   return at == commands.end() ? nullptr : &*at;
 }
 
+// Describes the tool itself: its name, version and help.
 void configure(CLI::App& tool) {
   tool.name("rondel");
   tool.set_version_flag("--version", std::string("rondel ") + version, "Print the version");
@@ -94,7 +98,8 @@ std::string file_like_an_option(int argc, const char* const* argv) {
   return {};
 }
 
-// Names an option whose value is empty, "--value=", for which the parser would take the next argument.
+// Names an option whose value is empty, "--value=", for which the parser would take the next
+// argument.
 void require_option_values(std::span<const char* const> arguments) {
   for (const std::string_view argument : arguments) {
     if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
@@ -124,6 +129,7 @@ std::vector<const char*> without_help_command(std::span<const char* const> argum
   return result;
 }
 
+// Parses the command line and runs the command. Asking for help or the version is a success.
 int run(int argc, const char* const* argv) {
   CLI::App tool{"Exact Delaunay triangulations and Voronoi diagrams on the sphere."};
   configure(tool);
@@ -147,6 +153,7 @@ int run(int argc, const char* const* argv) {
   return command->run();
 }
 
+// Turns exceptions into exit statuses (ExitStatus in command.h).
 int run_and_report(int argc, const char* const* argv) {
   try {
     return run(argc, argv);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// What the commands of `rondel mesh` share: reading a mesh or its sites, and writing the mesh, its
+// graph and its report.
 #include "mesh.h"
 
 #include <CLI/CLI.hpp>
@@ -17,6 +19,7 @@
 namespace rondel::cli {
 namespace {
 
+// The words of --format, and the endings of names, by which OUTPUT is a mesh.
 const std::unordered_map<std::string, mesh::MeshFormat>& mesh_formats() {
   static const std::unordered_map<std::string, mesh::MeshFormat> formats = {
       {"nc", mesh::MeshFormat::mpas},       {"nc4", mesh::MeshFormat::mpas},
@@ -26,6 +29,7 @@ const std::unordered_map<std::string, mesh::MeshFormat>& mesh_formats() {
   return formats;
 }
 
+// Checks the radius of the sphere of a mesh: squares of lengths must neither overflow nor vanish.
 std::string radius_error(const std::string& text) {
   std::string error = positive_error(text);
   if (!error.empty()) return error;
@@ -34,6 +38,7 @@ std::string radius_error(const std::string& text) {
 
 }  // namespace
 
+// Sites get the mesh of their Voronoi cells; a mesh is scaled if a radius is given.
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     std::optional<double> radius, bool allow_zero_edges) {
   const mesh::MeshOptions options{.radius = radius.value_or(1),

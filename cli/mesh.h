@@ -3,6 +3,10 @@
 
 /// \file
 /// The commands of `rondel mesh`, one file each, and what they share.
+///
+/// in    a mesh of netCDF, or sites, whose mesh is that of their Voronoi cells
+/// out   a mesh in a format of models, its graph of neighbors, a report on its quality
+/// index cells, edges and vertices, from 0 in C++ and in .npy
 #pragma once
 
 #include <optional>
@@ -32,11 +36,13 @@ struct MeshOutput {
   std::optional<double> radius;  ///< --sphere-radius; if not given: 1, or that of the input mesh
 };
 
+/// The options of `rondel mesh convert`.
 struct MeshConvertOptions {
   MeshOutput written;  ///< INPUT: sites or a mesh
   bool allow_zero_edges = false;
 };
 
+/// The options of `rondel mesh quality`.
 struct MeshQualityOptions {
   CommonOptions common;  ///< INPUT: sites or a mesh
   std::string report;    ///< --report; empty: not written
@@ -44,6 +50,8 @@ struct MeshQualityOptions {
   std::vector<std::pair<std::string, double>> required;
 };
 
+/// The options of `rondel mesh cull`. The maps are arrays with the new number of each cell, edge or
+/// vertex of INPUT.
 struct MeshCullOptions {
   MeshOutput written;   ///< INPUT, the mesh that is left
   std::string mask;     ///< --mask: FILE, FILE.nc:NAME or FILE.csv:COLUMN
@@ -64,20 +72,28 @@ void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arr
 
 /// Returns the mesh of a file: read_mesh() reads netCDF, and the mesh of sites is computed. \throws
 /// FileError with the place of a site that is not accepted
+/// \param radius  the radius of the sphere, in metres for most models; not given: 1, or that of the
+/// mesh that is read
+/// \param allow_zero_edges  accepts edges of length 0, between cells that meet in one point only
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     std::optional<double> radius, bool allow_zero_edges);
 
 /// The kinds of files that OUTPUT may be.
 enum class MeshOutputKind { mesh, mesh_or_sites };
 
-/// Adds the options that all commands that write a mesh share: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
+/// Adds the options that all commands that write a mesh share: --output, --format, --kind,
+/// --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
-/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written; if --kind is given for a
-/// file that is not netCDF; and as require_separate_files() with the files that the command has beside those of `output`
+/// Checks the files of a command before any work.
+/// \param inputs  the files that the command reads beside INPUT
+/// \param outputs  the files that it writes beside those of `output`
+/// \throws UsageError if OUTPUT has a format in which no mesh is written, nor sites where the
+/// command may write these; if --kind is given for a file that is not netCDF; and like
+/// require_separate_files()
 void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
                          const std::vector<NamedFile>& inputs = {},
                          const std::vector<NamedFile>& outputs = {});
-/// Whether OUTPUT is a mesh, not sites.
+/// True if OUTPUT is a mesh, and not sites.
 bool is_mesh_file(const CommonOptions& common);
 /// Returns the format that --format names, or the ending: nc means mpas, exo means exodus. \pre
 /// is_mesh_file()
@@ -89,12 +105,14 @@ void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, 
 /// picture, .txt the printed text, anything else JSON.
 void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
                        const mesh::Quality& quality, const Execution& execution);
+/// Adds the option for the file of the report, which has the given names.
 void add_mesh_report_option(CLI::App& parser, std::string& report,
                             const std::string& names = "--report");
 
 /// Returns FILE and the text behind its last colon, except for the colon of C:\.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);
 
+/// Each of these functions adds one command to `rondel mesh`, in the file of its name.
 Command add_mesh_cull_command(CLI::App& mesh);
 Command add_mesh_convert_command(CLI::App& mesh);
 Command add_mesh_quality_command(CLI::App& mesh);

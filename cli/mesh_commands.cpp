@@ -14,14 +14,17 @@
 namespace rondel::cli {
 namespace {
 
+// Checks a number of sites, or another whole number of at least 1.
 std::string sites_error(const std::string& text) { return whole_error(text, 1, max_sites); }
 
+// Adds the options about results that all commands of this file share.
 void add_mesh_output(CLI::App& parser, MeshOutput& output) {
   add_mesh_output_options(parser, output, MeshOutputKind::mesh_or_sites);
   add_threads_option(parser, output.common);
   add_report_options(parser, output.common);
 }
 
+// Adds the conditions under which the relaxation of a centroidal mesh ends.
 void add_tolerances(CLI::App& parser, mesh::ScvtOptions& options) {
   parser
       .add_option("--tolerance", options.mean_tolerance,
@@ -39,6 +42,7 @@ void add_tolerances(CLI::App& parser, mesh::ScvtOptions& options) {
       ->type_name("N");
 }
 
+// Adds the files of places that become sites which are never moved.
 void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
   parser
       .add_option("--fixed", options.fixed,
@@ -66,6 +70,7 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
       "without --refine, --fixed or --along");
 }
 
+// Adds the bound on how fast the spacing grows: by G kilometers a kilometer.
 void add_gradient(CLI::App& parser, ScvtCommandOptions& options) {
   const CLI::Option* const gradient =
       parser

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel mesh convert: writes the mesh of sites, or a mesh of another file, in a format of models.
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>

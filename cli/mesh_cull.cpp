@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel mesh cull: removes cells of a mesh, such as those on land.
+// in    a mesh, and which cells go: by polygons, or by a mask with a number a cell
+// out   the mesh that is left, and optionally the new number of each cell, edge and vertex
+// index cells, edges and vertices of INPUT, counted from 0
 #include "rondel/mesh_cull.h"
 
 #include <CLI/CLI.hpp>
@@ -17,11 +21,13 @@
 namespace rondel::cli {
 namespace {
 
+// Maps of old numbers to new ones are written as .npy only.
 void require_map_output(const char* option, const std::string& path) {
   if (path.empty() || path.ends_with(".npy")) return;
   throw UsageError(std::string(option) + ": '" + path + "' is not .npy");
 }
 
+// Adds the three options for such maps.
 void add_map_options(CLI::App& parser, MeshCullOptions& options) {
   const auto add = [&](const char* name, std::string& path, const char* what) {
     parser
@@ -89,6 +95,7 @@ void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool 
   }
 }
 
+// Writes one map, if its option was given.
 void write_map(const std::string& path, const std::vector<Index>& numbers) {
   if (path.empty()) return;
   write_indices(path, numbers, std::array<std::uint64_t, 1>{numbers.size()});

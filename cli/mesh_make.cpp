@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Runs the commands that make meshes: scvt, icosahedral, points, partition. Each finds sites on the
+// unit sphere, and writes them, or the mesh of their Voronoi cells.
 #include "mesh_make.h"
 
 #include <algorithm>
@@ -28,6 +30,7 @@
 namespace rondel::cli {
 namespace {
 
+// Returns the numbers of shapes that models do not run on, or run on badly.
 nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
   return {{"odd_cells", defects.odd_cells},
           {"short_edges", defects.short_edges},
@@ -35,7 +38,8 @@ nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
           {"least_edge_ratio", defects.least_edge_ratio}};
 }
 
-// Returns the mesh of sites that were made. The message of an error names the output, as no file has the sites.
+// Returns the mesh of sites that were made. The message of an error names the output, as no file
+// has the sites.
 mesh::MeshArrays arrays_of_made(const Triangulation& triangulation,
                                 const mesh::MeshOptions& options, const CommonOptions& common,
                                 const Job& job) {
@@ -73,6 +77,10 @@ nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Po
   return quality_of_mesh;
 }
 
+// Prints the report of a mesh that was made.
+// \param how  the begin of the summary, such as "not converged after 10 steps; "
+// \param json  what the command adds to the report
+// \param quality  the numbers of `rondel mesh quality`; null if no mesh was computed
 void report_mesh(const MeshOutput& output, std::size_t num_sites, const std::string& how,
                  nlohmann::ordered_json json, nlohmann::ordered_json quality, Job& job) {
   const Seconds seconds = job.seconds();
@@ -83,6 +91,7 @@ void report_mesh(const MeshOutput& output, std::size_t num_sites, const std::str
                                       output.common.output + '\n');
 }
 
+// Shows a step of the relaxation on the progress line.
 void show(const mesh::ScvtStep& step, const Execution& execution) {
   if (!execution.progress) return;
   std::array<char, 120> text{};
@@ -91,6 +100,7 @@ void show(const mesh::ScvtStep& step, const Execution& execution) {
   execution.progress(text.data(), step.done);
 }
 
+// Shows a step of the solver for areas on the progress line.
 void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& options,
           const Execution& execution) {
   if (!execution.progress) return;
@@ -107,6 +117,8 @@ struct ScvtTask {
   FixedSites fixed;
 };
 
+// Reads the files of the options. Each fixed place takes one of the sites of --start, if these are
+// given, so there must be as many of them at least.
 ScvtTask scvt_task(const ScvtCommandOptions& options, Job& job, const Execution& execution) {
   ScvtTask task;
   task.scvt = options.scvt;
@@ -122,6 +134,7 @@ ScvtTask scvt_task(const ScvtCommandOptions& options, Job& job, const Execution&
   return task;
 }
 
+// Relaxes the given sites, or makes sites from nothing and relaxes them level by level.
 mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
   mesh::ScvtOptions scvt = task.scvt;
   scvt.fixed = task.fixed.sites;
@@ -193,6 +206,8 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
   require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   Job job(options.output.common);
+  // Each division makes four faces of one, and a triangulation with n vertices has 2 n - 4 faces;
+  // the icosahedron has 20.
   const std::size_t count = (std::size_t{10} << (2 * options.levels)) + 2;
   const std::vector<Point> sites = options.keep
                                        ? mesh::icosahedral_points(options.levels, job.execution())
@@ -229,8 +244,8 @@ ExitStatus run_mesh_points(const MeshPointsOptions& options) {
 
 namespace {
 
-// Scales areas in any unit, as large or small as doubles can be, so that their sum is that of the sphere. The library names the site
-// of an area that is not positive or no number.
+// Scales areas in any unit, as large or small as doubles can be, so that their sum is that of the
+// sphere. The library names the site of an area that is not positive or no number.
 void scale_to_sphere(std::vector<double>& areas) {
   double largest = 0;
   for (const double area : areas) {

@@ -3,6 +3,10 @@
 
 /// \file
 /// The options of the commands that make meshes: rondel mesh scvt, icosahedral, points, partition.
+///
+/// in    the command line, and the files of spacings, lines and points that it names
+/// out   sites on the unit sphere, or the mesh of their Voronoi cells
+/// index sites, which are the cells of the mesh
 #pragma once
 
 #include <cstddef>
@@ -21,6 +25,7 @@ namespace rondel::cli {
 /// MPAS.
 inline constexpr double kilometers_per_radian = 6371.229;
 
+/// The options of `rondel mesh scvt`; lengths are kilometers on the Earth of MPAS.
 struct ScvtCommandOptions {
   MeshOutput output;
   std::string spacing;              ///< --spacing: kilometers, FILE or FILE:NAME
@@ -35,12 +40,14 @@ struct ScvtCommandOptions {
   mesh::ScvtOptions scvt;
 };
 
+/// The options of `rondel mesh icosahedral`.
 struct IcosahedralCommandOptions {
   MeshOutput output;
   unsigned levels = 0;
   bool keep = false;  ///< --no-relax
 };
 
+/// The options of `rondel mesh points`.
 struct MeshPointsOptions {
   MeshOutput output;
   std::string kind;
@@ -49,6 +56,7 @@ struct MeshPointsOptions {
   std::uint64_t seed = 1;
 };
 
+/// The options of `rondel mesh partition`.
 struct AreaPartitionCommandOptions {
   CommonOptions common;
   std::string column;  ///< --area
@@ -77,6 +85,7 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
                        std::size_t num_start, const Execution& execution);
 
+/// These functions run the commands after parsing (mesh_make.cpp).
 ExitStatus run_scvt(const ScvtCommandOptions& options);
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);
 ExitStatus run_mesh_points(const MeshPointsOptions& options);

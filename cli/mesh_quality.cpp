@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel mesh quality: reports shapes and sizes of the cells of a mesh, and fails if a number of
+// the report is not within a bound that --require gives.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -13,9 +15,11 @@
 namespace rondel::cli {
 namespace {
 
+// A requirement is NAME=NUMBER; these are its two parts.
 std::string name_part(const std::string& text) { return text.substr(0, text.find('=')); }
 std::string bound_part(const std::string& text) { return text.substr(text.find('=') + 1); }
 
+// Returns what is wrong with a requirement; empty if nothing is.
 std::string requirement_error(const std::string& text) {
   if (text.find('=') == std::string::npos) return "'" + text + "' is not NAME=NUMBER";
   try {

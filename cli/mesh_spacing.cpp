@@ -23,6 +23,7 @@
 namespace rondel::cli {
 namespace {
 
+// The spacing grows by 5 % of the distance from a refined place, unless --gradient says otherwise.
 constexpr double usual_slope = 0.05;
 
 // The fewest cells that mesh::scvt() makes.
@@ -39,8 +40,8 @@ std::optional<double> as_kilometers(const std::string& option, const std::string
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
 
-// Throws if the spacings need more or fewer cells than a mesh can have; without -n they alone determine the
-// number of cells.
+// Throws if the spacings need more or fewer cells than a mesh can have; without -n they alone
+// determine the number of cells.
 void require_possible_count(const std::string& what, const mesh::SizeFunction& size) {
   const double cells = size.count();
   const bool are_few = cells + 0.5 < static_cast<double>(fewest_cells);
@@ -164,6 +165,8 @@ FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOption
   if (options.fixed.empty() && options.along.empty()) return fixed;
   const mesh::SizeFunction size = size_along(scvt, num_start);
   const auto add = [&](const std::vector<std::string>& files, auto read, auto sites_of) {
+    // The library takes the lines of all files at once, so that sites of one file keep their
+    // distance from those of another.
     std::vector<std::vector<Point>> lines;
     std::vector<std::size_t> ends;  // by file: the end of its lines
     for (const std::string& file : files) {

@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel nearest: the k sites nearest to each query, or all sites within a distance.
+// in    sites and queries
+// out   a row for each site found: the query, the site, their distance in degrees, columns of the
+//       site
+// index queries and sites in the order of their files, from 0
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -16,6 +21,7 @@ namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
+// Returns values as a column of text, in the shortest digits that read back as the same doubles.
 Column numeric_column(const std::string& name, const std::vector<double>& values) {
   Column column;
   column.name = name;
@@ -62,6 +68,7 @@ SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
   return lists;
 }
 
+// Returns the answers as a table with a header; columns whose name is taken get another one.
 std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
                      const SiteLists& lists) {
   const char separator = job.separator();

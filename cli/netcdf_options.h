@@ -3,6 +3,9 @@
 
 /// \file
 /// The options --kind and --deflate of the commands that write netCDF.
+///
+/// in    the command line
+/// out   NetcdfOptions: the format of netCDF, and the effort of its compression
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,7 +18,8 @@
 namespace rondel::cli {
 
 /// Adds --kind and --deflate.
-/// \param written  returns the outputs of the command that are netCDF; none if there is no such output
+/// \param written  returns the outputs of the command that are netCDF; none if there is no such
+/// output
 inline void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& options,
                                const std::function<std::vector<FileName>()>& written) {
   const CLI::Option* const kind = add_word<NetcdfKind>(

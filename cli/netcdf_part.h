@@ -3,6 +3,9 @@
 
 /// \file
 /// FILE.nc:NAME, which is a variable of a netCDF file.
+///
+/// in    the name of a file as the command line has it
+/// out   the file, and the name of the variable; it is empty if none is named
 #pragma once
 
 #include <filesystem>

@@ -18,11 +18,13 @@ namespace {
 
 constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz";
 
+// Returns what is wrong with a word of --model; empty if nothing is.
 std::string model_error(const std::string& text) {
   if (text == "projected" || text == "weighted") return {};
   return "'" + text + "' is not a model (projected, weighted)";
 }
 
+// Adds an option that names a column of a table.
 CLI::Option* add_column(CLI::App& command, const char* name, std::string& target,
                         const char* what) {
   return command.add_option(name, target, what)
@@ -30,6 +32,7 @@ CLI::Option* add_column(CLI::App& command, const char* name, std::string& target
       ->group("Columns, where their names in the header are not the usual ones");
 }
 
+// Adds --x, --y and --z, which are given together or not at all; returns --x.
 CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
   CLI::Option* x =
       add_column(command, "--x", read.x, "x coordinate (usual: x); --x, --y and --z go together");
@@ -47,8 +50,10 @@ bool may_be_table(const FileName& file) {
          !is_netcdf_file(netcdf_part(file).first);
 }
 
+// True if at least one of the files is a table, whose columns the options may name.
 bool has_table(const TablesRead& tables) { return std::ranges::any_of(tables(), may_be_table); }
 
+// Adds the options for longitude and latitude, which exclude those for x, y, z.
 void add_columns(CLI::App& command, ReadOptions& read) {
   CLI::Option* lon =
       add_column(command, "--lon", read.lon, "Longitude (usual: lon, lng, long, longitude)");
@@ -60,6 +65,7 @@ void add_columns(CLI::App& command, ReadOptions& read) {
       ->excludes(x);
 }
 
+// Adds INPUT and --input-format; standard input has no ending that would tell its format.
 void add_input(CLI::App& command, CommonOptions& options, const std::string& what) {
   command
       .add_option_function<std::string>(
@@ -75,6 +81,7 @@ void add_input(CLI::App& command, CommonOptions& options, const std::string& wha
       ->type_name("FORMAT");
 }
 
+// Adds --delimiter, which replaces the comma of .csv and the tab of .tsv.
 void add_delimiter(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
@@ -90,6 +97,7 @@ void add_delimiter(CLI::App& command, CommonOptions& options) {
       ->type_name("C");
 }
 
+// Adds --radius: sites with a radius are circles, so that it implies the weighted model.
 void add_radius(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
@@ -229,6 +237,7 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
                       "Squared radius of the sphere (default: 1); for --model weighted")
           ->check(positive_error)
           ->type_name("R2");
+  // `rondel info` reports distances from the sphere, for which every model needs the radius.
   const bool is_measured = command.get_name() == "info";
   require_effect(
       options, squared_radius,

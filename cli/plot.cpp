@@ -29,6 +29,7 @@
 namespace rondel::cli {
 namespace {
 
+// Returns the format of an ending; nothing for .html and endings that are not known.
 std::optional<FigureFormat> figure_format(const std::string& name) {
   for (const auto& [known, format] : {std::pair{"png", FigureFormat::png},
                                       {"svg", FigureFormat::svg},
@@ -63,11 +64,13 @@ View default_view(std::span<const Point> sites, double up_deg) {
       up_deg);
 }
 
+// Returns the points in the view frame.
 std::vector<Point> turned(std::vector<Point> points, const View& view) {
   std::ranges::transform(points, points.begin(), [&](const Point& p) { return view.turn(p); });
   return points;
 }
 
+// Returns the arcs of the isolines as pairs of positions in lines.points.
 std::vector<ArcEnds> line_arcs(const Isolines& lines) {
   std::vector<ArcEnds> arcs;
   for (std::size_t line = 0; line < lines.num_lines(); ++line) {
@@ -118,6 +121,8 @@ void add_values(Figure& figure, const PlotOptions& options, const Triangulation&
   }
 }
 
+// Computes the layers of a picture in the view frame.
+// \param values  a value for each site; empty without --values
 Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
                    const SiteTable& table, std::vector<double> values, const Execution& execution) {
   const Show show = shown(options);
@@ -176,6 +181,7 @@ void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat
             << " arcs and will be large; a .png is small\n";
 }
 
+// Checks the options about the view and the circles before any file is read.
 void require_view(const PlotOptions& options) {
   if (!options.view.empty() && std::abs(options.view[1]) > 90) {
     throw UsageError("--view: the latitude is outside [-90, 90]");
@@ -185,6 +191,7 @@ void require_view(const PlotOptions& options) {
   }
 }
 
+// Checks the options about values: fields and isolines need a column, and the model projected.
 void require_values(const PlotOptions& options) {
   const bool needs_values = filling(options) == Fill::cells || filling(options) == Fill::field;
   if (options.values.empty() && needs_values) throw UsageError("--fill: --values names no column");

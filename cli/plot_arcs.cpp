@@ -44,6 +44,8 @@ std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Poin
 
 }  // namespace
 
+// Each edge is taken from one of its two faces: from the solid one if the other is a ghost face, or
+// else from the face with the lower number.
 std::vector<ArcEnds> triangulation_arcs(const Triangulation& triangulation,
                                         std::span<const Point> directions) {
   if (triangulation.dimension() < 2) return ring_arcs(triangulation.ring(), directions);

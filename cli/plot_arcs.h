@@ -3,6 +3,10 @@
 
 /// \file
 /// Finds which arcs a figure shows, each once.
+///
+/// in    a triangulation or its cells
+/// out   arcs, each the shorter one between its two ends, and the points to which they refer
+/// index sites, or points of the cells; after in_order_of_arcs() points in the order of their use
 #pragma once
 
 #include <array>

@@ -15,6 +15,7 @@
 
 namespace rondel::cli {
 
+// Cairo counts references; each object here is released when its owner goes.
 struct Release {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -27,6 +28,7 @@ namespace {
 
 constexpr double margin = 0.02;  // share of the side, on each of the four sides
 
+// Turns an error of Cairo into an exception.
 void require(cairo_status_t status) {
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
   if (status != CAIRO_STATUS_SUCCESS) {
@@ -44,6 +46,7 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) n
   }
 }
 
+// Makes the surface of a format; svg and pdf write their bytes to `bytes` while they are drawn.
 cairo_surface_t* make_surface(FigureFormat format, int size, int height, std::string& bytes) {
   switch (format) {
     case FigureFormat::svg:
@@ -92,12 +95,14 @@ void number_images(std::string& svg) {
   }
 }
 
+// Sets the color of what is painted next.
 void set_source(cairo_t* context, const Color& c) {
   cairo_set_source_rgba(context, c.red, c.green, c.blue, c.alpha);
 }
 
 }  // namespace
 
+// The picture's y axis points down, that of the unit disc up.
 struct Canvas::State {
   FigureFormat format;
   int size;

@@ -4,6 +4,9 @@
 /// \file
 /// A square picture of the globe in one of the formats that Cairo writes. Only plot_canvas.cpp uses
 /// Cairo.
+///
+/// in    curves in the unit disc, shapes in pixels, colors
+/// out   the bytes of a file: the same picture gives the same bytes
 #pragma once
 
 #include <cstdint>
@@ -16,8 +19,10 @@
 
 namespace rondel::cli {
 
+/// The formats of pictures: pixels, or paths in two languages.
 enum class FigureFormat { png, svg, pdf };
 
+/// The part of a text that is at its place.
 enum class TextAlign { left, center, right };
 
 /// A picture. Paths are in the coordinates of the unit disc; widths and radii are in pixels (points
@@ -32,8 +37,10 @@ class Canvas final : public Pen {
 
   /// Returns the radius of the globe in pixels. Its center is the middle of the square.
   [[nodiscard]] double radius() const noexcept;
+  /// Returns the radius of the globe in a picture of this size, without making one.
   static double radius_of(int size) noexcept;
 
+  /// These three continue the path of the canvas; see Pen.
   void move_to(Spot to) override;
   void line_to(Spot to) override;
   void curve_to(Spot control1, Spot control2, Spot to) override;
@@ -45,6 +52,9 @@ class Canvas final : public Pen {
   /// Adds a rectangle to the path, in pixels from the corner at the top left.
   void box(double left, double top, double width, double height);
   /// Writes UTF-8 at a place in pixels, in a font without serifs.
+  /// \param x  the place across, at the left end, the middle or the right end of the text
+  /// \param base  the place of the base line, from the top
+  /// \param letter_size  the size of the font in pixels
   void text(const std::string& utf8, double x, double base, double letter_size, TextAlign align,
             const Color& color);
 

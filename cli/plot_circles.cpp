@@ -22,6 +22,7 @@ double radius_of(const Point& site, const Sphere& sphere) {
 
 }  // namespace
 
+// A site without a direction is at the center of the sphere; its circle is imaginary.
 std::vector<Circle> real_circles(const SiteTable& table, const Triangulation& triangulation,
                                  std::span<const Point> directions) {
   std::vector<bool> is_duplicate(directions.size()), is_hidden(directions.size());

@@ -3,6 +3,9 @@
 
 /// \file
 /// The circles that weighted sites represent.
+///
+/// in    sites with radii in degrees, or points outside of the sphere, which stand for circles
+/// out   circles
 #pragma once
 
 #include <span>

@@ -9,6 +9,7 @@
 namespace rondel::cli {
 namespace {
 
+// A color in Oklab coordinates: lightness, green to red, and blue to yellow.
 struct Oklab {
   double lightness, a, b;
 };
@@ -20,6 +21,7 @@ double from_linear(double c) {
   return clipped <= 0.0031308 ? 12.92 * clipped : 1.055 * std::pow(clipped, 1 / 2.4) - 0.055;
 }
 
+// The matrices of Ottosson's article: linear sRGB to cones, whose cube roots are mixed to Oklab.
 Oklab to_oklab(const Color& color) {
   const double r = to_linear(color.red), g = to_linear(color.green), b = to_linear(color.blue);
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
@@ -30,6 +32,7 @@ Oklab to_oklab(const Color& color) {
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
+// The inverse of to_oklab(); components outside of sRGB are clipped.
 Color to_color(const Oklab& lab, double alpha) {
   const auto cube = [](double v) { return v * v * v; };
   const double l = cube(lab.lightness + 0.3963377774 * lab.a + 0.2158037573 * lab.b);
@@ -40,6 +43,7 @@ Color to_color(const Oklab& lab, double alpha) {
           from_linear(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s), alpha};
 }
 
+// Colors at t = 0, 1/3, 2/3 and 1; between them blend() is used.
 constexpr std::array<Color, 4> area_stops{
     {{0.090, 0.180, 0.380}, {0.155, 0.455, 0.560}, {0.560, 0.770, 0.680}, {0.985, 0.960, 0.860}}};
 
@@ -59,6 +63,7 @@ Color area_color(double t) {
 }
 
 Color value_color(double t) {
+  // The coefficients of t^0 to t^6.
   constexpr std::array<Color, 7> powers{{{0.2777273272, 0.0054073445, 0.3340998053},
                                          {0.1050930431, 1.4046135299, 1.3845901626},
                                          {-0.3308618287, 0.2148475595, 0.0950951630},

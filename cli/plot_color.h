@@ -3,6 +3,9 @@
 
 /// \file
 /// Colors of figures.
+///
+/// in    a place t in a range, from 0 to 1; places outside of it have the color of the nearer end
+/// out   a color in sRGB
 #pragma once
 
 namespace rondel::cli {

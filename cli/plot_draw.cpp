@@ -14,6 +14,8 @@
 namespace rondel::cli {
 namespace {
 
+// The colors of the layers. A globe is shaded from a light color, where the light falls, to a dark
+// one at the limb; the clear ones lie over filled cells and let their colors through.
 constexpr Color white{1, 1, 1};
 constexpr Color globe_light{1, 1, 1};
 constexpr Color globe_dark{0.860, 0.890, 0.920};
@@ -28,10 +30,12 @@ constexpr Color hidden_circle_color{0.000, 0.440, 0.340, 0.30};
 constexpr Color isoline_color{0.02, 0.02, 0.04, 0.75};
 constexpr Color site_color{0.06, 0.06, 0.08};
 
+// What is behind the globe is mixed with white.
 const Color triangulation_back_color = blend(triangulation_color, white, 0.75);
 const Color diagram_back_color = blend(diagram_color, white, 0.70);
 constexpr double back_circle_paleness = 0.75;
 
+// Edges of cells are dark on filled cells, which have all colors, and red otherwise.
 const Color& front_diagram_color(const Figure& figure) {
   return figure.filled ? diagram_on_fill_color : diagram_color;
 }
@@ -134,6 +138,7 @@ void for_each_cell(const Figure& figure, const Paint& paint) {
   }
 }
 
+// Fills the visible parts of the cells, each as one path.
 void draw_filled_cells(Canvas& canvas, const Figure& figure) {
   const double tolerance = 0.02 / canvas.radius();
   for_each_cell(figure, [&](std::span<const Point> corners, const Color& color) {
@@ -146,6 +151,8 @@ void draw_filled_cells(Canvas& canvas, const Figure& figure) {
   });
 }
 
+// Draws a dot for each site in front; a path has a limited number of them, since long paths are
+// slow.
 void draw_sites(Canvas& canvas, std::span<const Point> sites, double radius) {
   std::size_t count = 0;
   for (const Point& site : sites) {
@@ -156,12 +163,14 @@ void draw_sites(Canvas& canvas, std::span<const Point> sites, double radius) {
   canvas.fill(site_color);
 }
 
+// Draws what is behind the globe, as paths.
 void draw_back(Canvas& canvas, const Figure& figure, double width) {
   draw_arcs(canvas, figure.triangulation, Side::back, triangulation_back_color, width);
   draw_arcs(canvas, figure.diagram, Side::back, diagram_back_color, width);
   draw_circles(canvas, figure.circles, Side::back, back_circle_paleness, width);
 }
 
+// Draws what is in front, as paths: later layers lie over earlier ones.
 void draw_front(Canvas& canvas, const Figure& figure, const Widths& width) {
   draw_circles(canvas, figure.circles, Side::front, 0, width.line);
   draw_arcs(canvas, figure.triangulation, Side::front, triangulation_color, width.line);
@@ -182,6 +191,7 @@ class PixelLayer {
 
   [[nodiscard]] const Pixels& pixels() const { return pixels_; }
 
+  // Paints the arcs of a layer on one side of the globe; `width` is in pixels.
   void add_arcs(const ArcLayer& layer, Side side, const Color& color, double width) {
     for (const auto& [from, to] : layer.arcs) {
       const Point& a = layer.points[from];
@@ -192,6 +202,7 @@ class PixelLayer {
     }
   }
 
+  // Paints circles, hidden ones first; `paleness` is the share of white in their color.
   void add_circles(std::span<const Circle> circles, Side side, double paleness, double width) {
     for (const bool is_hidden : {true, false}) {
       const Color color = blend(is_hidden ? hidden_circle_color : circle_color, white, paleness);
@@ -203,6 +214,7 @@ class PixelLayer {
     }
   }
 
+  // Paints the cells; a cell without corners is the whole sphere.
   void add_filled_cells(const Figure& figure) {
     for_each_cell(figure, [&](std::span<const Point> corners, const Color& color) {
       if (corners.empty()) {
@@ -214,6 +226,7 @@ class PixelLayer {
     });
   }
 
+  // Paints the sites in front as discs; `radius` is in pixels.
   void add_sites(std::span<const Point> sites, double radius) {
     for (const Point& site : sites) {
       const Spot place{site.x, site.y};
@@ -263,12 +276,14 @@ void draw_field(Canvas& canvas, const Figure& figure, unsigned threads) {
   canvas.paint(argb);
 }
 
+// Paints what draw_back() draws, as pixels.
 void add_back(PixelLayer& layer, const Figure& figure, double width) {
   layer.add_arcs(figure.triangulation, Side::back, triangulation_back_color, width);
   layer.add_arcs(figure.diagram, Side::back, diagram_back_color, width);
   layer.add_circles(figure.circles, Side::back, back_circle_paleness, width);
 }
 
+// Paints what draw_front() draws, as pixels.
 void add_front(PixelLayer& layer, const Figure& figure, const Widths& width) {
   layer.add_circles(figure.circles, Side::front, 0, width.line);
   layer.add_arcs(figure.triangulation, Side::front, triangulation_color, width.line);

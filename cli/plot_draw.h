@@ -3,6 +3,10 @@
 
 /// \file
 /// Draws a triangulation and its dual on the globe.
+///
+/// in    layers of points, arcs, circles and cells in the view frame (globe.h)
+/// out   the bytes of a picture
+/// index layers refer to their own points; cells, areas and values are indexed by site
 #pragma once
 
 #include <optional>

@@ -14,6 +14,7 @@
 namespace rondel::cli {
 namespace {
 
+// The colors of the texts and marks below the bar, and of its outline and the texts beside it.
 constexpr Color bar_text_color{0.06, 0.06, 0.08};
 constexpr Color bar_end_color{0.36, 0.42, 0.48};
 
@@ -62,6 +63,7 @@ struct FaceInView {
   std::array<double, 3> places;
 };
 
+// Paints faces into some rows of the picture.
 class FieldPainter {
  public:
   FieldPainter(const ValueScale& scale, int size, double radius, int first_row, int past_row,
@@ -73,6 +75,7 @@ class FieldPainter {
         past_row_(past_row),
         argb_(argb) {}
 
+  // Paints the pixels of one face: it looks at all pixels of the rectangle around the face.
   void add(const ValueField& field, const Triple& face) {
     std::array<Point, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = field.sites[face[i]];
@@ -100,6 +103,7 @@ class FieldPainter {
   }
 
  private:
+  // Colors the pixels of a row whose middle, lifted to the sphere, is in the face.
   void add_row(const FaceInView& face, int row, int left, int right) {
     const double y = (size_ / 2.0 - row - 0.5) / radius_;
     for (int column = left; column < right; ++column) {
@@ -136,6 +140,7 @@ class FieldPainter {
   double rim_ = 1 + 0.75 / radius_;
 };
 
+// Returns a number with so many significant digits; -0 is written as 0.
 std::string text_of(double value, int digits) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.*g", digits, value + 0.0);
@@ -181,6 +186,7 @@ void paint_field(const ValueField& field, const ValueScale& scale, int size, dou
 std::vector<double> round_values(double least, double most) {
   if (!(least < most)) return {};
   constexpr double marks = 5;
+  // The steps of a scale are 1, 2 or 5 times a power of ten.
   const double rough = most / marks - least / marks;
   const double power = std::pow(10, std::floor(std::log10(rough)));
   const double factor = rough / power;

@@ -3,6 +3,10 @@
 
 /// \file
 /// Draws values on the globe as colors, pixel by pixel, and the bar that explains the colors.
+///
+/// in    values at sites, and the faces of their triangulation in the view frame (globe.h)
+/// out   pixels in Cairo's format ARGB32, row by row from the top
+/// index sites for values; faces refer to sites
 #pragma once
 
 #include <cstdint>
@@ -26,6 +30,7 @@ struct ValueScale {
   /// Returns the place of a value in the range, from 0 to 1; 0.5 if the range is one number. The
   /// range may exceed the largest double.
   [[nodiscard]] double place(double value) const;
+  /// Returns the color of a value, which must not be NaN.
   [[nodiscard]] Color color(double value) const;
 };
 
@@ -41,6 +46,7 @@ struct ValueField {
 
 /// Colors the pixels whose middle is in a face, in rows first_row ... past_row - 1 of a square
 /// picture of `size`. `argb` has these rows, which are transparent at first.
+/// \param radius  the radius of the globe in pixels; its center is the middle of the picture
 void paint_field(const ValueField& field, const ValueScale& scale, int size, double radius,
                  int first_row, int past_row, std::span<std::uint32_t> argb);
 

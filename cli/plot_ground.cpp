@@ -7,11 +7,13 @@
 namespace rondel::cli {
 namespace {
 
+// The lines are translucent, so that the colors below show through.
 constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
 constexpr Color coast_color{0.20, 0.25, 0.35, 0.75};
 
 }  // namespace
 
+// The offsets stay those of the positions, since each position becomes one point.
 LineLayer seen(std::span<const LonLat> positions, std::span<const std::uint64_t> offsets,
                const View& view) {
   LineLayer layer;

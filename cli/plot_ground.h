@@ -3,6 +3,9 @@
 
 /// \file
 /// Draws what lies on the globe below a triangulation: coasts, meridians and parallels.
+///
+/// in    lines of longitudes and latitudes in degrees
+/// out   thin lines on the canvas, where they are in front
 #pragma once
 
 #include <cstdint>

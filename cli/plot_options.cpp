@@ -10,6 +10,7 @@
 namespace rondel::cli {
 namespace {
 
+// The words of an option in the order in which a message names them.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
@@ -34,6 +35,7 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
       ->type_name("WHAT");
 }
 
+// Adds the options that say what is drawn.
 void add_content_options(CLI::App& parser, PlotOptions& options) {
   add_choice<Show>(parser, "--show", options.show,
                    {{"none", Show::none},
@@ -93,6 +95,7 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
       ->type_name("DEG");
 }
 
+// Adds the options that say from where the globe is seen, and how large the picture is.
 void add_view_options(CLI::App& parser, PlotOptions& options) {
   parser
       .add_option("--view", options.view,

@@ -3,6 +3,9 @@
 
 /// \file
 /// The options of `rondel plot`.
+///
+/// in    the command line
+/// out   what a picture or a page shows; options that are not given are chosen by the others
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,9 +18,13 @@
 
 namespace rondel::cli {
 
+/// Which edges are drawn: those of the triangles, those of the cells, or both.
 enum class Show { none, delaunay, voronoi, both };
+/// What colors show: the areas of the cells, a value in each cell, or a field that is linear in the
+/// triangles.
 enum class Fill { none, area, cells, field };
 
+/// The options as they are given.
 struct PlotOptions {
   CommonOptions common;
   FigureStyle style;

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Writes the page of `rondel plot` with the values, isolines and options that the command line
+// gives; the page itself is made by the library (rondel/globe.h).
 #include "plot_page.h"
 
 #include <filesystem>
@@ -18,6 +21,7 @@ std::string title_of(const std::string& input) {
   return input == "-" ? "Sites" : std::filesystem::path(input).stem().string();
 }
 
+// Returns the edges that the page shows at first; it can show others later.
 GlobeLines lines_of(const PlotOptions& options) {
   const bool is_filled = options.fill == Fill::area || !options.values.empty();
   switch (options.show.value_or(is_filled ? Show::voronoi : Show::delaunay)) {
@@ -30,6 +34,7 @@ GlobeLines lines_of(const PlotOptions& options) {
   }
 }
 
+// Returns the options of the library's function; values and isolines are added by run_page().
 GlobeOptions globe_options(const PlotOptions& options) {
   GlobeOptions globe;
   globe.title = title_of(options.common.input);

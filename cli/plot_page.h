@@ -3,6 +3,9 @@
 
 /// \file
 /// Writes pages of `rondel plot` (.html).
+///
+/// in    the options of `rondel plot`, whose INPUT is read here
+/// out   one file of HTML with all data and programs in it
 #pragma once
 
 #include "plot_options.h"

@@ -14,6 +14,7 @@ namespace {
 // Returns the largest integer that is not greater. Precondition: the value is not negative.
 int floor_of(double value) { return static_cast<int>(value); }
 
+// Returns a component from 0 to 1 as a number from 0 to 255.
 std::uint32_t byte(float value) {
   return static_cast<std::uint32_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
 }
@@ -33,6 +34,8 @@ Pixels::Pixels(int size, int first_row, int past_row)
       past_row_(past_row),
       colors_(static_cast<std::size_t>(size) * static_cast<std::size_t>(past_row - first_row)) {}
 
+// Adds the edges to the sums of the window. In each row the sum up to a pixel is then the share of
+// the pixel that the shape covers; its sign tells the orientation of the shape.
 void Pixels::fill(std::span<const Spot> polygon, const Color& color) {
   if (polygon.size() < 3) return;
   const double last = size_;
@@ -79,6 +82,7 @@ double* Pixels::sums_of(const Window& window, int row, int column) {
 
 void Pixels::add_edge(const Window& window, const Spot& from, const Spot& to) {
   if (from.y == to.y) return;
+  // `middle` is the mean distance m of a piece of the edge from the left side of the pixel.
   const auto add = [](double* sums, double rise, double middle) {
     sums[0] += rise * (1 - middle);
     sums[1] += rise * middle;
@@ -93,6 +97,7 @@ void Pixels::add_edge(const Window& window, const Spot& from, const Spot& to) {
   const auto& [top, bottom] = is_down ? std::tie(from, to) : std::tie(to, from);
   const auto [left, right] = std::minmax(from.x, to.x);
   const double slope = (bottom.x - top.x) / (bottom.y - top.y);
+  // The edge is cut at the lines between rows, and in each row at the lines between columns.
   for (int y = floor_of(top.y); y < bottom.y; ++y) {
     const double first = std::max<double>(y, top.y), past = std::min<double>(y + 1, bottom.y);
     const double a = std::clamp(top.x + (first - top.y) * slope, left, right);
@@ -151,6 +156,7 @@ bool PixelPen::is_elsewhere(Spot center, double radius) const {
   return y + radius + 1 < pixels_.first_row() || y - radius - 1 > pixels_.past_row();
 }
 
+// Each line is a rectangle; rectangles of one path overlap at its corners.
 void PixelPen::stroke(const Color& color, double width) {
   for (std::size_t part = 0; part < starts_.size(); ++part) {
     const std::size_t past = part + 1 < starts_.size() ? starts_[part + 1] : path_.size();

@@ -13,6 +13,10 @@
 /// of x. By Green's formula it is a sum over the edges: an edge that rises by dy within a pixel, at
 /// the mean distance m from the pixel's left side, adds dy (1 - m) to this pixel and dy to all
 /// pixels on its right.
+///
+/// in    polygons in pixels, curves in the unit disc
+/// out   rows of pixels with colors and alpha
+/// index rows and columns of the whole layer, from the top left corner
 #pragma once
 
 #include <array>
@@ -51,7 +55,9 @@ class Pixels {
     int left, top, columns, rows;
   };
 
+  /// Adds an edge to the sums of the window's rows.
   void add_edge(const Window& window, const Spot& from, const Spot& to);
+  /// Returns the place of a pixel's sum; row and column are counted in the window.
   [[nodiscard]] double* sums_of(const Window& window, int row, int column);
 
   int size_, first_row_, past_row_;
@@ -84,6 +90,7 @@ class PixelPen final : public Pen {
   void dot(Spot center, double radius, const Color& color);
 
  private:
+  /// Returns a place of the unit disc in pixels; rows are counted from the top.
   [[nodiscard]] Spot place(Spot spot) const {
     return {center_ + radius_ * spot.x, center_ - radius_ * spot.y};
   }

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Sets of points with a known number of sites, which -n must be. The formulas of the numbers are
+// those of the library (rondel/point_sets.h).
 #include "point_set_kinds.h"
 
 #include <algorithm>
@@ -31,6 +33,7 @@ std::size_t size_of_count(std::size_t n, std::size_t least, const CountOf& count
   throw UsageError("-n,--number: this kind has " + nearest + " sites, not " + std::to_string(n));
 }
 
+// Returns the sites that make() returns; what the library refuses is an error of the command line.
 template <class Make>
 Input input_of(const Make& make) {
   Input input;
@@ -42,6 +45,7 @@ Input input_of(const Make& make) {
   return input;
 }
 
+// Each of these functions makes the set whose number of sites is recipe.n.
 Input icosahedral(const Recipe& recipe) {
   const std::size_t levels =
       size_of_count(recipe.n, 0, [](std::size_t k) { return (std::size_t{10} << (2 * k)) + 2; });
@@ -64,6 +68,7 @@ Input cubed_sphere(const Recipe& recipe) {
   return input_of([&] { return mesh::cubed_sphere_points(side); });
 }
 
+// Poisson disks have no number of sites, but a least distance in degrees.
 Input poisson(const Recipe& recipe) {
   return input_of([&] {
     return mesh::poisson_disk_points(recipe.angle_deg / inputs::degrees_per_radian, recipe.seed);

@@ -3,6 +3,9 @@
 
 /// \file
 /// What the tool needs from the operating system: process_posix.cpp, process_windows.cpp.
+///
+/// in    the arguments of main() and the standard streams
+/// out   the same behaviour on every system
 #pragma once
 
 #include <atomic>

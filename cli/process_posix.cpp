@@ -27,15 +27,18 @@ void guard_standard_streams() {
   }
 }
 
+// Handles a signal that ends the process: it ends by the same signal, so that its parent sees that.
 extern "C" void rondel_remove_temporaries_and_end(int signal) {
   remove_temporaries();
   std::signal(signal, SIG_DFL);  // rondel_interrupt() does not reset it
   std::raise(signal);
 }
 
+// A handler of signals may only write to such a flag.
 std::atomic<bool> is_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
+// Handles the first Ctrl-C; the second one ends the process.
 extern "C" void rondel_interrupt(int /*signal*/) {
   is_interrupted = true;
   std::signal(SIGINT, &rondel_remove_temporaries_and_end);
@@ -64,6 +67,8 @@ void prepare_process() {
   handle_signals();
 }
 
+// Where the parent has made the process ignore Ctrl-C, as shells do with jobs in the background, it
+// goes on ignoring it.
 const std::atomic<bool>& interrupted_by_user() {
   if (std::signal(SIGINT, &rondel_interrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   return is_interrupted;

@@ -16,6 +16,7 @@
 namespace rondel::cli {
 namespace {
 
+// Converts UTF-16 to UTF-8; the first call of the system's function counts the bytes.
 std::string utf8(const wchar_t* text) {
   const auto convert = [&](char* to, int room) {
     return ::WideCharToMultiByte(CP_UTF8, 0, text, -1, to, room, nullptr, nullptr);
@@ -25,6 +26,7 @@ std::string utf8(const wchar_t* text) {
   return result;  // includes the zero that ends it
 }
 
+// The flag that the first Ctrl-C sets.
 std::atomic<bool> is_interrupted = false;
 
 extern "C" void rondel_interrupt(int /*signal*/) {
@@ -58,6 +60,7 @@ std::vector<const char*> arguments_of_process(int argc, const char* const* argv)
   return arguments;
 }
 
+// The system's terminals obey sequences of control characters after they are asked to.
 bool has_terminal() {
   const HANDLE console = ::GetStdHandle(STD_ERROR_HANDLE);
   DWORD mode = 0;

@@ -21,6 +21,7 @@ struct ProgressLine::Screen {
   Clock::time_point next = Clock::now() + std::chrono::milliseconds(300);
   bool is_dirty = false;
 
+  // Overwrites the line. The first one comes after 0.3 seconds, so that short runs show nothing.
   void show(std::string_view stage, double fraction) {
     const std::lock_guard lock(mutex);
     const Clock::time_point now = Clock::now();
@@ -33,6 +34,7 @@ struct ProgressLine::Screen {
     std::fflush(stderr);
   }
 
+  // Clears the line, if there is one, before something else is printed.
   void clear() {
     const std::lock_guard lock(mutex);
     if (!is_dirty) return;

@@ -3,6 +3,9 @@
 
 /// \file
 /// A line on a terminal that shows the progress; nothing if there is no terminal.
+///
+/// in    the stage of the library's work and its share that is done, from 0 to 1
+/// out   text on standard error
 #pragma once
 
 #include <memory>

@@ -69,6 +69,7 @@ void QueryJob::write_npy(const std::vector<Index>& values,
   job_.time(Stage::write, [&] { write_indices(options_.common.output, values, shape); });
 }
 
+// The keys of the JSON object are a contract with programs that read it.
 void QueryJob::report(const Counts& answers) {
   const Seconds seconds = job_.seconds();
   const BuildReport& build = triangulation_.report();

@@ -3,6 +3,10 @@
 
 /// \file
 /// What locate and nearest share: they read two files and write a table of answers.
+///
+/// in    INPUT with the sites and QUERIES with points
+/// out   answers: a table, .csv or .tsv, or an array of indices, .npy
+/// index queries and sites in the order of their files, from 0
 #pragma once
 
 #include <cstdint>
@@ -25,8 +29,10 @@ class QueryJob {
   /// Checks the options before any work. \throws UsageError if they do not fit together
   explicit QueryJob(const QueryOptions& options);
 
+  /// Reads both files, triangulates the sites and makes the locator. \throws FileError
   void prepare();
 
+  /// The results of prepare().
   [[nodiscard]] const SiteTable& sites() const { return sites_; }
   [[nodiscard]] std::span<const Point> queries() const { return queries_.sites; }
   [[nodiscard]] const Triangulation& triangulation() const { return triangulation_; }
@@ -47,7 +53,9 @@ class QueryJob {
     return answers;
   }
 
+  /// Writes the answers as a table to OUTPUT. \throws FileError
   void write_text(const std::string& text);
+  /// Writes the answers as an array of this shape to OUTPUT. \throws FileError
   void write_npy(const std::vector<Index>& values, const std::vector<std::uint64_t>& shape);
 
   /// Prints the report where it does not disturb the answers. `answers` counts them by name.
@@ -63,6 +71,7 @@ class QueryJob {
   std::optional<Locator> locator_;
 };
 
+/// Appends a number in decimal digits.
 void append(std::string& text, std::uint64_t value);
 /// Appends an angle with 15 digits.
 void append_distance(std::string& text, double degrees);

@@ -24,6 +24,7 @@
 namespace rondel::cli {
 namespace {
 
+// A format with the ending of its files and the name of GDAL's driver.
 struct GdalFormat {
   const char* ending;
   const char* driver;
@@ -36,6 +37,7 @@ constexpr int type_multi_polygon = 6, type_polygon = 3;
 constexpr int field_real = 2, field_text = 4, field_integer = 12;
 constexpr int traditional_axes = 0;  // longitude first
 
+// Returns the format of an ending; null if GDAL is not needed for it.
 const GdalFormat* format_of(const std::string& format) {
   for (const GdalFormat& known : gdal_formats) {
     if (format == known.ending) return &known;
@@ -46,6 +48,7 @@ const GdalFormat* format_of(const std::string& format) {
 // Writes well-known binary (WKB), in the byte order of this machine.
 class WkbWriter {
  public:
+  // Begins a geometry: the order of its bytes and its type.
   void begin(int type) {
     const unsigned char order = std::endian::native == std::endian::little ? 1 : 0;
     append(&order, 1);
@@ -86,6 +89,7 @@ std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t firs
   return wkb.bytes();
 }
 
+// Returns the number if the whole text is one.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};
@@ -94,7 +98,8 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-// A column of numbers has integers of 64 bits if all of them are such, texts if doubles would round others, and else doubles.
+// A column of numbers has integers of 64 bits if all of them are such, texts if doubles would round
+// others, and else doubles.
 int field_type(const Column& column) {
   if (!column.is_numeric) return field_text;
   for (std::size_t row = 0; row < column.ends.size(); ++row) {
@@ -105,7 +110,8 @@ int field_type(const Column& column) {
   return field_integer;
 }
 
-// The names of the fields. GeoPackage takes upper and lower case for one, and has columns of its own.
+// The names of the fields. GeoPackage takes upper and lower case for one, and has columns of its
+// own.
 std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
   const bool is_sqlite = format.ending == std::string_view("gpkg");
   std::set<std::string> taken = {"area"};
@@ -132,6 +138,7 @@ class GdalFile {
   GdalFile(const GdalFile&) = delete;
   GdalFile& operator=(const GdalFile&) = delete;
 
+  // Returns GDAL's driver. \throws FileError if GDAL was built without it
   static GdalHandle driver(const std::string& path, const GdalFormat& format) {
     const Gdal& gdal = load_gdal(path);
     if (GdalHandle const found = gdal.driver_by_name(format.driver)) return found;
@@ -140,6 +147,8 @@ class GdalFile {
                     "'; in Python, Regions.to_geopandas().to_parquet() writes such files");
   }
 
+  // Makes the table: its name, the coordinate system and the fields. Field 0 is the area, and field
+  // k + 1 is column k.
   void make_layer(const std::string& layer_name, std::span<const Column> columns,
                   std::span<const std::string> names) {
     GdalHandle const reference = gdal_.new_reference(nullptr);
@@ -157,6 +166,8 @@ class GdalFile {
     gdal_.start_transaction(dataset_, 0);  // faster, in formats that have transactions
   }
 
+  // Adds a feature. A cell of a column that is empty stays NULL, unless it is an empty text of
+  // GeoJSON.
   void add(std::size_t row, double area, std::span<const Column> columns,
            const std::vector<unsigned char>& wkb) {
     GdalHandle geometry = nullptr;
@@ -174,6 +185,7 @@ class GdalFile {
     require(error == 0);
   }
 
+  // Closes the dataset, which completes its bytes, and returns them.
   std::string finish() {
     gdal_.commit_transaction(dataset_);
     gdal_.close(std::exchange(dataset_, nullptr));
@@ -184,6 +196,7 @@ class GdalFile {
   }
 
  private:
+  // Throws GDAL's last message unless a call was successful.
   void require(bool is_done) const {
     if (!is_done) throw FileError(path_ + ": GDAL: " + gdal_.last_error());
   }
@@ -195,6 +208,7 @@ class GdalFile {
     require(error == 0);
   }
 
+  // Sets column k of a feature from its text.
   void set(GdalHandle feature, std::size_t k, std::string_view text) const {
     const int field = static_cast<int>(k) + 1;
     if (types_[k] == field_integer) {
@@ -230,6 +244,7 @@ void write_regions_by_gdal(const std::string& path, const std::string& format,
   GdalFile file(path, *format_of(format));
   const std::string stem = std::filesystem::path(path).stem().string();
   file.make_layer(path == "-" ? "cells" : stem, columns, field_names(columns, *format_of(format)));
+  // Polygons of one cell follow each other; they are one feature.
   for (std::size_t p = 0; p < regions.owners.size();) {
     const std::size_t first = p;
     const Index owner = regions.owners[p];

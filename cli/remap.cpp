@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel remap: conservative weights from the cells of one file to those of another.
+// in    two sides with cells: a grid, a mesh or grid of netCDF, polygons, or sites with Voronoi
+//       cells
+// out   a file of weights
+// index source cells are columns, target cells are rows, in the order of their files
 #include "rondel/remap.h"
 
 #include <nlohmann/json.hpp>
@@ -21,6 +26,7 @@ struct CellSide {
   WeightSide side;
 };
 
+// The cells of grid:DEG or grid:NLONxNLAT, whose corners and areas are computed here.
 CellSide side_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
   WeightSide side = grid_side(name);
   add_grid_cells(side);
@@ -32,6 +38,7 @@ CellSide side_of_grid(const std::string& name, const RemapCommandOptions& option
   }
 }
 
+// The cells of netCDF in any convention that the library reads.
 CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, const Job& job) {
   const CellTable table = read_cells(file);
   tell(table.name, table.remarks);
@@ -61,6 +68,8 @@ CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& optio
   }
 }
 
+// Sites are read as points and have the cells of their Voronoi diagram, or with weights power
+// cells.
 CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
   ReadOptions read = options.common.read;
   read.keep_columns = false;
@@ -71,6 +80,7 @@ CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options,
   return {Partition::voronoi(triangulation, job.execution()), std::move(side)};
 }
 
+// Reads the cells of a side in the form that its file has.
 CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
   switch (form_of(file)) {
     case CellForm::grid:
@@ -100,6 +110,7 @@ Remap remapped(const RemapCommandOptions& options, const CellSide& source, const
   }
 }
 
+// Prints the numbers of cells and weights; `missing` counts target cells without any source.
 void report(Job& job, const WeightFile& file, const std::string& output) {
   std::size_t empty = 0;
   const Weights& weights = file.weights;
@@ -150,6 +161,7 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
     source = side_of(options.source_file(), options, job);
     target = side_of(options.target_file(), options, job);
   });
+  // Masks come from the files, and cells that they leave out take no part.
   RemapOptions remap_options = options.remap;
   remap_options.source_mask = source->side.mask;
   remap_options.target_mask = target->side.mask;

@@ -4,6 +4,10 @@
 /// \file
 /// The options of the commands that move values between sites or cells, and what these commands
 /// share.
+///
+/// in    weights, values, sites or cells, from two files, one of which may be standard input
+/// out   values at targets, or the weights that give them
+/// index sources (columns of the weights) and targets (rows), in the order of their files
 #pragma once
 
 #include <cstdint>
@@ -20,6 +24,7 @@
 
 namespace rondel::cli {
 
+/// The options of `rondel apply`.
 struct ApplyCommandOptions {
   CommonOptions common;              ///< INPUT: the weights; output and threads
   std::string values_file;           ///< VALUES; "-": standard input
@@ -31,11 +36,13 @@ struct ApplyCommandOptions {
   [[nodiscard]] FileName values() const { return common.other_source(values_file); }
 };
 
+/// The options of `rondel check-weights`.
 struct CheckWeightsOptions {
   CommonOptions common;      ///< INPUT: the weights
   WeightCheckOptions check;  ///< --allow-negative
 };
 
+/// The options of `rondel interpolate`.
 struct InterpolateOptions {
   CommonOptions common;              ///< INPUT: the sites
   std::string target;                ///< --to; "-": standard input
@@ -56,6 +63,7 @@ struct Targets {
   SiteTable table;  ///< the points, and where they come from
   WeightSide side;
 };
+/// Reads the targets of a command. `read` says how tables are read.
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read
 Targets read_targets(const FileName& target, const ReadOptions& read);
 // Returns the centers of a grid's cells, and the shape of the grid.
@@ -67,6 +75,7 @@ LonLatGrid lonlat_grid(const std::string& name);
 /// Returns the four corners of each cell, counterclockwise.
 std::vector<LonLat> corners_of(const LonLatGrid& grid);
 
+/// The options of `rondel remap`.
 struct RemapCommandOptions {
   CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights
   std::string target;    ///< TARGET; "-": standard input
@@ -84,6 +93,7 @@ enum class CellForm { grid, netcdf, polygons, sites };
 /// Returns the form of INPUT or TARGET, by its name and, for netCDF, its first bytes.
 CellForm form_of(const FileName& file);
 
+/// These functions run the commands after parsing.
 ExitStatus run_apply(const ApplyCommandOptions& options);
 ExitStatus run_check_weights(const CheckWeightsOptions& options);
 ExitStatus run_interpolate(const InterpolateOptions& options);

@@ -18,12 +18,15 @@
 namespace rondel::cli {
 namespace {
 
+// Checks the value of --fill: a finite number, or nan.
 std::string fill_error(const std::string& text) {
   return text == "nan" || text == "NaN" ? std::string() : finite_error(text);
 }
 
+// Checks a share, from 0 to 1.
 std::string share_error(const std::string& text) { return range_error(text, 0, 1); }
 
+// Adds --value, which may be repeated; each names one column or variable.
 void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::string& what) {
   parser.add_option("--value", columns, what)->allow_extra_args(false)->type_name("COL");
 }
@@ -35,6 +38,7 @@ CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::st
   return parser.add_option_function<std::string>(name, take, what)->required();
 }
 
+// Adds the file of weights as INPUT. `of_others` ends the help of --input-format.
 void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others) {
   parser
       .add_option("WEIGHTS", options.input,
@@ -57,6 +61,7 @@ std::unordered_map<std::string, Value> named_values() {
   return values;
 }
 
+// Adds how values are interpolated, also at targets outside and at sites that share a place.
 void add_methods(CLI::App& parser, InterpolationOptions& options) {
   add_word<Method>(parser, "--method", options.method, named_values<Method>(),
                    "nearest, linear, laplace, sibson (default), hermite or cubic");
@@ -157,6 +162,7 @@ Command add_check_weights_command(CLI::App& tool) {
   return {parser, [options] { return run_check_weights(*options); }};
 }
 
+// Adds the file for the weights themselves, which may be written beside the values or instead.
 void add_weight_options(CLI::App& parser, InterpolateOptions& options) {
   parser
       .add_option("--weights", options.weights,

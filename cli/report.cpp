@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Texts and JSON objects of reports. The keys of the objects are a contract with programs.
 #include "report.h"
 
 #include <cstdio>
@@ -13,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Returns how many predicates each rung decided (docs/theory/filters.md).
 Json json_of(const Tally& tally) {
   return {{"filter", tally.filter},
           {"extended", tally.extended},
@@ -22,6 +24,7 @@ Json json_of(const Tally& tally) {
           {"perturbed", tally.perturbed}};
 }
 
+// Returns a time in seconds with three decimals.
 std::string text_of(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", seconds);
@@ -40,6 +43,7 @@ struct Counts {
   Model model;
 };
 
+// A triangulation in memory and one out of core are reported by the same counts.
 Counts counts_of(const Triangulation& t) {
   return {t.num_sites(),         t.num_vertices(),  t.num_faces(), t.num_ghost_faces(),
           t.duplicates().size(), t.hidden().size(), t.dimension(), t.model()};
@@ -62,6 +66,7 @@ Json json_of(const Counts& counts) {
           {"model", name_of(counts.model)}};
 }
 
+// Returns the second line of a summary: the faces, or why there are none.
 std::string faces_line(const Counts& counts) {
   if (counts.dimension < 2) {
     return "no faces: " + std::string(counts.vertices < 2 ? "fewer than two vertices"
@@ -89,6 +94,7 @@ std::string count(std::size_t number, const std::string& one, const std::string&
 
 namespace {
 
+// Returns the object that reports of triangulations and hulls share.
 Json contract(const Triangulation& triangulation, const Seconds& seconds) {
   const BuildReport& build = triangulation.report();
   Json json = json_of(counts_of(triangulation));
@@ -105,6 +111,7 @@ Json contract(const Triangulation& triangulation, const Seconds& seconds) {
   return json;
 }
 
+// Returns the first line of a summary: what became of the sites.
 std::string sites_line(const Counts& counts) {
   std::string text = count(counts.sites, "site", "sites") + ": " +
                      count(counts.vertices, "vertex", "vertices") + ", " +
@@ -114,12 +121,14 @@ std::string sites_line(const Counts& counts) {
   return text;
 }
 
+// Returns a number with ten digits.
 std::string number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.10g", value);
   return text;
 }
 
+// Returns what a hull is: a solid, or a polygon, segment or point.
 std::string hull_line(const Triangulation& hull, const HullSize& size) {
   if (hull.dimension() == 2) {
     return std::to_string(hull.num_faces()) + " faces, volume " + number(size.volume) +

@@ -3,6 +3,9 @@
 
 /// \file
 /// The report of a finished job: a summary for people or one JSON object for programs.
+///
+/// in    results, and seconds of wall time
+/// out   texts that end with a newline
 #pragma once
 
 #include <cstdint>
@@ -36,6 +39,8 @@ std::string hull_json_report(const Triangulation& hull, const HullSize& size,
                              const Seconds& seconds);
 
 /// Returns a few lines: what was read, what resulted, what was written and how long it took.
+/// \param what  what was written: "the triangulation"
+/// \param output  the file to which it was written
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output);
 
@@ -45,6 +50,7 @@ std::string out_of_core_json_report(const OutOfCoreReport& report, Model model,
 std::string out_of_core_summary(const OutOfCoreReport& report, Model model, const Seconds& seconds,
                                 const std::string& output);
 
+/// Returns the lines of a hull, with its volume and area in units of the points.
 std::string hull_summary(const Triangulation& hull, const HullSize& size, const Seconds& seconds,
                          const std::string& output);
 

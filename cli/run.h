@@ -4,6 +4,9 @@
 /// \file
 /// The options of the commands, and the functions that run them after parsing (plot apart:
 /// plot.cpp).
+///
+/// in    the options of a command, with the files that they name
+/// out   files, a report, and the exit status of the tool
 #pragma once
 
 #include <cstdint>
@@ -16,6 +19,7 @@
 
 namespace rondel::cli {
 
+/// The options of `rondel delaunay`; the files are written beside the triangles.
 struct DelaunayOptions {
   CommonOptions common;
   std::string neighbors;      ///< --neighbors; empty: not written
@@ -27,6 +31,7 @@ struct DelaunayOptions {
   bool resume = false;        ///< --resume
 };
 
+/// The options of `rondel voronoi`.
 struct VoronoiOptions {
   CommonOptions common;
   double tolerance_deg = 0.01;
@@ -40,16 +45,19 @@ struct VoronoiOptions {
                                ///< kilometers
 };
 
+/// The options of `rondel hull`.
 struct HullCommandOptions {
   CommonOptions common;
   bool is_compact = false;  ///< --compact
 };
 
+/// The options of `rondel check`.
 struct CheckOptions {
   CommonOptions common;
   std::string triangles;
 };
 
+/// The options of `rondel generate`.
 struct GenerateOptions {
   CommonOptions common;
   std::string kind;
@@ -67,6 +75,7 @@ struct QueryOptions {
   double within_deg = -1;            ///< --within; negative: not given
 };
 
+/// These functions run the commands after parsing.
 ExitStatus run_delaunay(const DelaunayOptions& options);
 /// Runs run_delaunay() with --scratch (out_of_core.cpp).
 ExitStatus run_out_of_core(const DelaunayOptions& options);

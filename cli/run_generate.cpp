@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// rondel generate: sites of a named kind, the same bytes for the same options on every machine.
 #include <nlohmann/json.hpp>
 
 #include "inputs/kinds.h"
@@ -14,6 +15,7 @@ namespace {
 using inputs::Kind;
 using inputs::Recipe;
 
+// Checks that the options fit the kind: a number of sites, a grid, or an angle in degrees.
 void require_parts(const Kind& kind, const Recipe& recipe) {
   const std::string name(kind.name);
   const bool has_grid = recipe.rows > 0;

@@ -16,6 +16,7 @@ unsigned num_workers(unsigned threads) {
 }
 
 void run_pieces(unsigned threads, int count, const std::function<void(int)>& work) {
+  // The number of the next piece; threads take pieces until there are none, or one has failed.
   std::atomic<int> next = 0;
   std::exception_ptr error;
   std::mutex mutex;

@@ -3,6 +3,9 @@
 
 /// \file
 /// The options that say how to read a table of sites.
+///
+/// in    the command line
+/// out   ReadOptions and the model; usage errors for options that change nothing
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,7 +15,8 @@
 namespace rondel::cli {
 
 /// Adds --delimiter, --radius, --lon, --lat, --x, --y, --z and --radians like add_input_options(),
-/// for a table that is not INPUT. They are usage errors if all of `tables` are netCDF or grids, --radius if the first one is.
+/// for a table that is not INPUT. They are usage errors if all of `tables` are netCDF or grids;
+/// --radius is one if the first of them is.
 void add_table_options(CLI::App& command, CommonOptions& options, const TablesRead& tables);
 
 }  // namespace rondel::cli

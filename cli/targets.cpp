@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Targets of interpolation: points of a file, or the centers of a grid that "grid:DEG" or
+// "grid:NLONxNLAT" names. Cell (i, j) of a grid has the index j * num_lon + i; i counts eastward
+// from -180 degrees, j northward from the south pole.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -16,19 +19,23 @@
 namespace rondel::cli {
 namespace {
 
+// A grid has at most this many cells along a meridian, and twice as many along a parallel.
 constexpr std::uint64_t most_parallels = 1'000'000;
 
+// The numbers of cells along a parallel and along a meridian.
 struct GridSize {
   std::uint64_t num_lon = 0;
   std::uint64_t num_lat = 0;
 };
 
+// Throws UsageError with what a grid is.
 [[noreturn]] void refuse(const std::string& text) {
   throw UsageError("'" + text +
                    "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
                    "has so many cells");
 }
 
+// Returns the numbers of cells that the name of a grid says.
 GridSize grid_size(const std::string& text) {
   const std::string numbers = text.substr(text.find(':') + 1);
   const std::size_t cross = numbers.find('x');
@@ -62,6 +69,7 @@ double place(std::uint64_t halves, std::uint64_t n, std::int64_t half) {
   return static_cast<double>(numerator) / static_cast<double>(count);
 }
 
+// Returns the centers of the cells in degrees.
 std::vector<LonLat> grid_points(const GridSize& size) {
   std::vector<LonLat> points;
   points.reserve(size.num_lon * size.num_lat);
@@ -73,6 +81,7 @@ std::vector<LonLat> grid_points(const GridSize& size) {
   return points;
 }
 
+// Returns the meridians and parallels between the cells in degrees, one more than cells.
 LonLatGrid lines_of(const GridSize& size) {
   LonLatGrid grid;
   for (std::uint64_t i = 0; i <= size.num_lon; ++i) {

@@ -13,6 +13,7 @@
 namespace rondel::cli {
 namespace {
 
+// Reads a number; false unless it is the whole text. It does not depend on the locale.
 template <class Number>
 bool parse(const std::string& text, Number& value) {
   const char* const end = text.data() + text.size();

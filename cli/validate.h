@@ -3,6 +3,9 @@
 
 /// \file
 /// Checks of option values, for CLI::Option::check. They return an empty string, or what is wrong.
+///
+/// in    the text of an option's value
+/// out   an empty text, or "'...' is not ..." for the message of a usage error
 #pragma once
 
 #include <cstdint>
@@ -10,7 +13,9 @@
 
 namespace rondel::cli {
 
+/// Checks a number that is neither infinite nor NaN.
 std::string finite_error(const std::string& text);
+/// Checks a finite number that is greater than 0.
 std::string positive_error(const std::string& text);
 /// Checks a number in [min, max].
 std::string range_error(const std::string& text, double min, double max);

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel voronoi with whole cells.
+// rondel voronoi: the Voronoi or power cells of sites. Whole cells are written here; clipped and
+// joined ones, and those of lines and polygons, in voronoi_regions.cpp.
+// in    sites; their columns become properties of GeoJSON
+// out   a cell for each site that has one
+// index sites in the order of the input
 #include "region_files.h"
 #include "rondel/diagram.h"
 #include "run.h"

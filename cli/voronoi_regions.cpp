@@ -30,6 +30,7 @@ namespace {
 
 constexpr double mean_earth_radius = 6371.0088;  // kilometers; WGS 84, (2 a + b) / 3
 
+// Returns the column of this name. \throws UsageError, which begins with the option
 const Column& column_of(const std::vector<Column>& columns, const std::string& file,
                         const std::string& name, const std::string& option) {
   const auto column = std::ranges::find(columns, name, &Column::name);
@@ -55,6 +56,7 @@ struct Groups {
   std::vector<Index> of_rows;
   Column names;
 };
+// Returns the group of each row by its text in a column; equal texts are one group.
 Groups groups_of(const Column& column) {
   Groups groups{{}, column.empty_copy()};
   std::unordered_map<std::string_view, Index> known;
@@ -136,10 +138,12 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
   return made;
 }
 
+// The polygons of --clip, and the groups of their values.
 struct Regions {
   Partition partition;
   Groups values;  ///< by --clip-value
 };
+// Reads the polygons of --clip.
 Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
   // Without --clip-value, clip() unites the polygons.
   PolygonOptions rules{.edges = options.edges};
@@ -160,6 +164,7 @@ Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
   return {Partition(polygons.cells, execution), std::move(values)};
 }
 
+// Writes the features as GeoJSON, or by GDAL in one of its formats.
 void write(Job& job, const VoronoiOptions& options, const Features& made) {
   const std::string format = options.common.format();
   job.time(Stage::write, [&] {
@@ -200,6 +205,7 @@ std::vector<std::string> remarks_on_groups(const Groups& groups,
           (lost > 1 ? "first '" : "'") + std::string(groups.names.cell(first)) + "')"};
 }
 
+// Returns the Voronoi cells of the sites, clipped if --clip is given.
 Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& triangulation,
                        const Execution& execution) {
   const Partition all = Partition::voronoi(triangulation, execution);
@@ -222,6 +228,7 @@ Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& trian
   return cut;
 }
 
+// Runs the command for sites.
 ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   Job job(options.common);
   SiteTable table = job.read();
@@ -245,6 +252,8 @@ ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   return done;
 }
 
+// Returns the cells of lines and polygons. The tolerance of --densify becomes an angle in radians
+// on a sphere of --earth-radius, or of the mean radius of the Earth.
 Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& table,
                           const Execution& execution) {
   const double radius = options.earth_radius_km > 0 ? options.earth_radius_km : mean_earth_radius;
@@ -269,8 +278,9 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
   return cut;
 }
 
-// Returns remarks on features without a geometry, and on those that have one but no cell. What lies outside of --clip has no cell
-// either, so with that only polygons are told that lie in others before.
+// Returns remarks on features without a geometry, and on those that have one but no cell. What lies
+// outside of --clip has no cell either, so with that only polygons are told that lie in others
+// before.
 std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, bool is_clipped,
                                     bool is_quiet) {
   std::size_t unlocated = 0;
@@ -301,6 +311,7 @@ std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, b
   return remarks;
 }
 
+// Runs the command for lines and polygons.
 ExitStatus write_cells_of_features(const VoronoiOptions& options) {
   Job job(options.common);
   FeatureTable table;

@@ -3,6 +3,9 @@
 
 /// \file
 /// Options whose values are words.
+///
+/// in    a word of the command line
+/// out   the value that it stands for, or a usage error that quotes the word
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,6 +17,9 @@
 namespace rondel::cli {
 
 /// Adds an option that takes one of the words in `choices`.
+/// \param name  the option, "--edges"
+/// \param target  gets the value of the word; it must live until the command line has been parsed
+/// \param what  the help text, which names the words
 template <typename Value>
 CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
                       const std::unordered_map<std::string, Value>& choices,
