@@ -40,6 +40,8 @@ using exact::to_point;
 using exact::to_vector;
 using FineWeights = std::vector<DoubleDouble>;
 
+// A step is halved, at most so often, until it lowers the errors and leaves no cell too small.
+// Newton's equations are solved until the residual is `inner_tolerance` times the right-hand side.
 constexpr int most_halvings = 20;
 constexpr double inner_tolerance = 1e-4;
 constexpr int most_inner_steps = 500;
@@ -101,6 +103,7 @@ class Newton {
     return now;
   }
 
+  // A step of Newton's method for all weights at once.
   struct NewtonStep {
     std::vector<double> of_log;  // change of log w
     double rounding;  // relative error of areas that comes from rounding weights to doubles
@@ -266,6 +269,7 @@ void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   result.worst = now.worst;
 }
 
+// The reasons for areas that are not reached; they go to the report.
 constexpr const char* two_hemispheres =
     "the cells of two sites are hemispheres, whatever their weights";
 constexpr const char* no_lunes =

@@ -27,6 +27,8 @@ Point reflected(const Point& p, const Point& v, const Point& w) {
 
 double distance_between(const Point& a, const Point& b) { return norm(b - a); }
 
+// Makes the arrays from the lists of the file, whose cells may end at a border. Points are unit
+// vectors until the last step multiplies them by the radius.
 class BorderedMeshMaker {
  public:
   BorderedMeshMaker(const RingsAndSites& from, const mesh::MeshOptions& options,
@@ -47,6 +49,7 @@ class BorderedMeshMaker {
   }
 
  private:
+  // Calls each(i) for 0 <= i < count, in parallel.
   template <class Each>
   void for_each(std::size_t count, const Each& each) const {
     system::parallel_for(threads_, count, border_grain, [&](std::size_t begin, std::size_t end) {

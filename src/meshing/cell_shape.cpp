@@ -123,6 +123,7 @@ void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& sha
 
 }  // namespace
 
+// At the border of a mesh the cell beyond an edge is missing, and so is its spacing.
 double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge) {
   const auto [a, b] = arrays.cells_on_edge[edge];
   if (b == no_index) return 0;

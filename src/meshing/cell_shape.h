@@ -5,6 +5,7 @@
 //
 // in    the arrays of a mesh, a cell or an edge
 // out   numbers without unit, but for the spacing (radians) and the energy
+// index cells and edges of the mesh
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,8 @@ struct CellShape {
   double gradient = 0;
 };
 
+// Returns the shape of a cell. It takes the areas and lengths of the arrays, and its moment from
+// the corners.
 CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell);
 
 // Returns the difference of the spacings of the two cells of an edge over their mean; 0 at the

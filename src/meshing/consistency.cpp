@@ -43,6 +43,8 @@ void require_size(const char* name, std::size_t size, std::size_t wanted) {
       0);
 }
 
+// Throws InvalidInput for the first piece of an array that has an index of `end` or more. Rows are
+// arrays of a fixed number of indices, and are read as one list of them.
 template <class Row>
 void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,
                      std::size_t end, None none = None::refused) {
@@ -63,7 +65,8 @@ void require_indices(const char* name, unsigned threads, const std::vector<Row>&
   });
 }
 
-// The numbers that an array may have: up to `most`, from `least` on or, unless `has_least`, above it.
+// The numbers that an array may have: up to `most`, from `least` on or, unless `has_least`, above
+// it.
 struct PossibleNumbers {
   double least;
   double most;
@@ -98,6 +101,7 @@ void require_numbers(const char* name, unsigned threads, std::span<const double>
 
 }  // namespace
 
+// The names are those of MPAS, which users of MPAS files know.
 void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads) {
   constexpr double turn = 2 * std::numbers::pi;
   const PossibleNumbers areas{0, 2 * turn * arrays.radius * arrays.radius, false};
@@ -130,6 +134,7 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   if (!arrays.density.empty()) require_size("density", arrays.density.size(), cells);
   require_size("offsets", arrays.offsets.size(), cells + 1);
   for (std::size_t i = 0; i < cells; ++i) {
+    // A cell has three edges at least.
     if (arrays.offsets[i] + 3 > arrays.offsets[i + 1] || arrays.offsets[0] != 0) {
       throw InvalidInput(
           "the offsets of the mesh do not grow by three or more at cell " + std::to_string(i), i);

@@ -30,6 +30,7 @@ std::size_t number_kept(std::vector<Index>& numbers) {
   return next;
 }
 
+// The arrays before and after. The maps from old to new numbers are a part of the result.
 class Culler {
  public:
   Culler(const MeshArrays& arrays, std::span<const std::uint8_t> is_removed, unsigned threads)
@@ -75,12 +76,14 @@ class Culler {
                            }
                          });
   }
+  // Copies the values of the elements that stay.
   template <class Value>
   void keep_values(const std::vector<Index>& numbers, std::size_t size,
                    const std::vector<Value>& before, std::vector<Value>& now) const {
     now.resize(size);
     for_each_kept(numbers, [&](std::size_t i, Index number) { now[number] = before[i]; });
   }
+  // Returns the new number of an element, and no_index for one that is gone or was none before.
   static Index renumbered(const std::vector<Index>& numbers, Index index) {
     return index == no_index ? no_index : numbers[index];
   }

@@ -22,6 +22,7 @@ constexpr std::array<Orbit, 2> degree_4 = {
 
 }  // namespace
 
+// Lanes that no caller sets have a triangle, so that they compute with finite numbers.
 DensityNodes::DensityNodes(const SizeFunction& size) : raster_(*size.raster_) {
   for (std::size_t k = 0; k < lanes; ++k) set(k, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
 }
@@ -73,6 +74,7 @@ inline void DensityNodes::place_nodes(double of_first, double of_second) {
   }
 }
 
+// The raster is read apart from the vectorized loops, since its values lie at computed places.
 inline void DensityNodes::read_raster() {
   const std::size_t side = raster_.cube.side();
   for (std::size_t k = 0; k < lanes; ++k) {
@@ -84,6 +86,8 @@ inline void DensityNodes::read_raster() {
   }
 }
 
+// The raster has r, the smallest spacing over the spacing, which is bilinear in each square; the
+// density is r^4.
 inline void DensityNodes::add_nodes(double weight) {
   for (std::size_t k = 0; k < lanes; ++k) {
     const double low = corners_[0][k];

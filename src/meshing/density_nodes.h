@@ -50,6 +50,7 @@ class DensityNodes {
   }
 
  private:
+  // One number, and one vector, for each lane.
   using Numbers = std::array<double, lanes>;
   struct VectorLanes {
     alignas(64) Numbers x;

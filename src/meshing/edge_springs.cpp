@@ -20,6 +20,9 @@ constexpr double springs_half_width = 0.5 * (1 - softest_spring);
 
 }  // namespace
 
+// The wall between two cells is the chord of the two circumcenters; densities are masses over
+// squared spacings. Each site stores the springs at it, so that a pass over the sites needs no
+// locks.
 void EdgeSprings::measure(const MovingSurface& surface, std::span<const Point> sites,
                           std::span<const SiteSums> sums) {
   const std::size_t n = sites.size();
@@ -80,6 +83,7 @@ void EdgeSprings::relax(double keep, double gain) {
   displacements_.swap(next_);
 }
 
+// The first step is that of Jacobi; each further one follows the Chebyshev recurrence.
 void EdgeSprings::yield(std::span<const Point> sites, std::span<const std::uint8_t> axes,
                         std::span<TangentVector> forces) {
   const std::size_t n = sites.size();

@@ -48,6 +48,7 @@ class EdgeSprings {
              std::span<TangentVector> forces);
 
  private:
+  // A spring as one of its two sites has it, in 16 bytes.
   struct Spring {
     Index neighbor;
     float x, y, z;  // sqrt(k) e

@@ -31,6 +31,7 @@ double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
 
 }  // namespace
 
+// The row of an edge has the other edges of its one or two cells.
 std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
   std::size_t count = 0;
   for (const Index cell : arrays.cells_on_edge[edge]) {

@@ -6,6 +6,8 @@
 //
 // in    the arrays of a mesh, an edge
 // out   the edges and weights of its row
+// index edges of the mesh; a row begins after the edge, counterclockwise around its first cell,
+// then around its second one
 #pragma once
 
 #include <cstddef>

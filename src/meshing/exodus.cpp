@@ -66,6 +66,7 @@ CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners)
   return blocks;
 }
 
+// The order of the variables is that in which they are written.
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks) {
   const mesh::MeshArrays& arrays = file.arrays();
   const std::size_t num_blocks = blocks.corners.size();

@@ -26,6 +26,7 @@
 
 namespace rondel::meshing {
 
+// The measures of one face. Arcs may be negative: the circumcenter may lie beyond an edge.
 struct FaceMeasures {
   Point circumcenter;
   std::array<double, 3>

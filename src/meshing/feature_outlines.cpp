@@ -26,6 +26,7 @@ namespace {
 
 using OutlinePoints = std::vector<Point>;
 
+// True for points of longitude 180 and for the poles.
 bool is_on_antimeridian(const Point& p) { return p.y == 0 && p.x <= 0; }
 
 // A point of the antimeridian and its number.
@@ -174,6 +175,7 @@ class PartJoin {
     }
   }
 
+  // Appends open chains first, each from its begin; what is left are closed chains.
   void append_all(std::vector<OutlinePoints>& lines) {
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if (has_previous_[i] == 0) append_chain(i, lines);
@@ -187,6 +189,7 @@ class PartJoin {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   static std::array<double, 3> key(const Point& p) { return {p.x, p.y, p.z}; }
 
+  // Appends the line that begins with this part.
   void append_chain(std::size_t first, std::vector<OutlinePoints>& lines) {
     OutlinePoints line = std::exchange(parts_[first], {});
     for (std::size_t i = next_[first]; i != none && !parts_[i].empty(); i = next_[i]) {

@@ -5,6 +5,7 @@
 //
 // in    points, lines and polygons of a table of features
 // out   lines as unit vectors
+// index none: open lines come first, then closed ones, then those that continue across cuts
 #pragma once
 
 #include <vector>

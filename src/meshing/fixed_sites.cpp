@@ -74,6 +74,7 @@ std::vector<Index> take_nearest(std::vector<Point>& sites, std::span<const Point
   std::vector<char> is_taken(sites.size(), 0);
   taken.reserve(units.size());
   for (const Point& place : units) {
+    // The nearest sites may be taken already, so that more of them are asked for until one is free.
     constexpr std::size_t usually_enough = 8;
     for (std::size_t k = usually_enough;; k *= 4) {
       const std::vector<Index> near = locator.k_nearest(place, std::min(k, num_vertices));

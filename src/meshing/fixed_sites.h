@@ -5,6 +5,7 @@
 //
 // in    fixed places, as any vectors; sites as unit vectors
 // out   the index of the site that was put at each place
+// index places in their order; sites
 #pragma once
 
 #include <span>

@@ -13,6 +13,7 @@
 namespace rondel::mesh {
 namespace {
 
+// A graph of so few vertices is solved by smoothing alone.
 constexpr std::size_t coarsest_size = 40;
 // The factor of Jacobi's step: L of a triangulation has eigenvalues below twice its diagonal, and
 // this factor damps the upper half of them.

@@ -43,6 +43,7 @@ class LaplacianSolver {
             std::vector<double>& solution);
 
  private:
+  // A graph of the multigrid cycle, the finest first, with the vectors of the cycle on it.
   struct GraphLevel {
     WeightedGraph graph;
     std::vector<Index> group;  // by vertex: its coarse vertex

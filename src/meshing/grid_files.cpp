@@ -59,6 +59,7 @@ void define_counts(MeshFile& file, io::NetcdfType type, std::size_t cells,
 
 }  // namespace
 
+// SCRIP has a row of corners for each cell, so that a corner is stored once for each of its cells.
 void define_scrip(MeshFile& file, const CellCorners& corners) {
   const mesh::MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
@@ -78,6 +79,7 @@ void define_scrip(MeshFile& file, const CellCorners& corners) {
                [&arrays](std::size_t i) { return area_at_one(arrays, i); });
 }
 
+// ESMF has a list of nodes, to which the cells refer by numbers from 1.
 void define_esmf(MeshFile& file, const CellCorners& corners) {
   const mesh::MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();

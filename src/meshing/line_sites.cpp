@@ -79,6 +79,7 @@ class LineWalk {
  private:
   static double distance(const Point& a, const Point& b) { return norm(a - b); }
 
+  // Returns the point of a segment at the share `along` of its chord, from 0 to 1.
   [[nodiscard]] Point place(std::size_t segment, double along) const {
     const StationVector a = exact::to_vector(line_[segment]);
     const StationVector b = exact::to_vector(line_[segment + 1]);
@@ -110,6 +111,7 @@ class LineWalk {
   const SizeFunction& size_;
 };
 
+// True if a line returns to its first point.
 bool is_closed(const std::vector<Point>& line) {
   // Positions that are so close count as one, as for corners in files.
   constexpr double same_place = 1e-10;
@@ -265,6 +267,7 @@ std::vector<WalkedLine> walked_lines(std::span<const std::vector<Point>> lines,
 LineSites sites_along(std::span<const std::vector<Point>> lines, const SizeFunction& size,
                       const Execution& execution) {
   const system::Call call(execution);
+  // A closed line has an even number of stations, so that left and right alternate all around.
   const auto stations_of = [](const LineWalk& walk, const std::vector<Point>& /*line*/, bool closed,
                               std::size_t most) {
     return closed ? fitted_stations(walk, half_step, 2, fewest_stations, most)

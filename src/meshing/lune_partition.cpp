@@ -113,6 +113,7 @@ class Lunes {
   }
 
  private:
+  // Returns the angle from place k to the next one, in degrees.
   [[nodiscard]] double gap(std::size_t k) const {
     return k + 1 < angles_.size() ? angles_[k + 1] - angles_[k] : angles_[0] + 360 - angles_[k];
   }
@@ -143,6 +144,7 @@ class Lunes {
     }
   }
 
+  // Returns the quotient w_{k+1} / w_k of the header, for p_0 = `start` in degrees.
   [[nodiscard]] double quotient(std::size_t k, double start) const {
     const auto [sine, cosine] = exact::sine_cosine_of_degrees(start + turns_[k]);
     const PlanePlace& here = places_[k];
@@ -151,18 +153,21 @@ class Lunes {
            std::max(std::abs(cosine * next.x + sine * next.y), least_cosine);
   }
 
+  // True if the product of all quotients is above 1.
   [[nodiscard]] bool is_above_one(double start) const {
     LongProduct product;
     for (std::size_t k = 0; k < places_.size(); ++k) product.multiply(quotient(k, start));
     return product.is_above_one();
   }
 
+  // Returns p_0 in case 2 of the header, if the cosines have the right signs there.
   [[nodiscard]] std::optional<double> start_if_in_range() const {
     const double start = angles_[widest_] + 90 - turns_[widest_];
     if (start > low_ && start < high_) return start;
     return std::nullopt;
   }
 
+  // Returns p_0 in the cases 1 and 3, by bisection.
   [[nodiscard]] std::optional<double> solution() const {
     if (!(low_ < high_)) return std::nullopt;
     // Where the product falls, it is large near the low end and small near the high end.
@@ -191,6 +196,8 @@ class Lunes {
   std::vector<double> turns_;       // p - p_0, in degrees
   std::size_t widest_ = 0;          // the place after which the widest gap comes
   bool is_opposite_ = false;        // the two places at that gap are opposite
+  // The range of p_0 in degrees, and whether the product falls from infinity at its low end, or to
+  // 0 at its high end.
   double low_ = -1000;
   double high_ = 1000;
   bool falls_at_low_ = true;

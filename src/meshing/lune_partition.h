@@ -38,6 +38,7 @@ namespace rondel::mesh {
 // True if the unit vectors lie on one great circle up to rounding; two always do.
 bool lie_on_great_circle(std::span<const Point> units);
 
+// The weights of sites on a great circle, by site.
 struct LuneWeights {
   std::vector<double> lengths;  // the least is 1; empty if no solution is found
   bool are_all_tried = true;    // false if there may be other solutions, by 3

@@ -71,10 +71,12 @@ class MeshMaker {
   }
 
  private:
+  // Calls piece(begin, end) for pieces of `mesh_grain` elements, in parallel.
   template <class Piece>
   void in_pieces(std::size_t count, const Piece& piece) const {
     system::parallel_for(execution_.threads, count, mesh_grain, piece);
   }
+  // Tells the progress, the share that is done.
   void announce(double fraction) const { system::announce(execution_, "mesh", fraction); }
 
   // Sets edges_of_[3f + i] for every halfedge.
@@ -114,6 +116,7 @@ class MeshMaker {
     return 3 * static_cast<std::size_t>(g) + mirror_corner(faces_[f], i, faces_[g]);
   }
 
+  // Sets the circumcenters, kites and areas of triangles, by face.
   void set_vertices() {
     const std::size_t size = faces_.size();
     const double square = options_.radius * options_.radius;
@@ -134,6 +137,7 @@ class MeshMaker {
     });
   }
 
+  // Sets what belongs to edges; the face with the lower number sets each.
   void set_edges() {
     arrays_.edge_points.resize(num_edges_);
     arrays_.cells_on_edge.resize(num_edges_);
@@ -141,7 +145,7 @@ class MeshMaker {
     arrays_.cell_distances.resize(num_edges_);
     arrays_.vertex_distances.resize(num_edges_);
     arrays_.normal_angles.resize(num_edges_);
-    // By piece: the first edge of length 0.
+    // The first edge of length 0 in each piece.
     std::vector<std::size_t> zeros(system::num_pieces(faces_.size(), mesh_grain), no_halfedge);
     in_pieces(faces_.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
@@ -181,6 +185,7 @@ class MeshMaker {
     return arrays_.vertex_distances[edge] > 0;
   }
 
+  // True if the four sites of two faces lie on one circle, exactly.
   [[nodiscard]] bool is_cocircular(Index f, Index g, std::size_t corner) const {
     const auto [a, b, c] = faces_[f];
     const auto points = sites_.sites();
@@ -188,6 +193,7 @@ class MeshMaker {
                           triangulation_.model(), triangulation_.sphere()) == Sign::zero;
   }
 
+  // Names the sites of an edge without length.
   [[noreturn]] void refuse_zero_edge(std::size_t halfedge) const {
     const auto f = static_cast<Index>(halfedge / 3);
     const std::size_t other = across(f, static_cast<Index>(halfedge % 3));
@@ -205,6 +211,7 @@ class MeshMaker {
                        four[0]);
   }
 
+  // Sets sites, areas and rings of the cells; SplitSites has them in spatial order, by rank.
   void set_cells() {
     const std::size_t size = triangulation_.num_sites();
     const auto order = sites_.order();
@@ -223,6 +230,8 @@ class MeshMaker {
     });
   }
 
+  // Walks counterclockwise around a site: an entry has a vertex, the edge that ends there, and the
+  // cell across this edge.
   void set_cell(Index rank) {
     const Index site = sites_.order()[rank];
     std::uint64_t at = arrays_.offsets[site];

@@ -27,6 +27,7 @@ double in_turn(double angle, double whole) {
 
 }  // namespace
 
+// The function argument() gives the same bits on every machine, so that files have the same bytes.
 double longitude_of(const Point& p) { return in_turn(exact::argument(p.y, p.x), turn); }
 
 double latitude_of(const Point& p) {
@@ -122,6 +123,8 @@ void write(const std::string& path, const MeshArrays& arrays, const MeshFileOpti
   output.commit();
 }
 
+// Writes the graph in the format of METIS: the numbers of cells and edges, then a line for each
+// cell with its neighbors, counted from 1.
 void write_graph(const std::string& path, const MeshArrays& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);

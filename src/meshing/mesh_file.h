@@ -80,6 +80,7 @@ class MeshFile {
         [value](std::size_t i, std::int32_t* out) { *out = static_cast<std::int32_t>(value(i)); });
   }
 
+  // Returns a variable with attributes that are texts.
   static io::NetcdfVariable variable(const char* name, io::NetcdfType type,
                                      std::vector<std::size_t> dimensions, Texts texts);
   // Adds an attribute that is a number.
@@ -152,6 +153,7 @@ struct CellBlocks {
   // by block: the number of corners of its cells
   std::vector<std::size_t> corners;
 };
+// Returns the cells in blocks.
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
@@ -167,10 +169,11 @@ inline bool has_border(const mesh::MeshArrays& arrays) {
                              [](const auto& cells) { return cells[1] == no_index; });
 }
 
-// Throws InvalidInput where a number cannot be what it is said to be: an area that is not positive or more than that of the sphere, a
-// length that is negative or more than a turn, an angle of more than a turn, a number that is not finite. An edge may have length 0; at
-// the border a distance may be 0, and the area of a triangle is a sum of kites, which may be negative. The message has the name that
-// MPAS gives to the array.
+// Throws InvalidInput where a number cannot be what it is said to be: an area that is not positive
+// or more than that of the sphere, a length that is negative or more than a turn, an angle of more
+// than a turn, a number that is not finite. An edge may have length 0; at the border a distance may
+// be 0, and the area of a triangle is a sum of kites, which may be negative. The message has the
+// name that MPAS gives to the array.
 void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads);
 
 // Throws InvalidInput where a number is not that of the mesh's points, by far more than programs

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The options of a mesh, which all functions that make one check in the same way.
+//
+// in    a radius in units of length, densities by site
+// out   an exception that names what is wrong
 #pragma once
 
 #include <cstddef>

@@ -100,7 +100,8 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
   define_values(file, "areaCell", sizes.cells, {}, arrays.cell_areas);
   file.numbers("meshDensity", sizes.cells, {}, size,
                [&arrays](std::size_t i) { return arrays.density.empty() ? 1 : arrays.density[i]; });
-  // By the definitions of MPAS-Tools: the least distance of neighbors over the largest, and the mean distance.
+  // MPAS-Tools defines cellQuality as the least distance of neighbors over the largest, and
+  // gridSpacing as the mean distance.
   const auto distances = [&arrays](std::size_t i) {
     std::array<double, 3> found = {arrays.cell_distances[arrays.edges_on_cell[arrays.offsets[i]]],
                                    0, 0};
@@ -175,6 +176,7 @@ double side_quality(const Corners& corners) {
   return (a + b - c) / c * ((b + c - a) / a) * ((c + a - b) / b);
 }
 
+// Angles are those of the plane triangle of the three sites.
 double angle_quality(const Corners& corners) {
   double least = std::numbers::pi;
   double most = 0;
@@ -186,6 +188,7 @@ double angle_quality(const Corners& corners) {
   return least / most;
 }
 
+// True if an angle of the plane triangle is above 90 degrees.
 bool is_obtuse(const Corners& corners) {
   bool found = false;
   for_each_angle(corners,
@@ -224,6 +227,8 @@ void define_vertices(MeshFile& file, const MpasSizes& sizes) {
 
 }  // namespace
 
+// The order of the variables is that in which they are written. The file has no times: `Time` is
+// its record dimension.
 void define_mpas(MeshFile& file) {
   const MeshArrays& arrays = file.arrays();
   MpasSizes sizes{};

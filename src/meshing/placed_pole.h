@@ -8,6 +8,10 @@
 // rounding; but among the short sums of such changes in all three coordinates there are many
 // lengths, some much closer to the wanted one. They also turn the vector by about 2^-53, which
 // moves walls by no more than the accuracy of the corners of cells.
+//
+// in    a point near the wanted one, a weight in twice double precision, the spacing of cells in
+//       radians
+// out   a point whose length is the weight
 #pragma once
 
 #include "exact/eft.h"

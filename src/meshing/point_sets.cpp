@@ -57,6 +57,8 @@ double legendre_root(std::size_t degree, double x) {
 
 }  // namespace
 
+// Each level adds a site in the middle of each edge of the level before: n sites have 3 n - 6
+// edges.
 std::vector<Point> icosahedral_points(unsigned levels, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   require_between(levels, 0, 12, "the number of levels");
@@ -67,6 +69,8 @@ std::vector<Point> icosahedral_points(unsigned levels, const Execution& executio
   return points;
 }
 
+// Rings are numbered from the north pole as in Gorski et al., ApJ 622 (2005): 4 i pixels in ring i
+// of the polar caps, 4 side pixels in the belt between them.
 std::vector<Point> healpix_points(std::size_t side) {
   const system::ArithmeticScope arithmetic;
   require_between(side, 1, 4096, "the side of HEALPix's base pixels");
@@ -89,6 +93,8 @@ std::vector<Point> healpix_points(std::size_t side) {
   return points;
 }
 
+// The latitudes are those of a Gaussian quadrature with 2 N nodes; row i from a pole has 16 + 4 i
+// points.
 std::vector<Point> reduced_gaussian_points(std::size_t number) {
   const system::ArithmeticScope arithmetic;
   require_between(number, 1, 8000, "the number of a reduced Gaussian grid");
@@ -108,6 +114,8 @@ std::vector<Point> reduced_gaussian_points(std::size_t number) {
   return points;
 }
 
+// Rows and columns of a face are great circles at equal angles from each other; their coordinates
+// on the cube are the tangents of these angles.
 std::vector<Point> cubed_sphere_points(std::size_t side) {
   const system::ArithmeticScope arithmetic;
   require_between(side, 1, 8192, "the side of a cubed sphere");

@@ -84,14 +84,17 @@ class Bins {
  private:
   static constexpr double degrees = 180 / std::numbers::pi;
 
+  // Returns the band of a point, counted from the north pole.
   [[nodiscard]] std::size_t band_of(const Point& p) const {
     const double colatitude =
         degrees * exact::argument(std::sqrt(p.x * p.x + p.y * p.y), p.z) / height_;
     return std::min(static_cast<std::size_t>(colatitude), first_.size() - 2);
   }
+  // Returns the bin of a longitude in a band; longitudes are counted from -180 degrees here.
   static std::size_t bin_of(double lon, std::size_t count) {
     return std::min(static_cast<std::size_t>(lon / 360 * static_cast<double>(count)), count - 1);
   }
+  // True if the list of a bin has a point closer than the radius.
   [[nodiscard]] bool has_close(std::size_t bin, const Point& p) const {
     for (Index k = heads_[bin]; k != no_index; k = next_[k]) {
       const auto d = to_vector(points_[k]) - to_vector(p);
@@ -103,6 +106,7 @@ class Bins {
   double square_;
   double height_ = 0;               // height of a band in degrees
   std::vector<std::size_t> first_;  // the first bin of each band, and the end
+  // Each bin is a linked list: its first point, and for each point the next one in its bin.
   std::vector<Index> heads_;
   std::vector<Index> next_;
   std::vector<Point> points_;

@@ -33,6 +33,7 @@ void keep_most(Worst& worst, double value, std::size_t where) {
   if (value > worst.value) worst = {value, static_cast<Index>(where)};
 }
 
+// Returns an empty histogram of [0, high].
 Histogram histogram(double high) {
   return {0, high, std::vector<std::uint64_t>(histogram_steps, 0)};
 }
@@ -116,6 +117,7 @@ class QualityFinder {
     const double area = result.num_border_edges == 0 ? of_sphere : all_.cells;
     const double at_one = result.num_border_edges == 0 ? 4 * std::numbers::pi
                                                        : area / (arrays_.radius * arrays_.radius);
+    // The energy of n regular hexagons that fill the area A is 5 A^2 / (18 sqrt(3) n).
     const double of_hexagons = 5 * std::numbers::inv_sqrt3 / 18;
     const bool is_uniform =
         std::ranges::all_of(arrays_.density, [](double density) { return density == 1; });
@@ -133,6 +135,8 @@ class QualityFinder {
   }
 
  private:
+  // Calls add(i, part) for each element, where pieces of elements share a part, and joins the
+  // parts.
   template <class Add>
   void in_pieces(std::size_t count, const Add& add) {
     std::vector<PieceQuality> parts(system::num_pieces(count, quality_grain));
@@ -144,6 +148,7 @@ class QualityFinder {
     for (const PieceQuality& part : parts) join(all_, part);
   }
 
+  // Adds the shape of a cell, and compares its area with the sum of its kites.
   void add_cell(std::size_t i, PieceQuality& part) {
     const meshing::CellShape shape = meshing::shape_of(arrays_, i);
     Quality& found = part.found;
@@ -171,6 +176,8 @@ class QualityFinder {
     spacings_[i] = shape.spacing * std::sqrt(std::sqrt(density));
   }
 
+  // Adds an edge: dv / dc, and how far its middle is from the point where the arc of its sites
+  // crosses it, over the distance of the sites.
   void add_edge(std::size_t e, PieceQuality& part) const {
     Quality& found = part.found;
     const double distance = arrays_.cell_distances[e];
@@ -187,6 +194,7 @@ class QualityFinder {
     found.mean_staggering += away;
   }
 
+  // Adds a vertex: its triangle, which a vertex at the border lacks, and the sum of its kites.
   void add_vertex(std::size_t v, PieceQuality& part) const {
     if (!meshing::is_at_border(arrays_.cells_on_vertex[v])) add_triangle(v, part);
     const auto& kites = arrays_.kite_areas[v];
@@ -197,6 +205,7 @@ class QualityFinder {
     part.kites += sum;
   }
 
+  // Adds the angles of a triangle, in the plane of its three sites.
   void add_triangle(std::size_t v, PieceQuality& part) const {
     Quality& found = part.found;
     const Triple& cells = arrays_.cells_on_vertex[v];
@@ -217,6 +226,8 @@ class QualityFinder {
     found.num_obtuse += static_cast<std::uint64_t>(is_obtuse);
   }
 
+  // Sets what is left of the spacings when those that the density asks for are divided out: the
+  // range of nine cells in ten, relative to the median.
   void set_spacings(Quality& result) {
     const std::size_t size = spacings_.size();
     const auto of_rank = [&](std::size_t k) {

@@ -16,6 +16,7 @@
 namespace rondel::mesh {
 namespace {
 
+// Positions are in pixels from the corner at the top left; y grows downward.
 constexpr double picture_width = 960;
 constexpr double picture_height = 760;
 constexpr double margin = 20;

@@ -21,6 +21,7 @@ struct ReportEntry {
   Worst (*worst)(const Quality&);
 };
 
+// These three read one number of the report, with the element where it is found, if there is one.
 template <double Quality::*member>
 Worst number(const Quality& quality) {
   return {quality.*member, no_index};
@@ -34,6 +35,7 @@ Worst range(const Quality& quality) {
   return {quality.spacing_range[i], no_index};
 }
 
+// The order of the entries is that of the text and of the JSON object.
 constexpr std::array entries = {
     ReportEntry{"energy", "energy over that of hexagons", nullptr, number<&Quality::energy>},
     ReportEntry{"mean_centroid_offset", "mean distance of site and center of mass, in spacings",
@@ -84,6 +86,7 @@ std::string json_of(const Histogram& histogram) {
   return text + "]}";
 }
 
+// Returns the number of cells with k edges, by k.
 std::string sides_json(const Quality& quality) {
   std::string text = "{";
   for (std::size_t k = 0; k < quality.sides.size(); ++k) {
@@ -104,6 +107,7 @@ std::string sides_text(const Quality& quality) {
   return text;
 }
 
+// Returns a number with six digits, for the text.
 std::string short_number(double value) {
   std::array<char, 32> digits;
   std::snprintf(digits.data(), digits.size(), "%.6g", value);

@@ -130,7 +130,8 @@ constexpr std::array<std::string_view, 13> measures = {
     "dvEdge",         "angleEdge",   "areaTriangle", "triangleQuality", "triangleAngleQuality",
     "obtuseTriangle", "grid_area",   "elementArea"};
 
-// Returns a sentence on the variables of a file that are no part of its mesh; empty if there are none.
+// Returns a sentence on the variables of a file that are no part of its mesh; empty if there are
+// none.
 std::string remark_on_fields(const io::NetcdfReader& file) {
   const std::vector<VariableHeader> headers = io::headers_of(file);
   const std::vector<bool> parts = parts_of_grids(headers);

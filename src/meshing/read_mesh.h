@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reads the arrays of MPAS's format; other formats have cells and corners only (read_mesh.cpp).
+// in    a netCDF file
+// out   the arrays of a mesh, with the orders that MeshArrays documents
+// index from 0, where the file counts from 1
 #pragma once
 
 #include "io/netcdf_reader.h"

@@ -72,11 +72,13 @@ class MpasReader {
   }
 
  private:
+  // Calls piece(begin, end) for pieces of `read_grain` elements, in parallel.
   template <class Piece>
   void in_pieces(std::size_t count, const Piece& piece) const {
     system::parallel_for(threads_, count, read_grain, piece);
   }
 
+  // Reads the radius; it is 1 where the file does not say.
   void read_sphere() {
     if (io::netcdf_text(file_.attributes(), "on_a_sphere").starts_with("NO")) {
       throw BadValue("the mesh is not on a sphere");
@@ -101,6 +103,7 @@ class MpasReader {
                    std::to_string(size));
   }
 
+  // Reads a variable with one finite number for each element.
   void read_numbers(const char* name, std::size_t size, std::vector<double>& values) const {
     const Variable& variable = require(name, size);
     values.resize(size);
@@ -116,6 +119,7 @@ class MpasReader {
                    ": not finite");
   }
 
+  // Checks the numbers as for arrays of callers; errors are those of the file.
   void require_numbers() const {
     try {
       meshing::require_possible_numbers(arrays_, threads_);
@@ -125,6 +129,7 @@ class MpasReader {
     }
   }
 
+  // Reads the three coordinates of points, which lie on the sphere.
   void read_points(const std::array<const char*, 3>& names, std::vector<Point>& points) const {
     const auto size = static_cast<std::size_t>(require(names[0], 0).num_values);
     const std::array<const Variable*, 3> variables = {
@@ -149,6 +154,7 @@ class MpasReader {
     });
   }
 
+  // Reads the density; a constant one is left out, as MeshArrays documents.
   void read_density() {
     const Variable* const variable = file_.find("meshDensity");
     if (variable == nullptr) return;
@@ -174,6 +180,7 @@ class MpasReader {
     throw BadValue(where + std::to_string(number) + " is not in 1 to " + std::to_string(end));
   }
 
+  // True for the two numbers that stand for none: 0, and one more than there are elements.
   static bool is_none(std::int64_t number, std::size_t end) {
     return number == 0 || (number > 0 && static_cast<std::uint64_t>(number) == end + 1);
   }
@@ -259,6 +266,7 @@ class MpasReader {
     });
   }
 
+  // Reads the edges around each cell, which are rows of a fixed length in the file.
   void read_rings() {
     const std::size_t size = arrays_.num_cells();
     const Variable& counts = require("nEdgesOnCell", size);
@@ -329,11 +337,14 @@ class MpasReader {
     throw BadValue("the edges around cell " + std::to_string(cell) +
                    " do not follow each other counterclockwise");
   }
+  // Returns the vertex at the begin (which = 0) or the end (1) of an edge, counterclockwise around
+  // a cell.
   [[nodiscard]] Index end_of(Index edge, Index cell, std::size_t which) const {
     const bool is_first = arrays_.cells_on_edge[edge][0] == cell;
     return arrays_.vertices_on_edge[edge][is_first ? which : 1 - which];
   }
 
+  // Reads the areas of kites; those of missing cells are any finite numbers.
   void read_kites() {
     const std::size_t size = arrays_.num_vertices();
     const Variable& variable = require("kiteAreasOnVertex", 3 * static_cast<std::uint64_t>(size));

@@ -101,6 +101,8 @@ class RegionSites {
     for (int& depth : depths_) depth += static_cast<int>(regions.whole.size());
   }
 
+  // True if q is in a region or on a border. Where the first pole does not decide, the others are
+  // tried with all edges.
   [[nodiscard]] bool has(const Point& q) const {
     const std::optional<int> near_one = change_of_depth(q);
     if (near_one) return *near_one == on_border || depths_[0] + *near_one > 0;
@@ -112,9 +114,11 @@ class RegionSites {
   }
 
  private:
+  // Two axes of the plane around a pole, for azimuths.
   struct PolarFrame {
     exact::Vector3<double> u, v;
   };
+  // This change of the depth stands for a point on an edge.
   static constexpr int on_border = -1'000'000'000;
 
   static PolarFrame frame_around(const Point& pole) {
@@ -131,6 +135,7 @@ class RegionSites {
     return turns < 0 ? turns + 1 : turns;
   }
 
+  // Adds the edges of a ring, without those between equal corners.
   void add_ring(const CellRings& regions, std::uint64_t begin, std::uint64_t end) {
     for (std::uint64_t k = begin; k < end; ++k) {
       const RegionEdge edge = {regions.points[regions.corners[k]],
@@ -139,6 +144,7 @@ class RegionSites {
     }
   }
 
+  // Lists for each bin the edges that reach into it, in compressed rows.
   void sort_by_azimuth() {
     num_bins_ = std::clamp<std::size_t>(edges_.size(), 1, most_bins);
     std::vector<std::array<std::size_t, 2>> spans;  // first bin and number of bins
@@ -176,6 +182,7 @@ class RegionSites {
     const auto count = static_cast<std::size_t>(end - begin) + 1;
     return {static_cast<std::size_t>(begin) % num_bins_, std::min(count, num_bins_)};
   }
+  // True near the pole and its antipode, where azimuths are inaccurate.
   [[nodiscard]] bool is_near_axis(const Point& q) const {
     const auto x = exact::to_vector(q);
     const double u = dot(x, frame_.u);
@@ -195,6 +202,7 @@ class RegionSites {
     }
     return change;
   }
+  // Returns the change of the depth from p to q by all of these edges; nothing if it is undecided.
   static std::optional<int> change_along(std::span<const RegionEdge> edges, const Point& q,
                                          const Point& p) {
     int change = 0;
@@ -203,6 +211,7 @@ class RegionSites {
     }
     return change;
   }
+  // Adds the crossing of one edge to the change; false if it is undecided.
   static bool add_crossing(const RegionEdge& edge, const Point& q, const Point& p, int& change) {
     switch (crossing_of(edge, q, p)) {
       case ArcCrossing::none:

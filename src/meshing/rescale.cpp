@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Changes the radius of a mesh: points and lengths by a factor, areas by its square. Angles and
+// densities stay.
 #include <array>
 #include <vector>
 

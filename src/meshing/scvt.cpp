@@ -22,6 +22,7 @@
 namespace rondel::mesh {
 namespace {
 
+// The fewest sites of a tessellation that is made from nothing: the corners of an icosahedron.
 constexpr std::size_t fewest_sites = 12;
 // The size of the coarsest level: few enough sites for several starts, and enough of them to follow
 // the density. Disorder of that level stays: among 40,962 sites with fourfold density, 1,000 had 5
@@ -32,6 +33,7 @@ constexpr int num_starts = 8;
 constexpr int num_starts_of_density = 3;
 constexpr double tolerance_of_starts = 1e-3;
 
+// Returns the public name of how the minimizer ended.
 constexpr ScvtEnd end_of(MinimizerEnd end) {
   switch (end) {
     case MinimizerEnd::converged:
@@ -147,6 +149,8 @@ class Levels {
                            part(first.largest_offset, limits.largest_offset, now.largest_offset)));
   }
 
+  // True for 12, 42, 162 ...: the numbers of sites of an icosahedron whose edges are halved again
+  // and again.
   static bool is_of_icosahedron(std::size_t count) {
     std::size_t edges = count - 2;
     while (edges % 4 == 0 && edges > 10) edges /= 4;

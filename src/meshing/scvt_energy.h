@@ -8,9 +8,9 @@
 // where M is the integral of rho(x) x over the cell of z. At a minimum every site is the centroid
 // of its cell: the tessellation is centroidal.
 //
-// Constant density: |x - z|^2 = 2 - 2 x.z, so F = 8 pi - 2 sum z.M, and M is a sum over the cell's arcs
-// (src/dual/centroids.cpp). Otherwise both are sums over the same nodes in the triangles from the site
-// to the arcs (density_nodes.h).
+// Constant density: |x - z|^2 = 2 - 2 x.z, so F = 8 pi - 2 sum z.M, and M is a sum over the cell's
+// arcs (src/dual/centroids.cpp). Otherwise both are sums over the same nodes in the triangles from
+// the site to the arcs (density_nodes.h).
 //
 // The unknowns are two coordinates a site in its tangent plane, in a frame that turns with the site
 // (tangent.h).

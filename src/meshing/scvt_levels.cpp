@@ -107,7 +107,8 @@ std::vector<Point> refined_sites(const std::vector<Point>& sites, std::size_t co
       result.push_back(to_point(normalized(to_vector(a) + to_vector(b))));
     }
   }
-  // The largest faces of the old sites get a site in their middle, so that the new sites stay apart.
+  // The largest faces of the old sites get a site in their middle, so that the new sites stay
+  // apart.
   struct Large {
     double size;
     Index face;

@@ -5,6 +5,7 @@
 //
 // in    the wanted number of sites, a size function or none, a seed
 // out   unit vectors
+// index sites, in spatial order where they are refined; seeds choose random starts
 #pragma once
 
 #include <cstddef>

@@ -42,6 +42,7 @@ enum class MinimizerEnd : std::uint8_t { converged, iterations, stopped, stuck }
 // A function that is called after every step; it returns false to end the work.
 using StepSeen = std::function<bool(int iteration, const EnergyReport& report)>;
 
+// The state of a minimization: the sites with their triangulation, energy and gradient.
 class Minimizer {
  public:
   // Sites whose `is_fixed` is not 0 stay bit by bit; it is empty if no site is fixed.

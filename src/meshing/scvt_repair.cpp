@@ -115,6 +115,7 @@ class Repair {
            total(found) < total(done.after);
   }
 
+  // Returns the cotangent of the angle at a corner, in the plane of the three sites.
   [[nodiscard]] double cotangent_at(Index corner, Index a, Index b) const {
     const Vector c = exact::to_vector(sites_[corner]);
     const Vector u = exact::to_vector(sites_[a]) - c;
@@ -130,6 +131,8 @@ class Repair {
     return surface_.faces()[g][back[0] == face ? 0 : (back[1] == face ? 1 : 2)];
   }
 
+  // Returns the length of the dual edge of ab, whose faces have the corners c and d, over that of
+  // ab.
   [[nodiscard]] double ratio_of_edge(Index a, Index b, Index c, Index d) const {
     return 0.5 * (cotangent_at(c, a, b) + cotangent_at(d, a, b));
   }
@@ -139,6 +142,8 @@ class Repair {
     return 4 + 2 * (degrees_[c] + degrees_[d] - degrees_[a] - degrees_[b]);
   }
 
+  // Counts the defects of a face, and adds their bounds. The face with the lower number has an
+  // edge.
   void look_at(Index f, FacesLookedAt& piece) const {
     const Triple& face = surface_.faces()[f];
     for (Index i = 0; i < 3; ++i) {

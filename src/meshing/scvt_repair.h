@@ -16,6 +16,7 @@
 //
 // in    sites of a tessellation, which of them are fixed
 // out   moved sites, and the defects that are left
+// index sites
 #pragma once
 
 #include <cstdint>

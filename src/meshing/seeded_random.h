@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Random numbers that are the same on every machine: Sebastiano Vigna's splitmix64 (public domain).
+//
+// in    a seed; every seed is good
+// out   multiples of 2^-53 in [0, 1)
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reads spacings and densities of files, at places in any order, as functions on the sphere.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -35,7 +36,8 @@ struct Spacings {
   SiteTable table;                   // says where places are in the file; without name for netCDF
 };
 
-// Returns where a value is: "sites.csv:7: density 0 of 'h'", and for netCDF "f.nc: density 0 at place 5".
+// Returns where a value is: "sites.csv:7: density 0 of 'h'", and for netCDF "f.nc: density 0 at
+// place 5".
 std::string text_of_value(const FileName& file, const std::string& column, const Spacings& spacings,
                           std::size_t i, const std::string& what) {
   const std::string value = what + " " + system::shortest_text(spacings.values[i]);
@@ -105,14 +107,16 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
   });
 }
 
-// The field at places of this number; 0: those of its longitudes and latitudes. Empty values if it is not one field at known places.
+// The field at places of this number; 0: those of its longitudes and latitudes. Empty values if it
+// is not one field at known places.
 FieldSet one_field(const FileName& file, const std::string& name, std::size_t num_points) {
   FieldSet fields = read_fields(file, {&name, 1}, num_points);
   if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) return {};
   return fields;
 }
 
-// The places of the field, by its coordinates or as the cells of the mesh, and its values; none if nothing says where.
+// The places of the field, by its coordinates or as the cells of the mesh, and its values; none if
+// nothing says where.
 Spacings spacings_of_field(const FileName& file, const std::string& name,
                            const std::vector<Point>& cells, bool is_named) {
   FieldSet fields;

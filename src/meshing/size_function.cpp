@@ -39,6 +39,7 @@ void require_slope(double slope) {
   }
 }
 
+// Calls visit(face, i, j) for the nodes in the order of their indices.
 template <class Visit>
 void for_each_node(const CubeRaster& cube, const Visit& visit) {
   for (std::size_t face = 0; face < 6; ++face) {

@@ -23,6 +23,7 @@ struct Shift {
 constexpr std::array<Shift, 8> shifts = {
     {{-1, 0}, {0, -1}, {-1, -1}, {1, -1}, {-2, -1}, {2, -1}, {-1, -2}, {1, -2}}};
 
+// Lowers the values at the nodes of a raster.
 class Limiter {
  public:
   Limiter(const CubeRaster& cube, double slope, std::vector<double>& values)
@@ -40,6 +41,7 @@ class Limiter {
   }
 
  private:
+  // Visits the nodes of a face row by row, forward or backward; true if a value has changed.
   bool sweep(std::size_t face, int sign) {
     const auto side = static_cast<int>(cube_.side());
     bool has_changed = false;
@@ -53,6 +55,7 @@ class Limiter {
     return has_changed;
   }
 
+  // Lowers the value of a node to what its neighbors allow; true if it was more.
   bool lower(std::size_t face, int i, int j, int sign) {
     const auto side = static_cast<int>(cube_.side());
     double& value = values_[node(face, i, j)];

@@ -5,6 +5,7 @@
 //
 // in    a raster of the cube, its values, a slope (spacing per distance)
 // out   the largest values that are not larger and fulfill the limit, nearly
+// index nodes of the raster (size_raster.h)
 #pragma once
 
 #include <vector>

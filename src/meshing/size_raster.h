@@ -3,9 +3,11 @@
 
 // A raster on the faces of the cube around the sphere, seen from its center. Face 2k + s has the
 // axis k and its coordinate +1 (s = 0) or -1 (s = 1); node (i, j) has -1 + 2 i / steps along axis k
-// + 1 and -1 + 2 j / steps along axis k + 2. Nodes on the border of a face are nodes of the next
-// face, too, with the same coordinates.
+// + 1 and -1 + 2 j / steps along axis k + 2, where axes are counted modulo 3. Nodes on the border
+// of a face are nodes of the next face, too, with the same coordinates.
 //
+// in    points, any vectors but the origin
+// out   nodes as unit vectors; for a point its square, and where it is there
 // index nodes: i fastest, then j, then the face
 #pragma once
 

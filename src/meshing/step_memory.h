@@ -6,6 +6,7 @@
 //
 // in    steps with the gradients before and after them; a vector
 // out   the product of the approximation with the vector
+// index sites, each with a tangent vector; pairs by age, the latest first
 #pragma once
 
 #include <array>

@@ -3,6 +3,8 @@
 
 // Coordinates in the tangent planes of many sites, and sums over the sites in a fixed order.
 //
+// in    sites as unit vectors, each with the axis of its frame
+// out   two unit vectors that span the tangent plane; sites moved by tangent vectors
 // index axes: 0, 1 or 2 for x, y or z
 #pragma once
 

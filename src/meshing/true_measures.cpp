@@ -31,6 +31,7 @@ constexpr std::size_t measure_grain = 4096;
                      i);
 }
 
+// Checks one edge or cell at a time.
 class MeasureCheck {
  public:
   explicit MeasureCheck(const mesh::MeshArrays& arrays) : arrays_(arrays) {}

@@ -17,6 +17,7 @@ using UgridTexts = MeshFile::Texts;
 constexpr UgridTexts east = {{"units", "degrees_east"}, {"standard_name", "longitude"}};
 constexpr UgridTexts north = {{"units", "degrees_north"}, {"standard_name", "latitude"}};
 
+// Defines longitudes and latitudes in degrees.
 void define_places(MeshFile& file, const char* lon, const char* lat, std::size_t dimension,
                    const std::vector<Point>& points) {
   file.numbers(lon, dimension, east, points.size(),
@@ -25,6 +26,7 @@ void define_places(MeshFile& file, const char* lon, const char* lat, std::size_t
                [&points](std::size_t i) { return latitude_deg_of(points[i]); });
 }
 
+// Returns a variable of indices. If `is_filled`, -1 stands for none.
 io::NetcdfVariable connectivity(const char* name, const char* role,
                                 std::vector<std::size_t> dimensions, bool is_filled) {
   auto variable =
