@@ -36,6 +36,7 @@ void CollectedRows::add(RowList list) {
   lists_.push_back(std::move(list));
 }
 
+// Lengths of rows are summed to offsets; then each list is copied to its places, in parallel.
 Weights CollectedRows::joined(std::size_t num_targets, unsigned threads) const {
   Weights weights;
   weights.num_columns = ground_.num_sites();

@@ -12,6 +12,7 @@
 namespace rondel::interpolation {
 namespace {
 
+// Returns the same number for points that are equal; adding 0.0 makes -0 and 0 equal.
 std::uint64_t hash_of(const Point& p) {
   constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
   std::uint64_t hash = 0;
@@ -30,6 +31,7 @@ bool may_repeat(std::span<const Point> line) {
   return std::ranges::adjacent_find(hashes) != hashes.end();
 }
 
+// Appends a line unless it has too few points: a closed one has three, an open one two.
 void append_line(std::span<const Point> line, bool is_closed, TracedLines& out) {
   if (line.size() < (is_closed ? 3U : 2U)) return;
   out.points.insert(out.points.end(), line.begin(), line.end());

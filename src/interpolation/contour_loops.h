@@ -5,6 +5,7 @@
 //
 // in    a line as a sequence of points, closed or not
 // out   lines that visit no point twice
+// index points of the line, in its order
 #pragma once
 
 #include <span>

@@ -9,6 +9,7 @@
 namespace rondel::interpolation {
 namespace {
 
+// The least and the largest value at the corners of a face.
 struct ValueExtent {
   double least, most;
 };
@@ -17,6 +18,7 @@ ValueExtent extent_of(double a, double b, double c) {
   return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
 }
 
+// True if a face with these values has a part with an area in the range.
 bool has_area(const ValueExtent& extent, const ValueRange& range) {
   if (extent.least == extent.most) return range.low <= extent.least && extent.least < range.high;
   return extent.most > range.low && extent.least < range.high;
@@ -26,6 +28,7 @@ void add_corner(ContourPiece& piece, const PieceCorner& corner) {
   piece.corners[piece.size++] = corner;
 }
 
+// True if an edge with the values a and b at its ends crosses the level inside.
 bool is_strictly_between(double level, double a, double b) {
   return (a < level && level < b) || (b < level && level < a);
 }
@@ -69,6 +72,7 @@ ContourPiece ValuedFaces::piece(Index face, const ValueRange& range) const {
     if (range.low <= begin && begin <= range.high) {
       add_corner(piece, {from, no_index, begin, here | 1U << ((edge + 2) % 3)});
     }
+    // Along the edge come its first end, and then the crossings, in the order of the values.
     const bool rises = begin < end;
     const auto cross = [&](double level) {
       if (!is_strictly_between(level, begin, end)) return;

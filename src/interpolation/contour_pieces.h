@@ -46,6 +46,7 @@ struct PieceCorner {
                        // to the next
 };
 
+// A convex polygon in a face.
 struct ContourPiece {
   std::array<PieceCorner, 6> corners;  // counterclockwise; the first `size` count
   std::size_t size = 0;                // 0 if no part of the face with an area is in the range

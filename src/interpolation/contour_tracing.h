@@ -9,10 +9,10 @@
 //       pieces, numbered face by face and in a face by region
 //
 // A border goes along the sides of pieces (contour_pieces.h), with the region to its left. At the
-// end of a side it continues with the next side of the same piece; if the region goes on across that
-// side, it turns through the pieces around the corner until it reaches a side where it does not. So
-// it never leaves the fan of pieces in which it arrived, and the rings of two fans that touch in a
-// corner are not mixed.
+// end of a side it continues with the next side of the same piece; if the region goes on across
+// that side, it turns through the pieces around the corner until it reaches a side where it does
+// not. So it never leaves the fan of pieces in which it arrived, and the rings of two fans that
+// touch in a corner are not mixed.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@
 
 namespace rondel::interpolation {
 
-// The extent of region k: a `band` has levels[k-1] <= f < levels[k]; `from_level_on` has levels[k-1] <=
-// f.
+// The extent of region k: a `band` has levels[k-1] <= f < levels[k]; `from_level_on` has
+// levels[k-1] <= f.
 enum class RegionKind : std::uint8_t { band, from_level_on };
 
 // The lines or rings of one region, one after the other.
@@ -63,32 +63,38 @@ class ContourTracer {
     std::size_t side = 0;
     ContourPiece piece{};
   };
-  // The kind of a side: `inner` if the region goes on beyond it, `line` if it lies between two regions,
-  // `rim` if it is on the border of the surface.
+  // The kind of a side: `inner` if the region goes on beyond it, `line` if it lies between two
+  // regions, `rim` if it is on the border of the surface.
   enum class SideKind : std::uint8_t { inner, line, rim };
   // The content of a face: a `plain` face belongs to one region and has no border in it.
   enum class Content : std::uint8_t { plain, mixed, missing };
 
+  // Returns the values of a region.
   [[nodiscard]] ValueRange range(std::size_t region) const;
   // Sets region_of_ for all sites.
   void find_levels(std::span<const double> values, unsigned threads);
   // Classifies all faces and numbers their pieces.
   void find_pieces(unsigned threads);
+  // Sets the content of a face, and the number of regions that have a piece in it.
   void classify(Index face, std::uint64_t& num_pieces);
+  // Lists for each region the faces in which it has a border.
   void list_mixed_faces();
   // Finds which pieces are connected, for the component of each ring.
   void connect();
   void connect(std::uint64_t a, std::uint64_t b);
   void connect_plain(Index face);
   void connect_mixed(Index face);
+  // Returns the number of the piece that a face has in a region.
   [[nodiscard]] std::uint64_t piece_name(Index face, std::size_t region) const {
     return first_piece_[face] + (region - lowest_[face]);
   }
+  // Returns the highest region that has a piece in a face.
   [[nodiscard]] std::size_t highest(Index face) const {
     return lowest_[face] + static_cast<std::size_t>(first_piece_[face + 1] - first_piece_[face]) -
            1;
   }
 
+  // Returns the kind of a side; `range` has the values of the region.
   [[nodiscard]] SideKind kind(const PieceSide& place, const ValueRange& range) const;
   // Moves the place into the face across the side, to the same side as seen there.
   void cross(PieceSide& place, const ValueRange& range) const;
@@ -101,6 +107,7 @@ class ContourTracer {
 
   // Returns the direction of a corner from the center, as a unit vector.
   [[nodiscard]] Point point(const PieceCorner& corner) const;
+  // Returns the direction of a site from the center, or that of the site that represents its place.
   [[nodiscard]] Point direction(Index site) const;
 
   const Triangulation& triangulation_;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Isolines and bands as arrays, from lines that are traced region by region in parallel. The
+// regions are appended in their order, so that the result does not depend on the threads.
 #include "rondel/contours.h"
 
 #include <algorithm>
@@ -21,12 +23,14 @@ using interpolation::ContourTracer;
 using interpolation::RegionKind;
 using interpolation::TracedLines;
 
+// Throws InvalidInput unless there is one value for each site.
 void require_values(const Triangulation& triangulation, std::span<const double> values) {
   if (values.size() == triangulation.num_sites()) return;
   throw InvalidInput("there are " + std::to_string(values.size()) + " values for " +
                      std::to_string(triangulation.num_sites()) + " sites");
 }
 
+// Throws InvalidInput for weighted sites, infinite values, and levels that do not increase.
 void require_values_and_levels(const Triangulation& triangulation, std::span<const double> values,
                                std::span<const double> levels) {
   if (triangulation.model() == Model::weighted) {

@@ -49,6 +49,7 @@ bool CubicKernel::find_corners(std::size_t lane, const TargetPlace& place) {
   return true;
 }
 
+// The linear weights of a target are the coordinates at which the element is evaluated.
 void CubicKernel::expect(std::size_t lane, const TargetPlace& place) {
   Lane& expected = lanes_[lane];
   expected.flat.clear();

@@ -69,7 +69,9 @@ class CubicKernel {
   }
   // Sets the vertices of the lane; returns false if one of the corners has no gradient.
   bool find_corners(std::size_t lane, const TargetPlace& place);
+  // Sets the row by the element; returns false if that is not to be used in this face.
   bool weigh(std::size_t lane, SlopeRow& row) const;
+  // Sets the row to the linear weights `flat`, without gradients.
   void add_linear(const TargetPlace& place, const Row& flat, SlopeRow& row) const;
 
   const Ground& ground_;

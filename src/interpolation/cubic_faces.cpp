@@ -70,6 +70,8 @@ RONDEL_ALWAYS_INLINE inline bool all_of(bool a, bool b) {
   return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
 }
 
+// Sets the squared length of edge K. Lanes with an edge that is too long or too short are not
+// weighed.
 template <std::size_t K>
 RONDEL_ALWAYS_INLINE inline void measure_edge(FaceLanes& s) {
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
@@ -236,6 +238,8 @@ RONDEL_ALWAYS_INLINE inline void weigh_edge(FaceLanes& s) {
   }
 }
 
+// Turns the derivatives by p[x_i, x_i, x_j] at corner I into weights of its value and gradient, by
+// the formulas of the header.
 template <std::size_t I>
 RONDEL_ALWAYS_INLINE inline void collect(FaceLanes& s) {
   constexpr std::size_t j = next_of(I);

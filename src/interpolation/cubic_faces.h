@@ -9,10 +9,10 @@
 // out   for each lane six weights of values and six of gradients
 // index lanes; k = 0 ... 2 corners, k = 3 ... 5 the vertices opposite to corners 0 ... 2
 //
-// Notation. x_0, x_1, x_2 are the corners; k is one of them and the edge opposite to it, from x_i to x_j
-// (i = k+1, j = k+2, modulo 3); y_k is the vertex beyond edge k. Homogeneous cubic polynomials are
-// written by their blossom p[., ., .], which is symmetric and linear in each of its three vectors; with
-// the value f and the tangent gradient g at a vertex x,
+// Notation. x_0, x_1, x_2 are the corners; k is one of them and the edge opposite to it, from x_i
+// to x_j (i = k+1, j = k+2, modulo 3); y_k is the vertex beyond edge k. Homogeneous cubic
+// polynomials are written by their blossom p[., ., .], which is symmetric and linear in each of its
+// three vectors; with the value f and the tangent gradient g at a vertex x,
 //
 //     p[x, x, x] = f    and    p[x, x, z] = f x.z + g.z / 3.
 //

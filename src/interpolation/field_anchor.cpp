@@ -29,7 +29,8 @@ bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double most_
 
 }  // namespace
 
-// Places in one file are the same if they are the same numbers, but for the rounding of single precision.
+// Places in one file are the same if they are the same numbers, but for the rounding of single
+// precision.
 bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
                                          std::span<const LonLat> a,
                                          std::span<const LonLat> b) const {
@@ -46,7 +47,8 @@ bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
   return are_one_place(candidate.lon, anchor_->lon, candidate.layout.places, anchor_->places);
 }
 
-// Whether the variable is at the places that are wanted, which are then those of its coordinates.
+// True if the variable is at the places that are wanted; these are then the places of its
+// coordinates.
 bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
   for (PossiblePlaces& candidate : candidates(variable)) {
     if (!are_near(candidate.layout.places, wanted_.positions, wanted_.most_apart_deg)) continue;
@@ -56,7 +58,8 @@ bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
   return false;
 }
 
-// The places are those that are wanted. Otherwise they are those of the first variable that has only one answer.
+// The places are those that are wanted. Otherwise they are those of the first variable that has
+// only one answer.
 void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const> variables) {
   const bool are_wanted = !wanted_.positions.empty();
   for (const VariableOfPlaces* const variable : variables) {
@@ -90,7 +93,8 @@ void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const
   }
 }
 
-// Another variable of the file may name these places in messages; a coordinate does where no field has them.
+// Another variable of the file may name these places in messages; a coordinate does where no field
+// has them.
 void FieldDimensionFinder::name_wanted_places() {
   for (const bool is_coordinate : {false, true}) {
     for (const VariableOfPlaces& variable : file_.variables()) {

@@ -7,6 +7,7 @@
 
 namespace rondel::interpolation {
 
+// Takes whole dimensions from the last leading one on, while they fit; the next one is divided.
 FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
                          const FieldDimensions& layout, std::size_t most_values)
     : shape_(variable.shape.begin(), variable.shape.end()), leading_(layout.leading) {

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which variables and fields of a netCDF file names mean, and lists of names for messages.
+// Finds the variables and fields of a netCDF file that names mean, and lists names for messages.
+//
+// in    names as users write them: "tas", "tas[3]", "tas_2001-07-15"
+// out   variables of the file; numbers of fields
+// index fields of a variable, the last of its leading dimensions varying fastest
 #pragma once
 
 #include <cstddef>
@@ -15,9 +19,11 @@
 
 namespace rondel::interpolation {
 
-// "[3, 1]" means the field at places 3 and 1 along the dimensions; negative places count from the end. Throws BadValue.
+// Returns the field that `places` means, "[3, 1]" being the one at places 3 and 1 along the leading
+// dimensions; negative places count from the end. Throws BadValue.
 std::size_t number_of_field(const FieldArray& several, std::string_view places);
-// The variables that the name may mean: that of this name, or "tas" of "tas[3]" and "tas_2001-07-15", the longest name first.
+// Returns the variables that the name may mean: that of this name, or "tas" of "tas[3]" and
+// "tas_2001-07-15", the longest name first.
 std::vector<const io::NetcdfReader::Variable*> meant_variables(const io::NetcdfReader& file,
                                                                const std::string& name);
 // Returns the variables that are named, or all where no name is given.

@@ -3,6 +3,10 @@
 
 // Writes texts and numbers of points, such as the properties of polygons, as netCDF variables along
 // the dimension of the points.
+//
+// in    columns of text, one cell for each point
+// out   variables of netCDF: numbers as doubles, NaN for empty cells, and texts as UTF-8
+// index points, in their order
 #pragma once
 
 #include <cstddef>
@@ -22,6 +26,7 @@ std::string netcdf_name(std::string name);
 // Returns a name of free_names(), which is then taken.
 std::string take_name(const std::string& name, std::set<std::string>& taken);
 
+// Columns on their way to a file. They must live until write().
 class ColumnsOut {
  public:
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}

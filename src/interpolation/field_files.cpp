@@ -17,6 +17,7 @@
 namespace rondel {
 namespace {
 
+// A format that is read, by the ending of its files.
 struct FieldReader {
   std::string_view ending;
   // A null pointer stands for netCDF, which is read in slices.
@@ -30,6 +31,7 @@ constexpr FieldReader field_readers[] = {{".csv", &interpolation::read_fields_cs
                                          {".cdf", nullptr},
                                          {".ncf", nullptr}};
 
+// A format that is written, by the ending of its files.
 struct FieldBeginning {
   std::string_view ending;
   std::unique_ptr<interpolation::FieldSink> (*begin)(io::AtomicFile&,

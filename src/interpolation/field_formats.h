@@ -20,6 +20,8 @@
 
 namespace rondel::interpolation {
 
+// What a reader is asked for: fields of these names, or all; with num_points = 0 at as many points
+// as the file has.
 struct FieldsToRead {
   std::span<const std::string> names;
   std::uint64_t num_points;
@@ -32,6 +34,7 @@ FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted);
 
+// What a writer gets before any values: the fields, and the points that they are at.
 struct FieldsToWrite {
   const FieldSet& fields;  // names, dimensions and attributes of the fields, without values
   const WeightSide& side;
@@ -45,7 +48,9 @@ class FieldSink {
   virtual ~FieldSink() = default;
   FieldSink(const FieldSink&) = delete;
   FieldSink& operator=(const FieldSink&) = delete;
+  // Takes the next values; those of a field come after those of the field before it.
   virtual void write(std::span<const double> values) = 0;
+  // Completes the file after the last value.
   virtual void finish() = 0;
 };
 // Each of these begins a file. `job` refers to objects that must live until finish().

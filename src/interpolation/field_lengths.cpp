@@ -17,7 +17,7 @@ namespace {
 
 using VariableOfLengths = io::NetcdfReader::Variable;
 
-// The products of the last lengths, without those of 1.
+// Returns the products of the last 0, 1, 2 ... lengths, where lengths of 1 do not count.
 std::vector<std::uint64_t> products(std::span<const std::uint64_t> lengths) {
   std::vector<std::uint64_t> result = {1};
   for (std::size_t k = lengths.size(); k-- > 0;) {
@@ -26,14 +26,15 @@ std::vector<std::uint64_t> products(std::span<const std::uint64_t> lengths) {
   return result;
 }
 
-// Whether arrays of these lengths hold the same values in the same order, one perhaps with dimensions made one.
+// True if arrays of these lengths hold the same values in the same order, where one may have
+// several dimensions of the other joined to one.
 bool agree(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
   const std::vector<std::uint64_t> of_a = products(a);
   const std::vector<std::uint64_t> of_b = products(b);
   return std::ranges::includes(of_a, of_b) || std::ranges::includes(of_b, of_a);
 }
 
-// The dimensions that are longer than 1.
+// Returns the dimensions that are longer than 1.
 std::set<std::size_t> long_ones(std::span<const std::size_t> dimensions,
                                 std::span<const std::uint64_t> lengths) {
   std::set<std::size_t> result;
@@ -111,7 +112,8 @@ const FieldDimensionFinder::SetsOfPlaces& FieldDimensionFinder::sets_of_places()
   return *sets_of_places_;
 }
 
-// Where the file has longitudes and latitudes of the points, values on other dimensions of the same lengths are elsewhere.
+// True if the variable may be at the points: if the file has longitudes and latitudes of them,
+// values along other dimensions of the same lengths are elsewhere.
 bool FieldDimensionFinder::may_be_of_places(const VariableOfLengths& variable,
                                             std::span<const std::size_t> points) {
   const SetsOfPlaces& sets = sets_of_places();
@@ -120,7 +122,8 @@ bool FieldDimensionFinder::may_be_of_places(const VariableOfLengths& variable,
   return sets.same.empty() && std::ranges::count(sets.other, own) == 0;
 }
 
-// Where the file has no longitudes and latitudes of the points, all variables have them along the same dimensions.
+// True if the variable has the points along the same dimensions as the variables before it, as it
+// must where the file has no longitudes and latitudes of them.
 bool FieldDimensionFinder::has_same_dimensions(const VariableOfLengths& variable,
                                                std::span<const std::size_t> points) {
   if (!sets_of_places().same.empty()) return true;
@@ -166,7 +169,7 @@ void FieldDimensionFinder::choose_dimension_of_cells(
   }
 }
 
-// Whether the dimension has an axis of times or heights, so that no places are along it.
+// True if the dimension has an axis of times or heights, so that no places are along it.
 bool FieldDimensionFinder::is_other_axis(std::size_t dimension) const {
   const std::string& name = file_.dimensions()[dimension].name;
   if (is_name_of_time(name)) return true;
@@ -178,8 +181,9 @@ bool FieldDimensionFinder::is_other_axis(std::size_t dimension) const {
   });
 }
 
-// The dimension that is called cells is the one of the points, or else dimensions as long as those of the grid, or else those whose
-// lengths multiply to the number of points. Dimensions of length 1 are none of them where it can be helped.
+// Returns the dimensions of the points: the one that is called cells, or else dimensions as long as
+// those of the grid, or else those whose lengths multiply to the number of points. Dimensions of
+// length 1 are left out where that is possible.
 std::vector<std::size_t> FieldDimensionFinder::run_of_points(
     const VariableOfLengths& variable) const {
   const std::span<const std::uint64_t> shape = variable.shape;
@@ -206,7 +210,8 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(
       rank_of_best = preference;
       std::vector<std::size_t> run(end - begin);
       for (std::size_t d = begin; d < end; ++d) run[d - begin] = d;
-      // The last of those that differ in dimensions of length 1 has the fewest of these at its front.
+      // The last of those that differ in dimensions of length 1 has the fewest of these at its
+      // front.
       const auto is_same = [&](const std::vector<std::size_t>& other) {
         return long_ones_of(variable, other) == long_ones_of(variable, run);
       };

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Dimensions of variables by their lengths.
+// Finds dimensions of variables by their lengths, where no coordinates say which are those of
+// points.
+//
+// in    the lengths of a grid, and a variable
+// out   positions of dimensions in the variable
 #pragma once
 
 #include <cstddef>
@@ -14,7 +18,8 @@
 
 namespace rondel::interpolation {
 
-// Reverses the dimensions where the lengths of the grid say so. False if they are others.
+// Reverses the points' dimensions where the lengths of the grid are theirs in reverse; returns
+// false if they are others.
 bool fit_lengths(std::span<const std::uint64_t> wanted, const io::NetcdfReader::Variable& variable,
                  std::vector<std::size_t>& points);
 // Makes the dimensions that are not those of the points the leading ones.

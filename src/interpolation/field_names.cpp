@@ -21,16 +21,18 @@ namespace {
 
 constexpr std::int64_t seconds_per_day = 86400;
 
-// `mixed` is the standard calendar of CF: the Julian one before 15 October 1582, and then the Gregorian
-// one, in which its days are counted here.
+// `mixed` is the standard calendar of CF: the Julian one before 15 October 1582, and then the
+// Gregorian one, in which its days are counted here.
 enum class Calendar { mixed, gregorian, julian, no_leap, all_leap, days_360 };
 
+// A date of some calendar; months and days count from 1.
 struct Date {
   std::int64_t year = 0;
   std::int64_t month = 1;
   std::int64_t day = 1;
 };
 
+// Returns the text of an attribute; it is empty if the axis has none of this name.
 std::string attribute_of(const FieldArray& axis, std::string_view name) {
   for (const auto& [key, text] : axis.attributes) {
     if (key == name) return text;
@@ -38,6 +40,7 @@ std::string attribute_of(const FieldArray& axis, std::string_view name) {
   return {};
 }
 
+// Returns the calendar that the attribute `calendar` names (CF 1.11, section 4.4.1).
 std::optional<Calendar> calendar_of(const FieldArray& axis) {
   const std::string name = io::lower_case(io::without_blanks(attribute_of(axis, "calendar")));
   constexpr std::array<std::pair<std::string_view, Calendar>, 10> calendars = {
@@ -81,6 +84,7 @@ std::int64_t days_before(Calendar calendar, std::int64_t year) {
   return 365 * year + of_four_years - (year - 1) / 100 + (year - 1) / 400;
 }
 
+// Returns the number of days from 1 January of the year 0 to a date.
 std::int64_t day_number(Calendar calendar, const Date& date) {
   std::int64_t days = days_before(calendar, date.year) + date.day - 1;
   for (std::int64_t month = 1; month < date.month; ++month) {
@@ -89,6 +93,7 @@ std::int64_t day_number(Calendar calendar, const Date& date) {
   return days;
 }
 
+// Returns the date with this number of days; the inverse of day_number().
 Date date_of(Calendar calendar, std::int64_t days) {
   Date date;
   date.year = days / 366;  // this is at most the year of the date
@@ -121,6 +126,7 @@ struct TimeUnits {
   std::int64_t start = 0;
 };
 
+// Returns the length of a unit of time in seconds; months and years have none.
 std::optional<double> seconds_of_unit(std::string_view unit) {
   constexpr std::array<std::pair<std::string_view, double>, 22> units = {
       {{"days", 86400},        {"day", 86400},        {"d", 86400},   {"hours", 3600},
@@ -181,6 +187,7 @@ void take_zero_fraction(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of('0', 1), text.size()));
 }
 
+// Reads units of time; nothing for texts that are none.
 std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) {
   const std::size_t since = io::lower_case(text).find(" since ");
   if (since == std::string::npos) return std::nullopt;
@@ -215,6 +222,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
 constexpr double most_off_second = 0.01;
 constexpr std::int64_t ms_per_day = 1000 * seconds_per_day;
 
+// Returns a time, in milliseconds from the year 0, as ISO 8601.
 std::string text_of_time(Calendar calendar, std::int64_t ms, bool has_clock, bool has_ms) {
   const Date date =
       date_of(calendar == Calendar::mixed ? Calendar::gregorian : calendar, ms / ms_per_day);
@@ -232,6 +240,8 @@ std::string text_of_time(Calendar calendar, std::int64_t ms, bool has_clock, boo
   return result + text.data();
 }
 
+// Returns the dates along an axis of times; none if it is no such axis, or a time is too early or
+// late.
 std::vector<std::string> dates_of(const FieldArray& axis) {
   const std::optional<Calendar> calendar = calendar_of(axis);
   if (!calendar) return {};

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Names for the fields of an array in a table, where each field is a column.
+//
+// in    the coordinates along an axis, with its attributes
+// out   texts, such as dates
+// index places along the axis
 #pragma once
 
 #include <cstddef>

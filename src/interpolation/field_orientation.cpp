@@ -38,7 +38,8 @@ CoordinateKind other_kind(CoordinateKind kind) {
 
 }  // namespace
 
-// The places of a grid along one of its two dimensions: index i has place i * step, and those that follow it in steps of `across`.
+// The places of a grid along one of its two dimensions: index i has place i * step, and those that
+// follow it in steps of `across`.
 struct FieldDimensionFinder::PlacesAlong {
   std::size_t length;
   std::size_t step;
@@ -46,7 +47,7 @@ struct FieldDimensionFinder::PlacesAlong {
   std::size_t num_across;
 };
 
-// Whether the coordinate depends on the index along the line alone.
+// True if the coordinate depends on the index along the line alone.
 bool FieldDimensionFinder::changes_along(const PlacesAlong& line, CoordinateKind kind) const {
   for (std::size_t i = 0; i < line.length; ++i) {
     const double first = coordinate_of(wanted_.positions[i * line.step], kind);
@@ -60,7 +61,8 @@ bool FieldDimensionFinder::changes_along(const PlacesAlong& line, CoordinateKind
   return true;
 }
 
-// The axis along the dimension, and which coordinate it is; without an axis its name may say it.
+// Returns the axis along the dimension, and which coordinate it is; without an axis the dimension's
+// name may say it.
 FieldDimensionFinder::NamedDirection FieldDimensionFinder::direction_of(
     std::size_t dimension) const {
   const std::string& name = file_.dimensions()[dimension].name;
@@ -82,7 +84,7 @@ FieldDimensionFinder::NamedDirection FieldDimensionFinder::direction_of(
   return {};
 }
 
-// Whether the axis has the coordinates of the wanted places along the line.
+// True if the axis has the coordinates of the wanted places along the line.
 bool FieldDimensionFinder::fits_line(const NamedDirection& direction,
                                      const PlacesAlong& line) const {
   if (direction.axis == nullptr || direction.axis->num_values != line.length) return true;
@@ -99,7 +101,8 @@ bool FieldDimensionFinder::fits_line(const NamedDirection& direction,
   return true;
 }
 
-// Which coordinate changes from row to row, if the wanted places are a grid of so many rows.
+// Returns the coordinate that changes from row to row, if the wanted places are a grid of so many
+// rows.
 std::optional<CoordinateKind> FieldDimensionFinder::kind_of_rows(std::size_t rows,
                                                                  std::size_t columns) const {
   const PlacesAlong down{rows, columns, 1, columns};

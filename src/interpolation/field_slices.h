@@ -37,6 +37,7 @@ class FieldSlices {
   void read(std::size_t array, std::size_t first, std::span<double> out) const;
 
  private:
+  // A variable with what is needed to read its fields.
   struct SlicedVariable {
     const io::NetcdfReader::Variable* variable;
     std::size_t num_points;  // with the points that are left out
@@ -57,7 +58,9 @@ class FieldSlices {
                        std::span<double> out) const;
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
+  // Makes the numbers of the file the values that they mean: missing, scaled, offset.
   static void mean(const SlicedVariable& source, std::span<double> values);
+  // Reads a block into block_, unless it is there.
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;

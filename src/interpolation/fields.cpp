@@ -23,6 +23,7 @@
 namespace rondel::interpolation {
 namespace {
 
+// Returns the number in a cell; NaN if it is empty or says that it is missing.
 double value_of(std::string_view cell, const std::string& name) {
   const std::string_view text = io::trim(cell);
   const bool is_missing =
@@ -44,6 +45,7 @@ std::string text_of_empty_line(std::vector<std::uint64_t> lines, const io::CsvRe
   return {};
 }
 
+// Reads columns of a table with a header; each row is a point.
 FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& wanted) {
   if (wanted.names.empty()) throw io::BadValue("no column of the table is named (--value)");
   io::CsvRecords records(io::table_text(bytes),
@@ -84,7 +86,8 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
   return fields;
 }
 
-// Returns the header: places, properties and fields. A property that has the name of a field gives way to it.
+// Returns the header: places, properties and fields. A property that has the name of a field gives
+// way to it.
 std::string header_of(const FieldsToWrite& job, char separator) {
   std::vector<std::string> names;
   if (!job.side.points.empty() || job.fields.num_points == 0) {  // the columns of no rows, too
@@ -171,6 +174,7 @@ class NpySink : public FieldSink {
   io::AtomicFile& file_;
 };
 
+// Returns a number of a type of NumPy as a double. Integers that are no doubles are refused.
 template <typename Number>
 double loaded(const char* data, std::endian order) {
   const auto number = io::load<Number>(data, order);

@@ -86,6 +86,7 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
+// Writes the header and the coordinates at once, and the values as they come.
 class NetcdfSink : public FieldSink {
  public:
   NetcdfSink(io::AtomicFile& file, const FieldsToWrite& job)
@@ -141,6 +142,7 @@ class NetcdfSink : public FieldSink {
     }
   }
 
+  // A dimension of the file that is not one of the points.
   struct LeadingDimension {
     std::string name;
     std::uint64_t length;

@@ -3,6 +3,10 @@
 
 // The first part of a local fit: the neighbors of a site in its stereographic plane, their weights,
 // and the linear change of coordinates that makes the cloud of neighbors round.
+//
+// in    for each lane a site and the steps to its neighbors
+// out   for each lane coordinates (a, b) and weights of the neighbors
+// index lanes, each with one site; neighbors in the order of the steps
 #pragma once
 
 #include <cmath>

@@ -3,6 +3,10 @@
 
 // The third part of a local fit: solves the normal equations for two polynomials, whose values at
 // the neighbors are the weights of the slopes along each axis.
+//
+// in    for each lane the moments, and the number of neighbors
+// out   for each lane the coefficients of two polynomials, and how many terms they have
+// index lanes; terms of the polynomials, by degree
 #pragma once
 
 #include <cstddef>

@@ -4,6 +4,8 @@
 // Types that the parts of local fits (local_fit.h) share: the data of the sites in all lanes. The
 // functions in fit_*.h are inlined into LocalFits::find(), which is compiled for vectors of several
 // widths.
+//
+// index lanes, each with one site; terms of polynomials, by degree and then by the power of b
 #pragma once
 
 #include <cstddef>

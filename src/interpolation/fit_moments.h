@@ -3,6 +3,10 @@
 
 // The second part of a local fit: the moments, which are sums over the neighbors of weight a^i b^j.
 // The entries of the normal equations are some of them.
+//
+// in    for each lane coordinates (a, b) and weights of the neighbors
+// out   for each lane the moments of degrees 2 to 7
+// index moments: by degree, and then by the power of b
 #pragma once
 
 #include <cstddef>
@@ -23,6 +27,7 @@ RONDEL_ALWAYS_INLINE constexpr std::size_t moment_of(std::size_t i, std::size_t 
   return first_of(degrees[i] + degrees[j]) + powers_of_b[i] + powers_of_b[j];
 }
 
+// The products of one neighbor, in the order of the moments.
 using Products = system::PlainArray<double, num_moments>;
 
 // Computes the products of degree s from those of degree s - 1.
@@ -47,6 +52,7 @@ RONDEL_ALWAYS_INLINE inline Products products_of(double weight, double a, double
   return products;
 }
 
+// The sums of these products, in all lanes.
 using Moments = system::PlainArray<Lanes, num_moments>;
 
 // Changes the points to the coordinates that make their cloud round and sums up their moments.

@@ -10,6 +10,10 @@
 // c_i u) / (1 + c_i), and the sum of m_i p_i is 0. For f = h.x, g_i = h - (h.x_i) x_i, so the term
 // in parentheses is h.x_i + (h.u - c_i h.x_i) / (1 + c_i) = h.(x_i + u) / (1 + c_i) = h.p_i / 2 +
 // h.u.
+//
+// in    targets with their locations, and which vertices have a gradient
+// out   rows of weights of values and of gradients
+// index spatial ranks of vertices
 #pragma once
 
 #include <cstdint>
@@ -39,8 +43,10 @@ class HermiteKernel {
   void operator()(const TargetPlace& place, SlopeRow& row);
 
  private:
+  // True if each vertex of the planar row has a gradient.
   [[nodiscard]] bool all_have_gradients() const;
   void weigh_on_contour(const TargetPlace& place);
+  // Sets the row to that of Sibson's method.
   void add_without_gradients(const TargetPlace& place, SlopeRow& row);
 
   const Ground& ground_;

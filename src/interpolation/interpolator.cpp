@@ -238,7 +238,8 @@ namespace {
 // A gradient of values of this size may be beyond the largest number.
 constexpr double huge_value = 0x1p960;
 
-// Gradients, and their sums, may exceed the largest number where values do not. What is missing for that is computed of smaller values.
+// Gradients, and their sums, may exceed the largest number where values do not. What is missing for
+// that is computed of smaller values.
 void complete_overflown(const Interpolator& interpolator, std::span<const double> field,
                         std::span<const Point> targets, const InterpolationOptions& options,
                         const Execution& execution, std::vector<double>& values) {

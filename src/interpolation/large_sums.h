@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// How sums of products with large weights are protected from overflow.
 #pragma once
 
 namespace rondel::interpolation {

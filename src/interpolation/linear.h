@@ -9,6 +9,10 @@
 // With the steps A = a - u, B = b - u, C = c - u, det(u, b, c) = u.(B x C) has rounding errors of a
 // few units of |B||C|, whatever the size of the face. Where doubles do not suffice, DoubleDouble
 // and then arbitrary precision take over. On an edge the limit is l_a : l_b = |u x B| : |u x A|.
+//
+// in    targets with their locations
+// out   rows of two or three weights, sum 1
+// index spatial ranks of vertices
 #pragma once
 
 #include <array>
@@ -39,6 +43,7 @@ inline bool is_split_enough(const Vec& step) {
 // Returns the step from the target to a vertex in another place, accurate to a few units in the
 // last place for any length above 2^-1022.
 Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex);
+// Returns the same step as exact_step(), by doubles where these suffice.
 inline Vec careful_step(const Ground& ground, const TargetPlace& place, Index vertex) {
   const Vec split = step(place.unit, ground.unit(vertex));
   return is_split_enough(split) ? split : exact_step(ground, place, vertex);

@@ -3,6 +3,10 @@
 
 // Natural neighbor weights in arbitrary precision, for targets where fixed precision does not
 // suffice.
+//
+// in    the target, its natural neighbors in ring order, the faces of its conflict region
+// out   a weight for each neighbor
+// index positions in the ring of neighbors
 #pragma once
 
 #include <cstdint>
@@ -14,6 +18,8 @@
 
 namespace rondel::interpolation {
 
+// The methods, by the weight that they give to a neighbor before the weights are divided by their
+// sum.
 enum class NaturalMethod : std::uint8_t {
   laplace,        // side of the new cell over the distance, in the gnomonic plane of u
   sibson,         // stolen area, in the gnomonic plane of u

@@ -11,6 +11,10 @@
 // 3. The weights sum up to 1; for Normalization::homogeneous the caller divides them afterwards.
 // 4. It is never called for a target at a vertex, nor outside of all solid faces.
 // 5. Each thread has its own kernel.
+//
+// in    a target: its direction, and the face or edge in which it lies
+// out   a row: vertices with their weights
+// index spatial ranks of vertices
 #pragma once
 
 #include <concepts>

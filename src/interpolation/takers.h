@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Sinks for rows (rows.h): they compute values, tangent vectors, or collect weights.
+//
+// in    rows, each with the number of its target; values of fields by vertex
+// out   values or vectors by field and target, or lists of weights
+// index targets; spatial ranks of vertices in rows
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Corrects weights so that their sum in doubles is 1.
+//
+// in    the weights of a row, whose sum is 1 up to rounding
+// out   the same weights up to rounding errors, with the sum 1
 #pragma once
 
 #include <algorithm>

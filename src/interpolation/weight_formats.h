@@ -76,7 +76,7 @@ io::NetcdfVariable variable(
 // Writes and reads the attributes that only files of this library have: hashes, method, tables.
 void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content);
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content);
-// Whether the file says the method as this library writes it.
+// True if the file says the method as this library writes it.
 bool has_own_method(const io::NetcdfReader& file);
 
 // The names that a netCDF format has for the variables and dimensions of one side.

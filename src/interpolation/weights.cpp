@@ -79,7 +79,8 @@ bool are_finite(const Weights& weights, std::size_t row) {
   return true;
 }
 
-// The sum over a row of which some values may be missing, or in which it goes beyond the largest number and comes back.
+// The sum over a row of which some values may be missing, or in which it goes beyond the largest
+// number and comes back.
 double sum_of_present(const Weights& weights, std::size_t row, const double* in,
                       const ApplyOptions& options) {
   double sum = 0;

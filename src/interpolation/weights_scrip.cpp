@@ -48,7 +48,8 @@ void require_normalization(WeightFile& content) {
   content.normalization = word;
 }
 
-// SCRIP's weights of the normalization "none" are the areas of the pieces (Jones, SCRIP Users' Guide 1.5, sections 2.2.3 and 3).
+// SCRIP's weights of the normalization "none" are the areas of the pieces (Jones, SCRIP Users'
+// Guide 1.5, sections 2.2.3 and 3).
 void divide_by_areas(const io::NetcdfReader& file, WeightFile& content) {
   const bool is_conservative = io::lower_case(content.method).find("conserv") != std::string::npos;
   if (!is_conservative || has_own_method(file)) return;
