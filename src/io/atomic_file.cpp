@@ -13,6 +13,7 @@
 namespace rondel::io {
 namespace {
 
+// Bytes are gathered to pieces of this size, so that few calls of the system write them.
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 }  // namespace

@@ -6,6 +6,9 @@
 //
 // in    a path, and the bytes of the file from front to back
 // out   a file
+//
+// Writers that know the size of their file reserve it first: a full disk is then noticed before the
+// work, not after it.
 #pragma once
 
 #include <cstddef>
@@ -35,9 +38,9 @@ RONDEL_API std::string temporary_name(const std::string& directory);
 //    those permissions; where the group cannot be kept, its rights are those of others. A file that
 //    this process may not write is refused.
 //
-// On Windows paths are UTF-8, a symbolic link is replaced itself, a temporary file is deleted by the
-// system if its process ends before the renaming, and the permissions of every file are those that
-// its directory gives to new files.
+// On Windows paths are UTF-8, a symbolic link is replaced itself, a temporary file is deleted by
+// the system if its process ends before the renaming, and the permissions of every file are those
+// that its directory gives to new files.
 class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -61,19 +64,25 @@ class RONDEL_API AtomicFile {
   // Flushes, closes and renames the file.
   void commit();
 
-  // The name as it was given, and "<stdout>" for standard output.
+  // Returns the path as it was given, or "<stdout>" for standard output.
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  // Whether the file is written directly; otherwise the file that is replaced, and its directory ("data/", or empty).
+  // True if the file is written directly. Otherwise target() is the file that is replaced, and
+  // directory() its directory ("data/", or empty).
   [[nodiscard]] bool is_direct() const { return target_.empty(); }
   [[nodiscard]] const std::string& target() const { return target_; }
   [[nodiscard]] const std::string& directory() const { return directory_; }
 
  private:
+  // Writes what is in the buffer.
   void flush();
+  // Writes bytes to the descriptor, whose system may take them in parts.
   void drain(std::string_view bytes);
+  // Removes the temporary file and throws FileError with the reason that the system gives for
+  // `error`.
   [[noreturn]] void fail(int error);
 
+  // Closes the descriptor; returns 0 or -1, as the system does.
   int close() noexcept;
 
   // The functions below depend on the system and are defined in one file for each.

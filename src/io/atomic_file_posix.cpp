@@ -70,6 +70,7 @@ Temporaries temporaries;
 
 }  // namespace
 
+// Returns the path to which symbolic links lead, after at most 40 of them.
 std::string resolve_links(const std::string& path) {
   constexpr int most_links = 40;  // Linux follows as many
   std::filesystem::path target = path;
@@ -94,6 +95,7 @@ void take_permissions(int descriptor, const struct stat& replaced) {
 
 std::string replaced_by(const std::string& path) { return resolve_links(path); }
 
+// Permissions of a file that is replaced are given to the new one before anything is written.
 int open_replacement(const std::string& temporary, const std::string& target) noexcept {
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;

@@ -37,6 +37,7 @@ bool mark_to_delete(HANDLE file, bool is_to_delete) {
                                       sizeof information) != 0;
 }
 
+// Returns the system's handle of a descriptor of the C library.
 HANDLE handle_of(int descriptor) {
   return reinterpret_cast<HANDLE>(
       ::_get_osfhandle(descriptor));  // NOLINT(performance-no-int-to-ptr)

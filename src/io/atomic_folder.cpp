@@ -18,8 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The file in the folder whose space is reserved for the others.
 constexpr const char* room_name = "room";
 
+// A file, folder or link in a folder.
 struct FolderEntry {
   std::string name;  // path within the folder, with slashes
   bool is_folder = false;

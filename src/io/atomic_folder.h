@@ -43,9 +43,11 @@ class RONDEL_API AtomicFolder {
   AtomicFolder(const AtomicFolder&) = delete;
   AtomicFolder& operator=(const AtomicFolder&) = delete;
 
+  // Makes a folder in the folder; a name such as "faces/part" has slashes on every system.
   void make_folder(const std::string& name);
   // Creates a file and returns its descriptor, which the caller closes.
   int make_file(const std::string& name);
+  // Writes a whole file.
   void write_file(const std::string& name, std::string_view bytes);
   // Writes to such a file, and closes it if that fails.
   void write(int& descriptor, std::string_view bytes);
@@ -68,7 +70,9 @@ class RONDEL_API AtomicFolder {
   // Throws FileError if what is at `target_` may not be replaced; returns true if there is
   // something.
   bool check_target();
+  // Closes the file of reserved space, if there is one.
   void close_room() noexcept;
+  // Removes the temporary folder, if it has not been renamed.
   void discard() noexcept;
 
   // The functions below depend on the system and are defined in one file for each.
@@ -79,6 +83,7 @@ class RONDEL_API AtomicFolder {
   int make_temporary(bool is_private);
   // Makes signals remove what has this path.
   void remember(const std::string& path);
+  // Makes signals remove nothing more.
   void forget() noexcept;
   // Removes what a signal would remove.
   void remove_remembered() noexcept;

@@ -3,6 +3,9 @@
 
 // An error in a file and its place. The function that finds it says what; its callers add the
 // item, the line, and at last the name of the file: `mesh.ply: face 7: index 12 is too large`.
+//
+// in    what is wrong, from the function that finds it
+// out   an exception that says where: item, line, file
 #pragma once
 
 #include <cstdint>

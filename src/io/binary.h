@@ -6,6 +6,8 @@
 //
 // in    arrays of numbers, or of structures of numbers
 // out   their bytes; or numbers from bytes
+//
+// Rows of an array are stored one after the other, without padding.
 #pragma once
 
 #include <algorithm>

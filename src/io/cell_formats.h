@@ -35,12 +35,13 @@ void require_sites(const SiteTable& table, const Triangulation& triangulation);
 double checked_tolerance(double tolerance_deg);
 
 // Writes a FeatureCollection with a feature for each cell, in the order of the sites. Its
-// properties are
-// before it) gets underscores at its end until it is not. Numbers stay as they are
-// written in the input, other text becomes a string, an empty cell null. Coordinates have the
-// shortest digits that give back the same double, so that cells of any size stay valid. A cell no
-// wider than rounding has the geometry null. Hidden sites have no cell and no feature: the
-// collection's member "hidden" lists each with the three sites of a face below which it lies.
+// properties are `site`, `area` in steradians, and the columns of the input; a name that is taken
+// (by one of these two, or by a column before it) gets underscores at its end until it is not.
+// Numbers stay as they are written in the input, other text becomes a string, an empty cell null.
+// Coordinates have the shortest digits that give back the same double, so that cells of any size
+// stay valid. A cell no wider than rounding has the geometry null. Hidden sites have no cell and no
+// feature: the collection's member "hidden" lists each with the three sites of a face below which
+// it lies.
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells);
 
 // Writes polygons on the unit sphere, whose corners are the diagram's points, with the cell data

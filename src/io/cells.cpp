@@ -48,6 +48,7 @@ namespace rondel {
 namespace {
 
 using CellWriter = io::Writer<io::CellsToWrite>;
+// The formats in which cells are written, by their endings.
 constexpr std::array<CellWriter, 3> cell_writers = {{{".geojson", &io::write_cells_geojson},
                                                      {".vtp", &io::write_cells_vtp},
                                                      {".npz", &io::write_cells_npz}}};

@@ -40,6 +40,7 @@ std::string hidden_member(const Triangulation& triangulation) {
 }  // namespace
 
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
+  // Each thread makes the text of so many sites at a time.
   constexpr std::size_t grain = 512;
   const std::vector<Column>& columns = cells.table.columns;
   const std::vector<std::string> keys = property_keys(columns, {"site", "area"});

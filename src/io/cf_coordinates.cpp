@@ -124,11 +124,13 @@ class CoordinateSearch {
     lists_.push_back(words_of_text(variables_[topology].text(attribute)));
   }
 
+  // True if the names of both differ only in that one means longitudes and the other latitudes.
   [[nodiscard]] bool are_partners(const CoordinatePair& pair) const {
     return io::are_partners(variables_[pair.lon].name, variables_[pair.lat].name);
   }
 
-  // Whether both have a partner, and not each other: ULONG and TLAT, where there are TLONG and ULAT.
+  // True if both have a partner, and not each other: ULONG and TLAT, where there are TLONG and
+  // ULAT.
   [[nodiscard]] bool is_crossed(const CoordinatePair& pair,
                                 const std::vector<CoordinatePair>& all) const {
     if (are_partners(pair)) return false;
@@ -140,6 +142,7 @@ class CoordinateSearch {
     return has(&CoordinatePair::lon) && has(&CoordinatePair::lat);
   }
 
+  // Returns the index of a variable, or `none`.
   [[nodiscard]] std::size_t find(std::string_view name) const {
     const auto at = std::ranges::find(variables_, name, &VariableHeader::name);
     return at == variables_.end() ? none : static_cast<std::size_t>(at - variables_.begin());

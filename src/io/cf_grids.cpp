@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Knows the variables that describe meshes and grids in each convention (sources: src/overlay/mesh_conventions.cpp), NEMO's by the names
-// of its files of coordinates (NEMO reference manual, "domain configuration file").
+// Knows the variables that describe meshes and grids in each convention (sources:
+// src/overlay/mesh_conventions.cpp), NEMO's by the names of its files of coordinates (NEMO
+// reference manual, "domain configuration file").
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -31,6 +32,7 @@ constexpr std::array grid_names = {
     GridNames{"vertex_of_cell", {"clon", "clat", "vlon", "vlat", "edge_vertices"}},
 };
 
+// Knows which variables of a file describe its grid, and are no fields.
 class GridParts {
  public:
   explicit GridParts(std::span<const VariableHeader> variables) : variables_(variables) {
@@ -58,12 +60,14 @@ class GridParts {
     return std::ranges::find(variables_, name, &VariableHeader::name) != variables_.end();
   }
 
+  // True for a name of SCRIP, ESMF or ICON, in a file of that convention.
   [[nodiscard]] bool is_of_list(std::string_view name) const {
     return std::ranges::any_of(grid_names, [&](const GridNames& grid) {
       return std::ranges::find(grid.names, name) != grid.names.end() && is_there(grid.mark);
     });
   }
 
+  // True for a coordinate of MPAS, such as xCell or latVertex.
   [[nodiscard]] bool is_of_mpas(std::string_view name) const {
     if (!is_there("verticesOnCell") && !is_there("indexToCellID")) return false;
     for (const std::string_view coordinate : {"x", "y", "z", "lon", "lat"}) {
@@ -74,6 +78,7 @@ class GridParts {
     return name == "boundaryVertex";
   }
 
+  // True for a coordinate of NEMO, glamt or gphit, if the file has both.
   [[nodiscard]] bool is_of_nemo(std::string_view name) const {
     if (name.size() != 5 || std::string_view("tuvwf").find(name[4]) == std::string_view::npos)
       return false;
@@ -83,6 +88,7 @@ class GridParts {
     return !other.empty() && is_there(std::string(other) + name[4]);
   }
 
+  // True for a part of a grid of OASIS, such as torc.clo, if the file has torc.lon and torc.lat.
   [[nodiscard]] bool is_of_oasis(std::string_view name) const {
     const std::size_t dot = name.rfind('.');
     if (dot == std::string_view::npos) return false;
@@ -93,6 +99,7 @@ class GridParts {
     return is_part && is_there(grid + ".lon") && is_there(grid + ".lat");
   }
 
+  // True for a variable of Exodus II that describes elements.
   [[nodiscard]] bool is_of_exodus(std::string_view name) const {
     if (!is_there("connect1")) return false;
     return std::ranges::any_of(

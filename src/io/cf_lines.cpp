@@ -18,7 +18,8 @@
 namespace rondel {
 namespace {
 
-// The distance by which rounding to single precision may have moved a bound, as a share of a cell's width.
+// The distance by which rounding to single precision may have moved a bound, as a share of a cell's
+// width.
 constexpr double rounding_share = 1e-3;
 
 // The sides of a cell along an axis, in degrees.
@@ -63,12 +64,13 @@ bool goes_west(const std::vector<double>& values) {
   return 2 * num_west > values.size() - 1;
 }
 
-// A place and its number, "latitude 2, -20,".
+// Returns a coordinate with its number, "latitude 2, -20,".
 std::string numbered(const std::string& name, std::size_t i, double value) {
   return name + " " + std::to_string(i) + ", " + system::shortest_text(value) + ",";
 }
 
-// The steps from each value to the next one and their direction, 1 or -1. Longitudes that jump by turns go the shorter way around.
+// Returns the steps from each value to the next one, and their direction, 1 or -1. Longitudes that
+// jump by turns go the shorter way around.
 std::pair<std::vector<double>, double> steps_along_axis(std::span<const double> values,
                                                         bool is_longitude) {
   std::vector<double> steps;
@@ -90,7 +92,8 @@ std::pair<std::vector<double>, double> steps_along_axis(std::span<const double> 
   return {steps, sign};
 }
 
-// Longitudes in order, of which the last one may be the first one again.
+// Throws InvalidInput if longitudes go around more than once; the last one may be the first one
+// again.
 void require_one_turn_of_axis(std::span<const double> values, const std::vector<double>& unrolled,
                               const std::string& name) {
   const double most = 360 + rounding_share * std::abs(unrolled[1] - unrolled[0]);
@@ -102,6 +105,7 @@ void require_one_turn_of_axis(std::span<const double> values, const std::vector<
   }
 }
 
+// Returns lines halfway between neighbors, and at both ends as far beyond.
 std::vector<double> halves(const std::vector<double>& values) {
   const std::size_t n = values.size();
   std::vector<double> lines = {values[0] - (values[1] - values[0]) / 2};
@@ -160,6 +164,7 @@ std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_l
   return cells;
 }
 
+// Throws InvalidInput with the bounds of cells k and i, which overlap.
 [[noreturn]] void refuse_overlap(const std::vector<CellSides>& cells, std::size_t k,
                                  std::size_t i) {
   const auto text = [&](std::size_t cell) {
@@ -169,7 +174,8 @@ std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_l
   throw InvalidInput("bounds of cell " + text(i) + ", overlap those of cell " + text(k), i);
 }
 
-// The lines from the sides of cells, in the order of the cells. Throws InvalidInput if neighbors do not share one.
+// Returns the lines from the sides of cells, in the order of the cells. Throws InvalidInput if
+// neighbors do not share one.
 std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitude) {
   const std::size_t n = cells.size();
   const auto apart = [&](double a, double b) {
@@ -192,7 +198,8 @@ std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitud
   return lines;
 }
 
-// The bounds of longitudes overlap where their lines go around the globe more than once.
+// Throws InvalidInput if the lines of longitudes go around the globe more than once, so that cells
+// overlap.
 void require_one_turn_of_bounds(std::span<const double> bounds, const std::vector<double>& lines) {
   const bool are_lines = bounds.size() == lines.size();
   constexpr double rounding = 1e-9;
@@ -203,7 +210,8 @@ void require_one_turn_of_bounds(std::span<const double> bounds, const std::vecto
   }
 }
 
-// Lines that are given may jump by whole turns, and may have the reverse order of the coordinates.
+// Returns lines that the file gives. They may jump by whole turns, and may have the reverse order
+// of the coordinates.
 std::vector<double> lines_as_given(std::span<const double> bounds, std::span<const double> values,
                                    bool is_longitude) {
   std::vector<double> lines(bounds.begin(), bounds.end());

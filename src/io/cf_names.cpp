@@ -34,10 +34,12 @@ constexpr std::array known_names = {
     KnownNames{"grid_center_lon", "grid_center_lat"},
 };
 
+// MPAS and ICON give their coordinates in radians, and not all of their files have units.
 constexpr std::array<std::string_view, 12> names_in_radians = {
     "lonCell", "latCell", "lonVertex", "latVertex", "lonEdge", "latEdge",
     "clon",    "clat",    "vlon",      "vlat",      "elon",    "elat"};
 
+// The usual names of bounds: "lon_bnds", or "corner_lon".
 constexpr std::array<std::string_view, 5> bounds_endings = {"_bnds", "_bounds", "_b", "_vertices",
                                                             "_corners"};
 constexpr std::string_view bounds_beginning = "corner_";

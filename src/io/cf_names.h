@@ -21,6 +21,7 @@ RONDEL_API std::string lower_case(std::string_view text);
 // Returns the text without blanks at both ends.
 RONDEL_API std::string_view without_blanks(std::string_view text);
 
+// The two kinds of coordinates on a sphere.
 enum class CoordinateKind { lon, lat };
 
 // True if models give this name to longitudes, or latitudes, of places. It decides if no attribute
@@ -31,14 +32,16 @@ bool is_name_of_part(std::string_view name, CoordinateKind kind);
 // Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its
 // units, 3 its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
-// Whether the standard_name says that these are coordinates of a rotated pole or of a map projection, whatever their units are (CF 5.6).
+// True if the standard_name says that these are coordinates of a rotated pole or of a map
+// projection, whatever their units are (CF 5.6).
 bool is_rotated_or_projected(const VariableHeader& variable);
-// Says so in a sentence without a full stop.
+// Returns a sentence that says so, without a full stop.
 std::string remark_on_rotation(const VariableHeader& variable);
-// Whether the names differ only in that one is of longitudes and the other one of latitudes: ULONG and ULAT, glamu and gphiu.
+// True if the names differ only in that one is of longitudes and the other one of latitudes: ULONG
+// and ULAT, glamu and gphiu.
 bool are_partners(std::string_view lon, std::string_view lat);
-// A sentence for each variable that is called as longitudes or latitudes are, and whose units are no degrees, and for each that is
-// rotated or projected; each begins with "; ".
+// Returns a sentence for each variable that has a name of longitudes or latitudes and units that
+// are no degrees, and for each that is rotated or projected; each begins with "; ".
 RONDEL_API std::string remark_on_units(std::span<const VariableHeader> variables);
 // True if MPAS or ICON, whose coordinates are radians, have a variable of this name.
 bool is_in_radians(std::string_view name);

@@ -100,7 +100,7 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                const std::vector<std::size_t>& order, std::vector<double> values) {
   if (std::ranges::is_sorted(order) || values.empty()) return values;
   const std::size_t rank = order.size();
-  // By dimension: the distance of neighbors in `values`.
+  // The distance in `values` of neighbors along each dimension.
   std::vector<std::size_t> steps(rank, 1);
   for (std::size_t w = 0; w < rank; ++w) {
     for (std::size_t after = order[w] + 1; after < rank; ++after) steps[w] *= shape[after];

@@ -30,7 +30,8 @@ RONDEL_API VariableHeader header_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
-// Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing. degrees_of() does so, too.
+// Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing.
+// degrees_of() does so, too.
 RONDEL_API void require_sphere(const NetcdfReader& file);
 
 // The units of a coordinate that has none and is related to no variable with units.

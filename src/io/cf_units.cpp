@@ -24,6 +24,7 @@ struct UnitName {
   std::string_view plural;
   double degrees;
 };
+// Degrees to the west count negative, so that the product counts degrees to the east.
 constexpr std::array unit_names = {
     UnitName{"degree", "degrees", 1},
     UnitName{"arc_degree", "arc_degrees", 1},

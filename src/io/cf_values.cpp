@@ -21,9 +21,11 @@
 namespace rondel::io {
 namespace {
 
+// Values that are missing become NaN.
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// The types of netCDF by the kind of their numbers.
 bool is_floating(NetcdfType type) {
   return type == NetcdfType::float32 || type == NetcdfType::float64;
 }
@@ -251,8 +253,8 @@ void ValueRules::apply_to_unpacked(std::span<double> values) const {
   }
 }
 
-// Different integers are a scale_factor apart, so that an unpacked value nearer to one of them than a
-// quarter of that is that integer, and the rules of the file hold for it.
+// Different integers are a scale_factor apart, so that an unpacked value nearer to one of them than
+// a quarter of that is that integer, and the rules of the file hold for it.
 bool ValueRules::is_lost(double value, double rounding) const {
   const auto slack = [&](double number) {
     return rounding * (std::abs(number * scale_) + std::abs(offset_));

@@ -38,18 +38,22 @@ class RONDEL_API ValueRules {
   void apply_to_unpacked(std::span<double> values) const;
   // True if apply() changes numbers that are not missing.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
-  // What is odd about the attributes: a packing that is a text, bounds that are no numbers or that no number is between, an
-  // _Unsigned that is no text of the two; else empty.
+  // Returns what is odd about the attributes, or an empty text: a packing that is a text, bounds
+  // that are no numbers or exclude all numbers, an _Unsigned that is neither "true" nor "false".
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
+  // These read the attributes of rules 4, 1 and 3.
   void read_signedness(const NetcdfVariable& variable);
   void read_missing(const NetcdfVariable& variable);
   void read_range(const NetcdfVariable& variable);
   void add_remark(const NetcdfVariable& variable, std::string_view attribute,
                   const std::string& what);
   [[nodiscard]] double as_type(double value) const;
+  // True for a packed number that is one of those that mean missing.
   [[nodiscard]] bool is_missing(double value) const;
+  // True for an unpacked number that was missing, up to a relative `rounding` by the one who
+  // unpacked it.
   [[nodiscard]] bool is_lost(double value, double rounding) const;
 
   NetcdfType type_;

@@ -81,6 +81,7 @@ void write_feature(AtomicFile& file, bool is_first, const std::string& propertie
   file.write("]}}");
 }
 
+// Returns row i of values in compressed rows.
 template <class T>
 std::span<const T> row(const std::vector<T>& values, const std::vector<std::uint64_t>& offsets,
                        std::uint64_t i) {

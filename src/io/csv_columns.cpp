@@ -16,6 +16,7 @@ namespace {
 
 using Header = std::vector<std::string>;
 
+// Only letters of ASCII have another case here.
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool equal_but_for_case(std::string_view a, std::string_view b) {
@@ -117,10 +118,12 @@ std::size_t require(const Header& header, const Coordinate& coordinate) {
                  found(header));
 }
 
+// True if the options name a column of one of these coordinates.
 bool is_any_named(std::span<const Coordinate> coordinates) {
   return std::ranges::any_of(coordinates, [](const auto& c) { return !c.chosen.empty(); });
 }
 
+// Returns how many of these coordinates have a column.
 std::size_t count_found(const Header& header, std::span<const Coordinate> coordinates) {
   return static_cast<std::size_t>(std::ranges::count_if(
       coordinates, [&](const auto& c) { return find(header, c).has_value(); }));
@@ -131,6 +134,7 @@ struct CoordinateKinds {
   std::array<Coordinate, 2> lonlat;
   std::array<Coordinate, 3> xyz;
 };
+// Returns the coordinates with the names in the options and the usual names.
 CoordinateKinds usual_coordinates(const ReadOptions& options) {
   return {{{{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},
             {"latitude", options.lat, {"lat", "latitude"}}}},

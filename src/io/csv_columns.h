@@ -19,18 +19,19 @@
 
 namespace rondel::io {
 
+// The columns of the coordinates.
 struct CoordinateColumns {
   bool is_lonlat = false;                // true: lon, lat; false: x, y, z
   std::array<std::size_t, 3> columns{};  // lon, lat or x, y, z
   std::optional<std::size_t> radius;     // only if the options name it
 };
 
-// Finds the columns that the options name, or otherwise those with usual names; the order of
-// columns never decides. A radius must be named, since a column of that name may be anything. Names
-// are compared without regard to case. Throws BadValue if a column is missing or two match.
 // True if the options name columns of coordinates, or the header has those of all coordinates.
 bool has_coordinates(const std::vector<std::string>& header, const ReadOptions& options);
 
+// Finds the columns that the options name, or otherwise those with usual names; the order of
+// columns never decides. A radius must be named, since a column of that name may be anything. Names
+// are compared without regard to case. Throws BadValue if a column is missing or two match.
 CoordinateColumns find_columns(const std::vector<std::string>& header, const ReadOptions& options);
 
 // Returns the names of the columns without blanks around them. A column without a name, as pandas'

@@ -5,6 +5,7 @@
 //
 // in    the text of a table
 // out   one record after the other, as a list of fields
+// index fields of a record, from 0; lines of the text, from 1
 #pragma once
 
 #include <cstddef>
@@ -44,8 +45,10 @@ class RONDEL_API CsvRecords {
   }
 
  private:
+  // Goes to the next line that is not empty.
   void skip_empty_lines();
   bool read_field();
+  // Reads a field in quotes; a field without doubled quotes is a part of the text.
   std::string_view read_quoted();
   bool finish_field();
 

@@ -38,6 +38,7 @@ NetcdfOptions with_kind(NetcdfOptions options, const FileName& file) {
   return options;
 }
 
+// The message lists all endings that are known, so that the user can choose one.
 void throw_unknown_ending(const FileName& file, std::string_view what,
                           std::span<const std::string_view> known) {
   const std::string found = ending(file);

@@ -17,6 +17,7 @@ namespace {
 // The longest header of .npy of version 1 has 65545 bytes, which is less.
 constexpr std::size_t head_size = 131072;
 
+// The first bytes of compressed files.
 constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", "gzip"},
                                                                    {"PK\x03\x04", "zip"},
                                                                    {"\xFD"

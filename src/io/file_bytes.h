@@ -52,6 +52,7 @@ class RONDEL_API FileBytes {
     ~Descriptor();
   };
 
+  // Makes room for `capacity` bytes and reads them.
   void grow(std::size_t capacity);
   void read_up_to(std::size_t size);
   [[noreturn]] void fail(int error) const;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Names of variables of a file, which users write as FILE.nc:NAME.
+//
+// in    the name of a file as the user gives it
+// out   the file, and the name of a variable or an empty text
 #pragma once
 
 #include <string>

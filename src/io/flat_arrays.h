@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Checks of arrays that callers bring, before they are written.
+//
+// in    offsets of compressed rows, and points
+// out   whether they can be what they are said to be
 #pragma once
 
 #include <algorithm>

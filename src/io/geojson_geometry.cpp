@@ -9,6 +9,7 @@
 namespace rondel::io {
 namespace {
 
+// Appends the geometry of any number of polygons.
 template <class P>
 void append_polygons(std::string& out, const std::vector<P>& polygons) {
   if (polygons.empty()) {

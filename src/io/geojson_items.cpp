@@ -58,6 +58,7 @@ void require_degrees(const JsonTree& object) {
                  "file, as by ogr2ogr -t_srs EPSG:4326, or take the member away if it is wrong");
 }
 
+// Returns the word for an element of a list in messages.
 std::string_view name_of_item(const std::string& list) {
   return list == "features" ? "feature" : "geometry";
 }

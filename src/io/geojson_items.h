@@ -7,6 +7,7 @@
 //
 // in    the text of a document
 // out   a call for each geometry, with its properties
+// index features, or bare geometries, in the order of the document
 #pragma once
 
 #include <cstddef>
@@ -28,11 +29,13 @@ std::string geojson_type(const JsonTree& object);
 // Returns the text of a property: a string without its quotes, anything else as JSON.
 std::string unquoted(const JsonTree& value);
 
-// Returns the longitude and latitude of a position. Throws BadValue, with the position in the message.
+// Returns the longitude and latitude of a position. Throws BadValue, with the position in the
+// message.
 LonLat geojson_position(const JsonTree& coordinates);
 
 class GeoJsonItems {
  public:
+  // The functions that are called as the document is read.
   struct ItemListener {
     // Called for the geometry of a feature, and for a bare geometry, whose feature is null.
     std::function<void(const JsonTree& geometry, const JsonTree& feature)> on_geometry;
@@ -54,16 +57,20 @@ class GeoJsonItems {
   }
 
  private:
+  // The parser's place in the text, and its line, counted from 1.
   struct TextPosition {
     const char* position = nullptr;
     std::uint64_t line = 1;
   };
   class CursorIterator;
 
+  // True for an object that is an element of the root's list of features or geometries.
   [[nodiscard]] static bool is_item(std::size_t depth, const std::string& list) {
     return depth == 2 && (list == "features" || list == "geometries");
   }
+  // Handles an element of such a list.
   void on_item(const std::string& list, const JsonTree& item, const ItemListener& listener);
+  // Handles what is left of the root at the end.
   void on_root(const JsonTree& root, const ItemListener& listener);
   static void visit_geometry(const JsonTree& geometry, const JsonTree& feature,
                              const ItemListener& listener);
@@ -76,14 +83,17 @@ class GeoJsonItems {
   std::uint64_t num_items_ = 0;
 };
 
-// Collects properties and ids of features, row by row, into columns; a column has a cell in every row.
+// Collects properties and ids of features, row by row, into columns; a column has a cell in every
+// row.
 class PropertyColumns {
  public:
   PropertyColumns(std::vector<Column>& columns, Column& ids) : columns_(columns), ids_(ids) {}
 
+  // Adds the properties and the id of a feature as cells of a row, and new columns for new names.
   void add(const JsonTree& feature, std::size_t row);
   // Forgets the ids of the rows from `row` on: an id is that of one row only.
   void forget_ids(std::size_t row);
+  // Gives all columns `num_rows` cells, and drops what is known of kinds where it says nothing new.
   void finish(std::size_t num_rows);
 
  private:

@@ -41,6 +41,7 @@ class PolygonReader {
   [[nodiscard]] std::uint64_t line() const { return items_.line(); }
 
  private:
+  // Begins a row for a feature or bare geometry.
   void begin(const JsonTree& feature) {
     columns_.add(feature, features_.rings.size());
     features_.rings.emplace_back();
@@ -65,6 +66,7 @@ class PolygonReader {
     for (const JsonTree& part : members.items) add_geometry(part);
   }
 
+  // Returns the members of a geometry of several parts.
   static const std::vector<JsonTree>& parts_of(const JsonTree& geometry, const std::string& type) {
     const JsonTree& parts = geometry.member("coordinates");
     if (!parts.is_array()) throw BadValue(type + " without an array of coordinates");
@@ -89,6 +91,7 @@ class PolygonReader {
     return true;
   }
 
+  // Returns the positions of a line, two or more.
   static std::vector<LonLat> line_of(const JsonTree& line) {
     if (!line.is_array()) throw BadValue("a line that is no array");
     if (line.items.size() < 2) {
@@ -99,6 +102,7 @@ class PolygonReader {
     return positions;
   }
 
+  // Adds the rings of a polygon: its outline and then its holes.
   void add_polygon(const JsonTree& polygon) {
     if (!polygon.is_array()) throw BadValue("Polygon without an array of coordinates");
     bool is_hole = false;
@@ -108,6 +112,7 @@ class PolygonReader {
     }
   }
 
+  // Returns a ring without its last position, which is the first one again.
   static LonLatRing ring_of(const JsonTree& ring, bool is_hole) {
     if (!ring.is_array()) throw BadValue("a ring that is no array");
     std::vector<LonLat> positions;

@@ -19,13 +19,14 @@
 
 namespace rondel::io {
 
+// A ring as the file has it.
 struct LonLatRing {
   std::vector<LonLat> positions;  // degrees; the first position is not repeated
   bool is_hole = false;           // a ring that is not a hole begins a polygon
   bool is_turn =
       false;  // its last position is the first one a whole turn of the globe away, and left out
-  // The positions before corners of others were inserted, if the ring is so thin that these may have
-  // closed it (overlay/shared_corners.h).
+  // The positions before corners of others were inserted, if the ring is so thin that these may
+  // have closed it (overlay/shared_corners.h).
   std::vector<LonLat> thin_positions = {};
   bool is_left_out = false;  // no wider than rounding
 };
@@ -39,6 +40,7 @@ struct PolygonFeatures {
   Column ids;  // the members `id`, as JSON; without cells if there are none
 };
 
+// Which geometries are read; others are errors.
 enum class FeatureKinds : std::uint8_t { polygons, all };
 
 // Reads Polygons and MultiPolygons, alone or in collections, or all kinds of geometries. A feature

@@ -10,6 +10,7 @@
 namespace rondel::io {
 namespace {
 
+// Returns the text in quotes, with the escapes of JSON.
 std::string json_string(std::string_view text) { return nlohmann::json(text).dump(); }
 
 }  // namespace

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Writes columns as properties of features.
+//
+// in    columns of text, with the kinds of their cells
+// out   text in JSON
+// index rows of a column
 #pragma once
 
 #include <cstddef>

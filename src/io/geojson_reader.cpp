@@ -48,8 +48,11 @@ class GeoJsonReader {
   [[nodiscard]] std::uint64_t line() const { return items_.line(); }
 
  private:
+  // Adds the sites of a geometry.
   void add_geometry(const JsonTree& geometry, const JsonTree& feature);
+  // Adds one site, with the properties of its feature.
   void add_coordinates(const JsonTree& coordinates, const JsonTree& feature);
+  // Returns the radius of the site's circle, which is a property of its feature.
   [[nodiscard]] double radius_in(const JsonTree& feature) const;
 
   std::size_t num_bytes_;

@@ -56,6 +56,7 @@ bool JsonTreeBuilder::add_scalar(nlohmann::json value) {
   return add(std::move(tree));
 }
 
+// The parser calls this function also for integers beyond 64 bits, whose digits `text` has.
 bool JsonTreeBuilder::number_float(double value, const std::string& text) {
   if (text.find_first_not_of("-0123456789") != std::string::npos) return add_scalar(value);
   JsonTree tree;

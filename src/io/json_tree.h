@@ -27,6 +27,7 @@ class JsonError : public BadValue {
   using BadValue::BadValue;
 };
 
+// A value with all that is in it.
 struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's values does not throw
   // An integer beyond 64 bits keeps its digits, as a string in `scalar`.
   enum class Kind : std::uint8_t { scalar, integer, array, object };
@@ -87,12 +88,15 @@ class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
                    const nlohmann::json::exception& error) override;
 
  private:
+  // An object or array that has begun and not ended.
   struct Level {  // NOLINT(bugprone-exception-escape)
     JsonTree tree;
     std::string key;  // key of the next member, in an object
   };
 
+  // Begins an object or array.
   bool open(JsonTree::Kind kind);
+  // Puts a value into the innermost object or array, or makes it the root.
   bool add(JsonTree value);
   bool add_scalar(nlohmann::json value);
   [[nodiscard]] const std::string& root_member() const;

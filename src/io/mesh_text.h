@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Writes sites and faces as lines of text, for .csv .tsv .xyz .off and .obj.
+//
+// in    sites, or the faces of a triangulation
+// out   a line of text for each
+// index sites, from 0 or as a format counts them
 #pragma once
 
 #include <initializer_list>

@@ -17,9 +17,11 @@
 namespace rondel::io {
 namespace {
 
-// In radians; longitudes in single precision are off by up to 3e-7.
+// The largest distance of two places that count as one, in radians. Longitudes in single precision
+// are off by up to 3e-7.
 constexpr double most_apart_of_mpas = 1e-5;
-// In degrees; a latitude of pi / 2 in single precision is 90.0000025 degrees.
+// How far a latitude may be beyond a pole, in degrees: pi / 2 in single precision is 90.0000025
+// degrees.
 constexpr double rounding_of_pole = 1e-5;
 
 }  // namespace

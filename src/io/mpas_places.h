@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The two ways in which MPAS has the places of cells, edges and vertices.
+// Compares the two ways in which MPAS gives the places of cells, edges and vertices.
+//
+// in    a file with longitudes and latitudes in radians, and x, y and z in units of length
+// out   an exception that names the first place where both differ
+// index cells, edges or vertices, from 0
 #pragma once
 
 #include <cstdint>

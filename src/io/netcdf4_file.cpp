@@ -43,6 +43,7 @@ class Netcdf4Header {
  public:
   explicit Netcdf4Header(const NetcdfLibrary& library) : library_(library) {}
 
+  // Adds the definitions of a group and of those in it; `prefix` is the group's name with a slash.
   void add_group(int group, const std::string& prefix) {
     int num_dimensions = 0;
     int num_variables = 0;
@@ -139,6 +140,7 @@ class Netcdf4Header {
     return attributes;
   }
 
+  // Reads an attribute; returns false if it is of a type that is not read.
   bool read_attribute(int group, int variable, int type, std::size_t size,
                       NetcdfAttribute& attribute) {
     const char* const name = attribute.name.c_str();
@@ -165,6 +167,7 @@ class Netcdf4Header {
     return library_.attribute_numbers(group, variable, name, attribute.numbers.data()) == 0;
   }
 
+  // Reads an attribute of strings, which become the words of one text.
   bool read_strings(int group, int variable, std::size_t size, NetcdfAttribute& attribute) {
     std::vector<char*> strings(size, nullptr);
     if (library_.attribute_strings(group, variable, attribute.name.c_str(), strings.data()) != 0) {

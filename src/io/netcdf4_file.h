@@ -5,6 +5,7 @@
 //
 // in    a path, or the bytes of a file
 // out   a header, and values
+// index values of a variable, the last dimension varying fastest
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@ namespace rondel::io {
 // True if the first bytes contain the signature of HDF5, at offset 0, 512, 1024, 2048, ...
 bool is_hdf5(std::string_view head);
 
+// An open file. All calls of netCDF-C hold its lock, so that threads may share this object.
 class Netcdf4File {
  public:
   // Throws BadValue if the file cannot be read, or netCDF-C is not installed.

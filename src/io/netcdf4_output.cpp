@@ -38,10 +38,12 @@ std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) 
   return lengths;
 }
 
-// What netCDF-C keeps back of a variable at most: its largest cache of chunks.
+// NetCDF-C keeps back at most this many bytes of a variable: the size of its largest cache of
+// chunks.
 constexpr std::uint64_t most_kept_back = std::uint64_t{1} << 26U;
 
-// The values of all chunks: those at the end of a dimension are as long as the others, which doubles a dimension at most.
+// Returns the number of values in all chunks. Chunks at the end of a dimension are as long as the
+// others, which at most doubles a dimension.
 std::uint64_t values_of_chunks(const std::vector<std::uint64_t>& shape) {
   const std::vector<std::size_t> lengths = chunk_lengths(shape);
   std::uint64_t values = 1;
@@ -51,7 +53,8 @@ std::uint64_t values_of_chunks(const std::vector<std::uint64_t>& shape) {
   return values;
 }
 
-// More than HDF5 takes for definitions: a header, lists of attributes and the trees that say where chunks are.
+// Returns more than HDF5 takes for definitions: a header, lists of attributes and the trees that
+// say where chunks are.
 std::uint64_t most_bytes_of_definitions(const Netcdf4Definitions& definitions) {
   constexpr std::uint64_t of_each = std::uint64_t{1} << 14U;
   constexpr std::uint64_t of_attribute = 512;
@@ -130,7 +133,7 @@ void Netcdf4Output::require_room() {
   }
   const std::uint64_t needed = system::size_of(descriptor_) + kept_back;
   if (needed <= size_with_room_) return;
-  // Seldom, and then more: values come in small pieces.
+  // Values come in small pieces, so that more room is found at once, and less often.
   constexpr std::uint64_t more = std::uint64_t{1} << 20U;
   size_with_room_ = needed + more;
   if (system::allocate(descriptor_, size_with_room_) == 0) return;

@@ -5,6 +5,8 @@
 //
 // in    definitions, then the values of each variable in their order
 // out   a file
+// index variables in the order of their definitions; values of a variable, the last dimension
+// varying fastest
 #pragma once
 
 #include <cstddef>
@@ -18,6 +20,7 @@
 
 namespace rondel::io {
 
+// What the file is to have.
 struct Netcdf4Definitions {
   const std::vector<NetcdfDimension>& dimensions;
   const std::vector<NetcdfAttribute>& attributes;
@@ -28,11 +31,13 @@ struct Netcdf4Definitions {
 // target and no name, if the system allows that, and its content is copied to the target at the
 // end.
 //
-// Variables are divided into chunks of runs of values, so that values can be written in their order, each chunk once.
+// Variables are divided into chunks of runs of values, so that values can be written in their
+// order, each chunk once.
 //
-// HDF5 keeps data back until the file is closed, and where it cannot write them then, some versions (1.10) leave a file behind that
-// crashes the process when it ends. So there is room on the disk for all that is handed over before it is: a full disk, or a limit of
-// the size of files, is an error before HDF5 meets it.
+// HDF5 keeps data back until the file is closed, and where it cannot write them then, some versions
+// (1.10) leave a file behind that crashes the process when it ends. So there is room on the disk
+// for all that is handed over before it is: a full disk, or a limit of the size of files, is an
+// error before HDF5 meets it.
 class Netcdf4Output {
  public:
   // Throws FileError with the name of the target, and BadValue where netCDF-C is not there.
@@ -52,12 +57,14 @@ class Netcdf4Output {
   void define_variable(const NetcdfVariable& variable, const std::vector<int>& dimensions,
                        int deflate);
   void put(int variable, const NetcdfAttribute& attribute);
-  // Throws FileError with the message of the library if the number is that of an error; `what` is what was to be done.
+  // Throws FileError with the message of the library if the number is that of an error; `what` is
+  // what was to be done.
   void require(int error, const std::string& what) const;
   // Finds room on the disk for all that HDF5 may have kept back.
   void require_room();
   void close();
 
+  // A variable as netCDF-C knows it, with the bytes that were handed over and may be kept back.
   struct DefinedVariable {
     int number;
     std::string name;

@@ -161,6 +161,7 @@ class RunReader {
   }
 
  private:
+  // Returns how far the box begins behind the first value, by dimensions d and later.
   [[nodiscard]] std::uint64_t offset_after(std::size_t d) const {
     std::uint64_t offset = 0;
     for (; d < steps_.size(); ++d) offset += box_.start[d] * steps_[d];

@@ -5,6 +5,7 @@
 //
 // in    a variable and a box of it
 // out   numbers
+// index dimensions of the variable
 #pragma once
 
 #include <cstddef>

@@ -3,6 +3,8 @@
 
 // The elements of netCDF's classic formats: CDF-1, CDF-2 (offsets of 64 bits) and CDF-5 (all counts
 // of 64 bits). https://docs.unidata.ucar.edu/nug/current/file_format_specifications.html
+//
+// index dimensions of the file, to which variables refer
 #pragma once
 
 #include <cstddef>
@@ -63,6 +65,7 @@ struct NetcdfAttribute {
       integers{};  // the same of 64-bit integers, exactly; those of uint64 as bits
 };
 
+// A variable: its values have the lengths of its dimensions.
 struct NetcdfVariable {
   std::string name;
   NetcdfType type = NetcdfType::float64;

@@ -13,7 +13,7 @@ namespace {
 
 using VariableNames = std::set<std::string, std::less<>>;
 
-// Whether the words of the attribute are names of variables.
+// True if the words of the attribute are names of variables.
 bool names_variables(std::string_view attribute) {
   return attribute == "bounds" || attribute == "coordinates" || attribute == "mesh" ||
          attribute.ends_with("_coordinates") || attribute.ends_with("_connectivity");
@@ -25,10 +25,12 @@ std::string group_of(std::string_view name) {
   return std::string(slash == std::string_view::npos ? "" : name.substr(0, slash + 1));
 }
 
+// Returns "a/" for "a/b/".
 std::string group_above(const std::string& group) {
   return group.empty() ? group : group_of(std::string_view(group).substr(0, group.size() - 1));
 }
 
+// Returns the full name of the variable that a word in a group means, or the word.
 std::string looked_up(const std::string& word, std::string group, const VariableNames& names) {
   if (word.starts_with('/')) return names.contains(word.substr(1)) ? word.substr(1) : word;
   std::string_view rest = word;

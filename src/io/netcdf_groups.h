@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Names in files with groups: CF 1.11, section 2.7.1.
+//
+// in    names of variables as attributes and users write them
+// out   the full names that the reader gives to variables, "group/name"
 #pragma once
 
 #include <span>

@@ -18,6 +18,7 @@ class HeaderFields {
   HeaderFields(std::string_view bytes, int version) : rest_(bytes), version_(version) {}
 
   std::uint32_t u32() { return next<std::uint32_t>(); }
+  // A count has 64 bits in CDF-5; an offset has them in CDF-2, too.
   std::uint64_t count() { return version_ == 5 ? next<std::uint64_t>() : u32(); }
   std::uint64_t offset() { return version_ == 1 ? u32() : next<std::uint64_t>(); }
 

@@ -5,6 +5,7 @@
 //
 // in    bytes
 // out   dimensions, attributes and variables
+// index dimensions, to which variables refer by number
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,7 @@
 
 namespace rondel::io {
 
+// The header of a file of any format of netCDF.
 struct NetcdfHeader {
   int version = 1;                // number of classic format: 1, 2 or 5
   std::uint64_t num_records = 0;  // all bits are 1 if it is not known

@@ -4,6 +4,9 @@
 // The library netCDF-C, which is loaded when a netCDF-4 file is to be read or written; Rondel is
 // built and runs without it. The members are functions of its C interface, whose binary form is the
 // same since netCDF-C 4.4.
+//
+// in    the name of a library, or those that the system finds
+// out   pointers to its functions, which return 0 or the number of an error
 #pragma once
 
 #include <cstddef>

@@ -22,6 +22,8 @@ namespace {
   throw BadValue("variable " + in_quotes(variable.name) + " " + why);
 }
 
+// Products and sums of numbers that a damaged header may hold. They throw BadValue where they
+// overflow.
 std::uint64_t product(const NetcdfReader::Variable& variable, std::uint64_t a, std::uint64_t b) {
   std::uint64_t result = 0;
   if (__builtin_mul_overflow(a, b, &result)) refuse(variable, "is too large");
@@ -245,8 +247,8 @@ std::vector<double> NetcdfReader::rounded_numbers(const Variable& variable,
   return values;
 }
 
-// Values that were never written take no bytes, and those that are all the same hardly any: of netCDF-4 this only keeps a damaged
-// size from taking all of the memory.
+// Values of netCDF-4 that were never written take no bytes, and equal ones hardly any. So this
+// bound is wide: it keeps a damaged size from taking all of the memory.
 std::uint64_t NetcdfReader::most_values() const {
   constexpr unsigned most_packed = 20;  // logarithm of the largest number of values a byte
   return netcdf4_ == nullptr ? size_

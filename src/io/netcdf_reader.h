@@ -36,13 +36,15 @@ struct NetcdfBox {
 RONDEL_API bool is_netcdf(std::string_view head);
 
 // A file of netCDF-4 has what the classic formats have, and more:
-// 1. Variables of a group are called "group/name", and come after those of the file itself, as do dimensions. Attributes that name
-//    variables have these names, too (netcdf_groups.h).
+// 1. Variables of a group are called "group/name", and come after those of the file itself, as do
+//    dimensions. Attributes that name variables have these names, too (netcdf_groups.h).
 // 2. A variable of strings is of the type text. Its values are not read.
 // 3. An attribute of several strings is a text with spaces between them.
-// 4. Variables and attributes of types that the file defines itself are left out; require() tells so of such a variable.
+// 4. Variables and attributes of types that the file defines itself are left out; the message of
+//    require() says so of such a variable.
 class RONDEL_API NetcdfReader {
  public:
+  // A variable with its place in the file.
   struct Variable : NetcdfVariable {
     std::vector<std::uint64_t> shape;  // with the number of records that the file has
     std::uint64_t offset = 0;          // in the file
@@ -77,13 +79,15 @@ class RONDEL_API NetcdfReader {
   // Throws BadValue if there is none, or none of a type that is read.
   [[nodiscard]] const Variable& require(std::string_view name) const;
 
-  // All values as doubles. Throws BadValue if they are a text.
-  // Integers of 64 bits that are no doubles are NaN if they are missing, as wide_integers.h says; otherwise BadValue is thrown.
+  // Returns all values as doubles. Throws BadValue if they are a text, and for integers of 64 bits
+  // that are no doubles; those that are missing, as wide_integers.h says, are NaN.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
-  // numbers() with integers that are no doubles rounded. Sets `is_rounded` if there are some.
+  // Returns what numbers() returns, with integers that are no doubles rounded; sets `is_rounded` if
+  // there are some.
   [[nodiscard]] std::vector<double> rounded_numbers(const Variable& variable,
                                                     bool& is_rounded) const;
-  // Throws BadValue if the variable is a text, or has more values than the file can have: before there is room for them.
+  // Throws BadValue if the variable is a text, or has more values than the file can have: before
+  // there is room for them.
   void require_room(const Variable& variable) const;
   // Read as many values as `out` has room for, from value `begin` on. Throw BadValue like numbers()
   // and integers().
@@ -101,14 +105,19 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 
  private:
+  // Keeps the definitions of a header.
   void take(NetcdfHeader&& header);
+  // Parses a classic header and places the variables in the file.
   void parse(std::string_view head);
   static void require_numbers(const Variable& variable);
+  // Returns the offset in the file of a value, by its number in the variable.
   [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
   // Reads integers of 64 bits, uint64 as bits.
   void read_wide(const Variable& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
+  // Places the variables of records; `claimed` is the number of records by the header, or all bits
+  // 1.
   void place_records(std::uint64_t claimed);
 
   std::string_view bytes_;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Divides successive values of an array into boxes, as netCDF-C reads and writes them.
+//
+// in    the shape of an array, and an interval of its values
+// out   boxes that divide the interval
+// index dimensions of the array; values with the last dimension varying fastest
 #pragma once
 
 #include <algorithm>

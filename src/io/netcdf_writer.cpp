@@ -66,6 +66,7 @@ class HeaderBytes {
     store(static_cast<T>(value), bytes.data(), std::endian::big);
     bytes_.append(bytes.data(), bytes.size());
   }
+  // Appends the numbers of an attribute, which are doubles, floats or integers of 32 bits.
   void numbers(const NetcdfAttribute& attribute) {
     count(attribute.numbers.size());
     for (const double number : attribute.numbers) {

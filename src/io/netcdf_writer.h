@@ -117,9 +117,13 @@ class RONDEL_API NetcdfWriter {
     return values;
   }
 
+  // Returns the bytes of a variable's values.
   [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
+  // Returns the lowest version that can hold the definitions.
   [[nodiscard]] int needed_version() const;
+  // Throws BadValue if classic netCDF cannot hold the dimensions of length 0.
   void require_records() const;
+  // Returns the header, where the first variable begins at `first_offset`.
   [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
   template <typename T>
   void write_block(std::span<const T> values) {
@@ -133,7 +137,9 @@ class RONDEL_API NetcdfWriter {
   // Tells the system the size of the file, before the first rows.
   void find_room();
   void write_bytes(std::string_view bytes);
+  // Counts bytes of the current variable, and ends it when it is full.
   void count_bytes(std::uint64_t size);
+  // Pads variables that are full, and goes to the next one.
   void end_full_variables();
 
   AtomicFile& file_;

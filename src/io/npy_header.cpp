@@ -25,6 +25,7 @@ class Literals {
     return true;
   }
 
+  // Takes a token that has to come next.
   void require(std::string_view token) {
     if (!take(token)) throw BadValue("the .npy header is damaged");
   }

@@ -6,6 +6,7 @@
 //
 // in    the bytes of a file, or of its head
 // out   a header; numbers of a table
+// index rows and columns of a table, from 0, in both orders of the file
 #pragma once
 
 #include <bit>
@@ -77,7 +78,9 @@ class NpyTable {
   }
 
  private:
+  // Returns the bytes of a number: the digit in "f8".
   [[nodiscard]] std::size_t item_size() const { return static_cast<std::size_t>(type()[1] - '0'); }
+  // Returns how many numbers come before this one in the file.
   [[nodiscard]] std::size_t position(std::size_t row, std::size_t column) const {
     return header_.is_fortran_order ? column * num_rows() + row : row * num_columns() + column;
   }

@@ -38,6 +38,7 @@ void add_rows_of(const NpyTable& array, std::uint64_t first_row, SiteCollector& 
   }
 }
 
+// The types that are read, and for each the function that adds its rows.
 constexpr std::array<std::string_view, 10> number_types = {"f8", "f4", "i1", "i2", "i4",
                                                            "i8", "u1", "u2", "u4", "u8"};
 constexpr std::array adders = {
@@ -53,6 +54,7 @@ bool are_points(const NpyTable& table) {
   return table.type() == "f8" && table.num_columns() == 3 && table.has_native_rows();
 }
 
+// True if all coordinates are finite; the loop has no branches, so that compilers vectorize it.
 bool are_finite(std::span<const Point> points) {
   constexpr double largest = std::numeric_limits<double>::max();
   const auto bit = [](double x) { return static_cast<unsigned>(std::abs(x) <= largest); };

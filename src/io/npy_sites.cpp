@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Reads and writes sites as arrays: (n, 2) longitudes and latitudes in degrees, or (n, 3) points.
 #include <array>
 #include <cstdint>
 

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Reads and writes triangles as arrays (m, 3) of indices of sites.
 #include <array>
 
 #include "io/npy_header.h"

@@ -27,12 +27,14 @@ bool skip_digits(const char*& p, const char* end) {
   return p != start;
 }
 
+// Returns the shortest digits of a number, for messages.
 std::string text_of(double value) {
   std::string text;
   append_number(text, value);
   return text;
 }
 
+// Throws BadValue for infinite numbers and NaN; `what` names the number.
 void require_finite(double value, std::string_view what) {
   if (!std::isfinite(value)) {
     throw BadValue(std::string(what) + " " + text_of(value) + " is not finite");

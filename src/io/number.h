@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Reads and writes numbers as text, and checks coordinates and indices.
+//
+// in    text of files, or numbers
+// out   numbers, with the message of BadValue if there is none; or text
 #pragma once
 
 #include <bit>

@@ -38,6 +38,7 @@ struct Scale {
   unsigned fraction = 0;  // D
 };
 
+// The scales of all these exponents, computed by the compiler.
 constexpr auto scales = [] {
   std::array<Scale, greatest_exponent - least_exponent + 1> all{};
   Scale scale;
@@ -72,6 +73,7 @@ Word shortest_decimal(Word m, const Scale& scale) {
   return whole + (is_up ? 1 : 0);
 }
 
+// The digits "00", "01", ... "99".
 constexpr auto digit_pairs = [] {
   std::array<char, 200> pairs{};
   for (std::size_t i = 0; i < 100; ++i) {

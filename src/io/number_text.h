@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Writes doubles as text, fast, since text files consist of little else.
+//
+// in    a double
+// out   its digits, the same on every machine
 #pragma once
 
 namespace rondel::io {

@@ -13,12 +13,14 @@
 namespace rondel::io {
 namespace {
 
+// Returns a number of elements from the line of counts.
 std::uint64_t count(std::string_view word, std::string_view what) {
   const std::int64_t value = parse_integer(word, what);
   if (value < 0) throw BadValue("negative " + std::string(what));
   return static_cast<std::uint64_t>(value);
 }
 
+// Goes to the next line, which is element i of n. Throws BadValue if the file ends before it.
 void require_line(TextLines& lines, std::uint64_t i, std::uint64_t n, std::string_view what) {
   if (lines.next()) return;
   throw BadValue("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " +

@@ -3,6 +3,10 @@
 
 // Writes text that takes longer to make than to write: several threads make it, and it is written
 // in order. The bytes do not depend on the number of threads.
+//
+// in    a function that appends the text of items
+// out   the text of all items, in their order, in a file
+// index items, from 0 to count - 1
 #pragma once
 
 #include <cstddef>

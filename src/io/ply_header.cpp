@@ -14,6 +14,7 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
+// Returns the type of this name. Throws BadValue for other names.
 PlyType type_of(std::string_view name) {
   // Every type has an old and a new name.
   constexpr std::array<std::pair<std::string_view, PlyType>, 16> types = {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Parses the header of a Stanford .ply file: a list of elements, each with a list of properties.
+//
+// in    the bytes of a file
+// out   elements and properties in the order in which the body has them
 #pragma once
 
 #include <cstddef>
@@ -14,6 +17,7 @@ namespace rondel::io {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
+// A number that each member of an element has, or a list of numbers.
 struct PlyProperty {
   std::string name;
   PlyType type{};
@@ -21,6 +25,7 @@ struct PlyProperty {
   PlyType size_type{};  // type of the length of a list
 };
 
+// A kind of members, such as "vertex" or "face".
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;

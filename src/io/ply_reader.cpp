@@ -23,6 +23,7 @@ class PlyNumbers {
         is_ascii_(encoding == PlyEncoding::ascii),
         lines_(body) {}
 
+  // Returns the next number, which has this type in a binary file.
   double next(PlyType type) {
     if (is_ascii_) return next_word();
     switch (type) {
@@ -90,6 +91,7 @@ bool has_corners(const PlyProperty& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+// Reads the corners of a face, which must be a triangle.
 Triple read_corners(PlyNumbers& numbers, const PlyProperty& property) {
   const std::int64_t size = numbers.next_integer(property.size_type);
   if (size != 3) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Files and folders that are replaced on POSIX: where they are, and what the new ones take over.
+//
+// in    a path, or an open file with the status of the one that it replaces
+// out   the path without links; the owner, group and permissions of the new one
 #pragma once
 
 #include <string>

@@ -3,6 +3,9 @@
 
 // A file that will replace another one and that several processes write, so that it needs a name
 // while it is written. All other files are written by AtomicFile.
+//
+// in    the path of the file that is replaced, and a temporary name beside it
+// out   a descriptor of an empty file
 #pragma once
 
 #include <string>

@@ -5,6 +5,7 @@
 //
 // in    coordinates of sites, as a file has them
 // out   a SiteTable
+// index sites in the order in which they are added
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ class SiteCollector {
   // Adds the next site, which is in `line` (0 if the format has no lines). Throws BadValue if it is
   // not valid.
   void add_position(double lon, double lat, std::uint64_t line);
-  // Adds a site that is not a number.
+  // Adds a site without a place: its coordinates are NaN.
   void add_unlocated(bool is_lonlat, std::uint64_t line);
   void add_point(const Point& point, std::uint64_t line);
 

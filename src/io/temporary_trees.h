@@ -3,6 +3,10 @@
 
 // The names in temporary folders, for signal handlers on POSIX, which may use neither the heap nor
 // a lock.
+//
+// in    paths of folders and files, before they are created
+// out   their removal when a signal ends the process
+// index slots, one for each folder that is being written
 #pragma once
 
 #include <array>
@@ -24,6 +28,7 @@ class TemporaryTrees {
   // Adds the path of a file or folder that will be created; the outermost folder comes first.
   // Throws bad_alloc.
   void add(std::size_t slot, const std::string& path);
+  // Frees a slot, whose files are then kept.
   void forget(std::size_t slot) noexcept;
   // Removes all files and folders that were added, without allocating memory.
   void remove(std::size_t slot) const noexcept;

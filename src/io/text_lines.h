@@ -3,6 +3,10 @@
 
 // Divides a text file into lines, and these into words between blanks, for .xyz .off .obj and ASCII
 // .ply.
+//
+// in    the text of a file
+// out   the words of one line after the other
+// index lines, from 1; words of a line, from 0
 #pragma once
 
 #include <cstddef>

@@ -32,6 +32,7 @@ struct MeshToWrite {
       const std::function<void(std::string& text, Index begin, Index end)>& append) const;
 };
 
+// Each of these writes one format, in which the triangulation is a single file.
 void write_npy(AtomicFile& file, const MeshToWrite& mesh);
 void write_off(AtomicFile& file, const MeshToWrite& mesh);
 void write_ply(AtomicFile& file, const MeshToWrite& mesh);

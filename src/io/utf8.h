@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Checks text of files, which goes into JSON and messages.
+//
+// in    bytes
+// out   whether they are valid UTF-8
 #pragma once
 
 #include <string_view>

@@ -3,6 +3,10 @@
 
 // Writes VTK's XML PolyData (.vtp), the format of ParaView: an XML head that describes the arrays,
 // then their bytes ("appended raw", little-endian, each array after its length as a UInt64).
+//
+// in    points, polygons of them, and arrays of data for each point or polygon
+// out   a file
+// index points, from 0; polygons in the order of their offsets
 #pragma once
 
 #include <cstddef>
@@ -17,6 +21,7 @@
 
 namespace rondel::io {
 
+// An array of the file; its numbers are computed when they are written.
 struct VtpArray {
   std::string name;
   std::string type;  // Float64, Int64, UInt8
@@ -39,6 +44,7 @@ inline VtpArray vtp_points(std::span<const Point> points) {
           [points](AtomicFile& file) { file.write(NumberBytes(points)); }};
 }
 
+// The arrays of a file.
 struct VtpMesh {
   std::string_view comment{};  // not written if it is empty
   std::size_t num_points = 0;

@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// 64-bit integers of netCDF as doubles. Those that are no doubles are compared exactly with the attributes that say what is missing:
-// _FillValue, missing_value, valid_min, valid_max, valid_range of the same type, and the fill that netCDF writes. ValueRules compares
-// those that are doubles.
+// Converts 64-bit integers of netCDF to doubles. Integers that are no doubles are compared exactly
+// with the attributes that say what is missing: _FillValue, missing_value, valid_min, valid_max,
+// valid_range of the same type, and the fill that netCDF writes. ValueRules compares those that are
+// doubles.
+//
+// in    integers of a variable, with its attributes
+// out   doubles, NaN for integers that are missing and no doubles
+// index values of the variable
 #pragma once
 
 #include <cstdint>
@@ -13,19 +18,20 @@
 
 namespace rondel::io {
 
-// Whether the type has integers that are no doubles.
+// True if the type has integers that are no doubles.
 inline bool is_wide(NetcdfType type) {
   return type == NetcdfType::int64 || type == NetcdfType::uint64;
 }
 
-// Whether the number of 64 bits is a double.
+// True if an integer is a double; `bits` are those of an integer of this type.
 bool is_double(std::int64_t bits, NetcdfType type);
 
-// The least double that is not below the bound, or, of an upper one, the largest that is not above it.
+// Returns a bound as a double: the least one that is not below a lower bound, or the largest one
+// that is not above an upper one.
 double bound_as_double(std::int64_t bits, NetcdfType type, bool is_lower);
 
-// The integers of a variable, those of uint64 as bits, as doubles; NaN where one is missing and no double. Throws BadValue for others
-// that are no doubles; if `may_round` they are rounded.
+// Sets `out` to the integers of a variable, those of uint64 as bits; NaN where one is missing and
+// no double. Throws BadValue for others that are no doubles; if `may_round` they are rounded.
 void to_doubles(const NetcdfVariable& variable, std::span<const std::int64_t> integers,
                 std::span<double> out, bool may_round = false);
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Reads members of zip archives, stored or deflated.
+//
+// in    the bytes of an archive, and the name of a member
+// out   the content of the member
 #pragma once
 
 #include <string>
