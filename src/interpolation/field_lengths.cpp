@@ -201,7 +201,7 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(
       for (std::size_t d = begin; d < end; ++d) {
         has_other_axis = has_other_axis || (shape[d] > 1 && is_other_axis(variable.dimensions[d]));
       }
-      const int preference = is_single && is_name_of_cells(name)                         ? 4
+      const int preference = is_single && is_name_of_cells(name)                             ? 4
                              : std::ranges::equal(shape.subspan(begin, end - begin), shape_) ? 3
                              : !has_other_axis                                               ? 2
                                                                                              : 1;
