@@ -95,7 +95,7 @@ const double corner_lat = std::atan(std::sqrt(0.5)) * axis_degrees;  // 35.26
 TEST(cell_map, of_an_octahedron_is_as_coarse_as_the_distances_of_sites_allow) {
   const Polygons all = polygons_of_cells(octahedron, 45);
   ASSERT_EQ(all[0].size(), 1U);
-  for (const std::size_t site : {0, 1}) {
+  for (const std::size_t site : {std::size_t{0}, std::size_t{1}}) {
     const double lon = site == 0 ? 0 : 90;
     expect_ring(all[site][0].ring, {{lon - 45, -corner_lat},
                                     {lon, -45},

@@ -38,9 +38,9 @@ CellRings octants_of(const Point& a, const Point& b, const Point& c) {
     cells.points.push_back(p);
     cells.points.push_back({-p.x, -p.y, -p.z});
   }
-  for (const Index i : {0, 1}) {
-    for (const Index j : {2, 3}) {
-      for (const Index k : {4, 5}) {
+  for (const Index i : {0U, 1U}) {
+    for (const Index j : {2U, 3U}) {
+      for (const Index k : {4U, 5U}) {
         const bool is_even = (i + j + k) % 2 == 0;
         cells.corners.insert(cells.corners.end(), {i, is_even ? j : k, is_even ? k : j});
         cells.rings.push_back(cells.corners.size());

@@ -240,5 +240,34 @@ TEST(region_area, is_between_nothing_and_the_sphere) {
   EXPECT_FALSE(overlay::area_of_ring(circle(0.001, 9, true)).is_nothing());
 }
 
+// Triangles with a right angle and two short legs: each sign and size is told from rounding, which is much less.
+TEST(region_area, of_tiny_triangles_is_not_rounding) {
+  for (const double leg : {1e-7, 1e-6, 1e-5, 1e-3, 0.1}) {
+    const std::vector<Point> ring = {
+        {1, 0, 0}, {std::cos(leg), std::sin(leg), 0}, {std::cos(leg), 0, std::sin(leg)}};
+    const double t = std::tan(leg / 2);
+    const double area = 2 * std::atan(t * t);
+    const std::vector<Point> back(ring.rbegin(), ring.rend());
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<Point> turned = ring;
+      std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(k), turned.end());
+      const overlay::RingArea found = overlay::area_of_ring(turned);
+      EXPECT_FALSE(found.is_nothing()) << leg;
+      EXPECT_NEAR(found.area, area, found.rounding) << leg;
+      EXPECT_LT(found.rounding, leg < 1e-4 ? 1e-13 * leg + area / 50 : 1e-8);
+    }
+    EXPECT_NEAR(overlay::area_of_ring(back).area, -area, 1e-15 * leg + 1e-14 * area);
+    overlay::RegionArea inside;
+    inside.add(ring);
+    EXPECT_NEAR(inside.value(), area, 1e-15 * leg + 1e-14 * area);
+    overlay::RegionArea outside;
+    outside.add(back);
+    EXPECT_NEAR(outside.value(), 4 * pi - area, 1e-14);
+    // A ring and the same as a hole are nothing.
+    inside.add(back);
+    EXPECT_NEAR(inside.value(), 0, 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test::of_measure

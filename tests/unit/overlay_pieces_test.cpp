@@ -154,12 +154,12 @@ CellRings cube_cells(const Point& a, const Point& b, const Point& c) {
     cells.corners.push_back(static_cast<Index>(at - cells.points.begin()));
     if (at == cells.points.end()) cells.points.push_back(p);
   };
-  for (const auto& [front, right, up] : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
+  for (const std::array<Point, 3>& axes : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
     for (const double side : {1.0, -1.0}) {
       // Lines are at the tangents of equal angles, or their negatives, so that neighbors have equal corners.
       constexpr std::array<double, 5> lines{-1, -0.4, 0, 0.4, 1};
       const auto corner = [&](std::size_t i, std::size_t k) {
-        const Point p = side * front + lines[i] * right + lines[k] * up;
+        const Point p = side * axes[0] + lines[i] * axes[1] + lines[k] * axes[2];
         const Point rounded = normalized(p);
         const double steps = 0x1p40;
         return normalized(Point{std::round(rounded.x * steps) / steps,
