@@ -54,10 +54,12 @@ const std::vector<RegionFace> halves_of_square = {{1, 3, 4, no_index}, {1, 2, 3,
 TEST(natural_cell, of_a_square_of_neighbors_has_equal_shares) {
   NaturalCell<double> cell;
   set_neighbors(cell, square);
-  EXPECT_LT(cell.laplace(), 100);
+  // The error of a corner is 4, of a side (4 + 4 + 1 + 1) / 2, of a weight a quarter of the sum of four.
+  EXPECT_EQ(cell.laplace(), 5);
   // Sides as long as the distances of the neighbors.
   EXPECT_EQ(cell.shares(), (std::vector<double>{1, 1, 1, 1}));
-  EXPECT_LT(cell.sibson(halves_of_square), 100);
+  // The errors of four corners are 4, those of the two Voronoi vertices 2; the radius is 1, and twice the area 4.
+  EXPECT_EQ(cell.sibson(halves_of_square), (4 * 4 + 2 * 2 + 1) / 4.0);
   // A quarter of the diamond each, whose area is 2.
   EXPECT_EQ(cell.shares(), (std::vector<double>{1, 1, 1, 1}));
   // The other diagonal leads to the same.

@@ -174,6 +174,80 @@ TEST(graticule_walk, strips_are_integrals_over_longitude) {
   }
 }
 
+// Next to a pole the pole stands for the parallel, as if it were south of the arc: the height is sin(lat) less its own sine.
+TEST(graticule_walk, strips_at_a_pole_reach_it) {
+  for (const double pole : {1.0, -1.0}) {
+    const Graticule grid({{-30, 50}, {-60, 60}});
+    const GraticuleWalk walk(grid, false);
+    for (const double lat : {89.0, 89.9, 89.9999}) {
+      const Point p = at(-20, pole * lat);
+      const Point q = at(40, pole * (90 - 2 * (90 - lat)));
+      std::vector<Strip> strips;
+      walk.append(walk.place_of(p), walk.place_of(q), strips);
+      ASSERT_EQ(strips.size(), 1U);
+      EXPECT_EQ(strips[0].row, pole > 0 ? 2U : 0U);
+      EXPECT_EQ(strips[0].pole, pole);
+      double area = 0;
+      const Point normal = cross(p, q);
+      constexpr int steps = 20'000;
+      const double step = 60 * pi / 180 / steps;
+      for (int k = 0; k < steps; ++k) {
+        const double here = -20 * pi / 180 + (k + 0.5) * step;
+        // 1 - |sine| from the tangent of the distance to the pole, which loses no digits.
+        const double across = normal.x * std::cos(here) + normal.y * std::sin(here);
+        const double t = normal.z / across;
+        area += step * t * t / (1 + t * t + std::sqrt(1 + t * t));
+      }
+      EXPECT_NEAR(strips[0].area, pole * area, 1e-6 * area) << lat;
+    }
+  }
+}
+
+// The integral of the unit vector from one latitude to another, along a meridian, times the width of a step.
+Point moment_between(double lon, double south, double north, double step) {
+  const auto level = [](double lat) { return (lat + std::sin(lat) * std::cos(lat)) / 2; };
+  const auto upright = [](double lat) { return std::sin(lat) * std::sin(lat) / 2; };
+  const double along = step * (level(north) - level(south));
+  return {along * std::cos(lon), along * std::sin(lon), step * (upright(north) - upright(south))};
+}
+
+TEST(graticule_walk, moments_of_strips_are_integrals_over_longitude) {
+  const std::vector<double> lon = {-30, -10, 0, 20, 50};
+  const std::vector<double> lat = {-60, -20, 0, 15, 40, 70};
+  const Graticule grid({lon, lat});
+  const GraticuleWalk walk(grid, true);
+  for (const auto& [p, q] : {std::array{at(-25, -30), at(45, 35)},
+                             {at(-5, 30), at(5, 32)},
+                             {at(-25, 60), at(45, -50)}}) {
+    std::vector<Strip> strips;
+    walk.append(walk.place_of(p), walk.place_of(q), strips);
+    std::map<std::array<Index, 2>, Point> moments;
+    for (const Strip& strip : strips) {
+      Point& sum = moments[{strip.column, strip.row}];
+      sum = sum + strip.moment;
+    }
+    std::map<std::array<Index, 2>, Point> expected;
+    const Point normal = cross(p, q);
+    constexpr int steps = 20'000;
+    const double west = std::atan2(p.y, p.x);
+    const double step = (std::atan2(q.y, q.x) - west) / steps;
+    for (int k = 0; k < steps; ++k) {
+      const double here = west + (k + 0.5) * step;
+      const double here_deg = here * 180 / pi;
+      const double north = std::asin(sine_on_circle(normal, here));
+      const auto column =
+          static_cast<Index>(std::ranges::upper_bound(lon, here_deg) - lon.begin() - 1);
+      const auto row =
+          static_cast<Index>(std::ranges::upper_bound(lat, north * 180 / pi) - lat.begin());
+      Point& sum = expected[{column, row}];
+      sum = sum - moment_between(here, lat[row - 1] * pi / 180, north, step);
+    }
+    for (const auto& [place, moment] : expected)
+      EXPECT_LT(norm(moments[place] - moment), 1e-4) << place[0] << ' ' << place[1];
+    EXPECT_EQ(moments.size(), expected.size());
+  }
+}
+
 // A place has the column whose western meridian is next to it in the west.
 TEST(graticule_walk, places_are_in_their_columns) {
   const Graticule grid({{-30, -10, 0, 20, 50}, {-60, 70}});
