@@ -14,8 +14,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -24,6 +27,7 @@
 #include "map/cell_map.h"
 #include "map/map_plane.h"
 #include "rondel/delaunay.h"
+#include "support/generators.h"
 
 namespace rondel::test::of_cells {
 namespace {
@@ -146,6 +150,49 @@ TEST(cell_map, of_an_octahedron_is_near_its_arcs) {
       }
     }
   }
+}
+
+// The cells of sites that are on a circle but for rounding, or of circles about one ray, are so narrow that the lines of both
+// sides would cross. They are mended: cells are valid, fill the map, and have each line in common with one neighbor.
+void expect_whole_map(const Triangulation& triangulation, double tolerance_deg) {
+  const Cells diagram = cells(triangulation);
+  const map::CellMap map(triangulation, diagram, tolerance_deg, {.threads = 1});
+  map::CellMap::Pen pen;
+  std::map<std::array<double, 4>, int> balance;  // of lines in both directions
+  double total = 0;
+  for (std::size_t site = 0; site < triangulation.num_sites(); ++site) {
+    if (!map.has_cell(site)) continue;
+    const auto& polygons = map.polygons(site, pen);
+    EXPECT_EQ(fault(polygons), "") << site;
+    total += planar_area(polygons);
+    for (const map::LonLatPolygon& polygon : polygons) {
+      for (std::size_t k = 0; k + 1 < polygon.ring.size(); ++k) {
+        const auto [p_lon, p_lat] = polygon.ring[k];
+        const auto [q_lon, q_lat] = polygon.ring[k + 1];
+        const bool is_border =
+            (p_lon == q_lon && std::abs(p_lon) == 180) || (p_lat == q_lat && std::abs(p_lat) == 90);
+        if (is_border) continue;
+        ++balance[{p_lon, p_lat, q_lon, q_lat}];
+        --balance[{q_lon, q_lat, p_lon, p_lat}];
+      }
+    }
+  }
+  EXPECT_NEAR(total, 360 * 180, 1e-8);
+  for (const auto& [line, difference] : balance)
+    EXPECT_EQ(difference, 0) << line[0] << ' ' << line[1];
+}
+
+TEST(cell_map, of_narrow_cells_is_mended) {
+  for (const char* kind : {"rotated_circle_0", "meridian_rounded"}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const SiteSet set = generator(kind).make(12, seed);
+      const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
+      for (const double tolerance_deg : {0.1, 5.0}) expect_whole_map(triangulation, tolerance_deg);
+    }
+  }
+  const std::vector<Point> on_rays = {{0.25, 0, 0}, {-1, 96, 5472}, {-0.25, 24, 1368}, {-3, 3, -3}};
+  for (const double tolerance_deg : {0.1, 1.0, 5.0})
+    expect_whole_map(delaunay(on_rays, {.model = Model::weighted}), tolerance_deg);
 }
 
 // Sites on the equator have cells from pole to pole. Their sides are halfway between the sites and have a corner on the
