@@ -151,6 +151,21 @@ TEST(contour_tracer, has_the_region_to_the_left) {
   }
 }
 
+// A quarter of the way up the chord from x to z.
+TEST(contour_tracer, divides_chords_by_the_level) {
+  const Triangulation triangulation = delaunay(octahedron);
+  std::vector<double> values = heights;
+  values[2] = 4;
+  const std::vector<double> levels = {1};
+  ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, {});
+  expect_ring(tracer.lines(1), 1 / std::sqrt(10), true);
+  // Differences of values may be too large for a double.
+  for (double& value : values) value = value == 4 ? 1.5e308 : -1.5e308;
+  const std::vector<double> half = {-0.75e308};
+  ContourTracer huge(triangulation, values, half, RegionKind::from_level_on, {});
+  expect_ring(huge.lines(1), 1 / std::sqrt(10), true);
+}
+
 // The middle of three bands has two rings, of one part. It has the most pieces, and where nothing has a border, all is one band.
 TEST(contour_tracer, numbers_the_parts_of_bands) {
   const Triangulation triangulation = delaunay(octahedron);
