@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(interpolation_test
+  interpolation_collected_test.cpp
   interpolation_errors_test.cpp
   interpolation_linear_test.cpp
   interpolation_places_test.cpp
