@@ -83,5 +83,26 @@ TEST(cell_map_tips, turned_lunes_leave_points_where_they_are) {
   }
 }
 
+// The same for so few sites that it takes no time.
+TEST(cell_map_tips, of_few_sites_shrink_where_they_are) {
+  for (const char* kind : {"rotated_circle_0", "meridian_rounded"}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const SiteSet set = generator(kind).make(10, seed);
+      const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
+      for (const double tolerance_deg : {0.1, 5.0})
+        expect_points_of_diagram(triangulation, tolerance_deg, kind);
+    }
+  }
+  const std::vector<std::vector<Point>> sets = {
+      {{0.25, 0, 0}, {-1, 96, 5472}, {-0.25, 24, 1368}, {-3, 3, -3}},
+      {{-18, 3.0625, 15.375}, {19, 920, 91}, {38, 1840, 182}, {76, 3680, 364}, {-3, -3, -3}}};
+  for (const std::vector<Point>& sites : sets) {
+    for (const double tolerance_deg : {5.0, 0.1}) {
+      expect_points_of_diagram(delaunay(sites, {.model = Model::weighted}), tolerance_deg,
+                               "on one ray");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test
