@@ -218,8 +218,8 @@ auto with_places(const SiteTable& table, Work&& work) {
   }
 }
 
-/// \throws UsageError if the name of a result beside OUTPUT has an ending other than .npy or .zarr;
-/// it may have none
+/// \throws UsageError if the name of a result beside OUTPUT has an ending other than .npy; it may
+/// have none
 void require_array(const char* option, const std::string& path);
 
 /// Writes to stdout and flushes. \throws FileError

@@ -81,13 +81,11 @@ void add_query_options(CLI::App& parser, QueryOptions& options, const std::strin
 void add_arrays(CLI::App& command, DelaunayOptions& options) {
   command
       .add_option("--neighbors", options.neighbors,
-                  "Where to write the neighbors: .npy, m x 3, the face opposite to each corner.\n"
-                  "The FILE of --output where that is a .zarr: an array in it")
+                  "Where to write the neighbors: .npy, m x 3, the face opposite to each corner")
       ->type_name("FILE");
   command
       .add_option("--areas", options.areas,
-                  "Where to write the areas of the cells: .npy, n numbers in steradians;\n"
-                  "or the .zarr of --output")
+                  "Where to write the areas of the cells: .npy, n numbers in steradians")
       ->type_name("FILE");
   command
       .add_option("--circumcenters", options.circumcenters,
@@ -96,15 +94,14 @@ void add_arrays(CLI::App& command, DelaunayOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--duplicates", options.duplicates,
-                  "Where to write the duplicates: .npy, k x 2, the site and the one it repeats;\n"
-                  "or the .zarr of --output")
+                  "Where to write the duplicates: .npy, k x 2, the site and the one it repeats")
       ->type_name("FILE");
 }
 
 // Adds the options for sites that do not fit into memory. They go to another program path
 // (out_of_core.cpp), which has no circumcenters.
 void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
-  const char* const group = "More sites than fit into memory: .npy to .npy or .zarr";
+  const char* const group = "More sites than fit into memory: .npy to .npy";
   CLI::Option* scratch =
       command
           .add_option("--scratch", options.scratch,
@@ -138,7 +135,7 @@ Command add_delaunay_command(CLI::App& tool) {
   add_input_options(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
-                    ".stl .vtp .geojson, .pvtp (and a folder with pieces), .zarr (a folder)")
+                    ".stl .vtp .geojson")
       ->required();
   add_build_options(*parser, options->common);
   add_arrays(*parser, *options);
@@ -150,8 +147,7 @@ Command add_delaunay_command(CLI::App& tool) {
       "  rondel delaunay stations.csv -o stations.geojson\n"
       "  rondel delaunay points.xyz --model weighted -o hull.ply\n"
       "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy\n"
-      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch scratch\n"
-      "  rondel delaunay sites.npy -o mesh.zarr --areas mesh.zarr");
+      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch scratch");
   return {parser, [options] { return run_delaunay(*options); }};
 }
 

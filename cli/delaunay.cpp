@@ -31,69 +31,51 @@ void write_points(const std::string& path, std::span<const Point> points) {
   write_numbers(path, numbers_of<3, double>(points), shape);
 }
 
-// True if an array goes into the group that OUTPUT is. Throws UsageError if it is neither that nor
-// a .npy file.
-bool is_in_group(const char* option, const std::string& path, const CommonOptions& common) {
-  const auto without_slashes = [](std::string name) {
-    while (name.ends_with('/')) name.pop_back();
-    return name;
-  };
-  const bool is_output = without_slashes(path) == without_slashes(common.output);
-  if (common.format() == "zarr" && is_output) return true;
-  require_array(option, path);
-  CommonOptions array;
-  array.output = path;
-  if (array.format() != "zarr") return false;
-  throw UsageError(std::string(option) + ": '" + path +
-                   "' is a Zarr group; it must be that of --output, or a .npy file");
+// Throws UsageError for formats of several files, and says what is written instead.
+void require_one_file(const CommonOptions& common) {
+  const std::string output = "--output: '" + common.output + "': ";
+  if (common.format() == "zarr") {
+    throw UsageError(output +
+                     "Zarr groups are written in Python, by rondel.delaunay(points).to_zarr(path); "
+                     "by rondel.out_of_core.delaunay(sites, path, scratch=directory) where sites "
+                     "do not fit into memory");
+  }
+  if (common.format() == "pvtp")
+    throw UsageError(output + ".pvtp is not written; .vtp has all triangles in one file");
 }
 
 }  // namespace
 
 ExitStatus run_delaunay(const DelaunayOptions& options) {
+  require_one_file(options.common);
   if (!options.scratch.empty()) return run_out_of_core(options);
   const CommonOptions& common = options.common;
-  if ((common.format() == "zarr" || common.format() == "pvtp") && common.output == "-")
-    throw UsageError("--output: ." + common.format() +
-                     " is written into a folder, which standard output is not");
-  const std::string of_one_file = ".npy .off .ply .obj .stl .vtp .geojson";
   require_output(common, can_write_triangles(common.target()),
-                 of_one_file + (common.output == "-" ? "" : " .pvtp .zarr"));
-  const ZarrContent content = {is_in_group("--neighbors", options.neighbors, common),
-                               is_in_group("--areas", options.areas, common),
-                               is_in_group("--duplicates", options.duplicates, common)};
-  if (is_in_group("--circumcenters", options.circumcenters, common))
-    throw UsageError("--circumcenters: a Zarr group has none; they need a .npy file");
-  const auto unless_in_group = [](bool is_in, const std::string& path) {
-    return is_in ? std::string() : path;
-  };
-  require_separate_files({{"INPUT", common.input}},
-                         {{"--output", common.output},
-                          {"--neighbors", unless_in_group(content.neighbors, options.neighbors)},
-                          {"--areas", unless_in_group(content.areas, options.areas)},
-                          {"--duplicates", unless_in_group(content.duplicates, options.duplicates)},
-                          {"--circumcenters", options.circumcenters}});
+                 ".npy .off .ply .obj .stl .vtp .geojson");
+  require_array("--neighbors", options.neighbors);
+  require_array("--areas", options.areas);
+  require_array("--circumcenters", options.circumcenters);
+  require_array("--duplicates", options.duplicates);
+  require_separate_files({{"INPUT", common.input}}, {{"--output", common.output},
+                                                     {"--neighbors", options.neighbors},
+                                                     {"--areas", options.areas},
+                                                     {"--duplicates", options.duplicates},
+                                                     {"--circumcenters", options.circumcenters}});
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   std::vector<double> cell_areas;
   std::vector<Point> centers;
-  if (!options.areas.empty() && !content.areas)
+  if (!options.areas.empty())
     job.time(Stage::dual, [&] { cell_areas = areas(triangulation, job.execution()); });
   if (!options.circumcenters.empty())
     job.time(Stage::dual, [&] { centers = circumcenters(triangulation, job.execution()); });
   job.time(Stage::write, [&] {
-    if (!options.neighbors.empty() && !content.neighbors)
-      write_rows<3>(options.neighbors, triangulation.neighbors());
-    if (!options.areas.empty() && !content.areas) write_numbers(options.areas, cell_areas);
+    if (!options.neighbors.empty()) write_rows<3>(options.neighbors, triangulation.neighbors());
+    if (!options.areas.empty()) write_numbers(options.areas, cell_areas);
     if (!options.circumcenters.empty()) write_points(options.circumcenters, centers);
-    if (!options.duplicates.empty() && !content.duplicates)
-      write_rows<2>(options.duplicates, triangulation.duplicates());
-    if (common.format() == "zarr") {
-      write_zarr(common.output, table, triangulation, content, job.execution());
-    } else {
-      write_triangles(common.target(), table, triangulation, job.execution());
-    }
+    if (!options.duplicates.empty()) write_rows<2>(options.duplicates, triangulation.duplicates());
+    write_triangles(common.target(), table, triangulation, job.execution());
   });
   job.report(triangulation, "the triangulation");
   return done;

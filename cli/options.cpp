@@ -272,7 +272,7 @@ void require_array(const char* option, const std::string& path) {
   CommonOptions array;
   array.output = path;
   const std::string ending = array.format();
-  if (ending.empty() || ending == "npy" || ending == "zarr") return;
+  if (ending.empty() || ending == "npy") return;
   throw UsageError(std::string(option) + ": the ending of '" + path + "' is not .npy");
 }
 

@@ -9,17 +9,6 @@
 #include "run.h"
 
 namespace rondel::cli {
-namespace {
-
-// True if OUTPUT is a Zarr group by its ending too, since the library uses the ending alone.
-bool is_group(const CommonOptions& common) {
-  CommonOptions by_ending = common;
-  by_ending.output_format.clear();
-  return common.format() == "zarr" && by_ending.format() == "zarr";
-}
-
-}  // namespace
-
 ExitStatus run_out_of_core(const DelaunayOptions& options) {
   const CommonOptions& common = options.common;
   CommonOptions input;
@@ -27,10 +16,9 @@ ExitStatus run_out_of_core(const DelaunayOptions& options) {
   input.output_format = common.input_format;
   if (common.input == "-" || input.format() != "npy")
     throw UsageError("INPUT: with --scratch '" + common.input + "' must be a .npy file");
-  if (!is_group(common) && (common.output == "-" || common.format() != "npy"))
-    throw UsageError("--output: with --scratch '" + common.output +
-                     "' must be a .npy file or a .zarr group");
-  require_output(common, true, ".npy .zarr");
+  if (common.output == "-" || common.format() != "npy")
+    throw UsageError("--output: with --scratch '" + common.output + "' must be a .npy file");
+  require_output(common, true, ".npy");
   require_array("--neighbors", options.neighbors);
   require_array("--areas", options.areas);
   require_array("--duplicates", options.duplicates);

@@ -152,36 +152,20 @@ RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options
 /// Reads the faces (m, 3) of a .npy .off .ply .obj or .vtp file.
 RONDEL_API std::vector<Triple> read_triangles(const FileName& file);
 
-/// True if the format can hold triangles (.npy .off .ply .obj .stl .vtp .pvtp .geojson .zarr),
-/// cells (.geojson .vtp .npz), or sites (.csv .xyz .npy ...).
+/// True if the format can hold triangles (.npy .off .ply .obj .stl .vtp .geojson), cells
+/// (.geojson .vtp .npz), or sites (.csv .xyz .npy ...).
 RONDEL_API bool can_write_triangles(const FileName& file);
 RONDEL_API bool can_write_cells(const FileName& file);
 RONDEL_API bool can_write_sites(const FileName& file);
 
 /// Writes the triangles. .npy has input indices (m, 3) uint32; formats with vertices list every
-/// input site in input order with digits that round-trip. .zarr is a folder (write_zarr()), and
-/// .pvtp a file beside a folder with .vtp files of at most 2^20 faces. .stl repeats the corners as
-/// 32-bit floats, the only numbers that the format has. GeoJSON has the solid faces only: seen from
-/// the center, ghost faces are flat or reversed.
+/// input site in input order with digits that round-trip. .stl repeats the corners as 32-bit
+/// floats, the only numbers that the format has. GeoJSON has the solid faces only: seen from the
+/// center, ghost faces are flat or reversed.
 /// \throws InvalidInput if the sites of the table are not those of the triangulation.
 RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
                                 const Triangulation& triangulation,
                                 const Execution& execution = {});
-
-/// The arrays that a Zarr group has in addition to sites and faces.
-struct ZarrContent {
-  bool neighbors = false;   ///< (m, 3): faces, opposite to each corner
-  bool areas = false;       ///< (n,): steradians, as areas()
-  bool duplicates = false;  ///< (k, 2): site and representative
-};
-
-/// Writes the triangulation as a Zarr group of version 3, a folder, with the conventions of UGRID:
-/// arrays `faces`, `sites`, `node_lon`, `node_lat` (degrees) and, if there are some, `ghost_faces`.
-/// Nothing is compressed. A folder that exists is replaced if it was made by this function and
-/// nothing was added. write_triangles() to a name that ends in .zarr does the same.
-RONDEL_API void write_zarr(const std::string& path, const SiteTable& table,
-                           const Triangulation& triangulation, const ZarrContent& content = {},
-                           const Execution& execution = {});
 
 /// The least tolerance in degrees: a tenth of a millimetre on the earth.
 inline constexpr double least_tolerance_deg = 1e-9;

@@ -22,14 +22,13 @@
 namespace rondel {
 
 /// The results: .npy files. They appear complete, when all is done, or not at all. Indices of sites
-/// and faces are uint32 if all of them fit, and int64 otherwise. If the name of the faces ends in
-/// .zarr, it is that of a group as write_zarr() makes it; results with the same name are arrays in
-/// the group.
+/// and faces are uint32 if all of them fit, and int64 otherwise.
 struct OutOfCoreFiles {
   std::string faces;         ///< (m, 3): input indices, counterclockwise, as Triangulation::faces()
   std::string neighbors{};   ///< (m, 3): faces, opposite to each corner; empty: not written
   std::string areas{};       ///< (n,) float64: steradians, as areas(); empty: not written
   std::string duplicates{};  ///< (k, 2): site and representative, by site; empty: not written
+  std::string ghost_faces{};  ///< (g,): faces, as Triangulation::ghost_faces(); empty: not written
 };
 
 /// The memory and the directory that delaunay_file() may use.

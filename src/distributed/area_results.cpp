@@ -4,18 +4,17 @@
 #include "distributed/area_results.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "distributed/merge_by_row.h"
 #include "io/binary.h"
 
 namespace rondel::distributed {
 
-AreaResults::AreaResults(std::unique_ptr<ResultArray> result, const std::string& scratch)
-    : array_(std::move(result)), scratch_(scratch) {}
+AreaResults::AreaResults(const std::string& path, const std::string& scratch)
+    : array_(path), scratch_(scratch) {}
 
 void AreaResults::reserve(std::uint64_t num_sites) {
-  array_->reserve(sizeof(double) * num_sites);
+  array_.reserve(sizeof(double) * num_sites);
   scratch_.reserve(sizeof(AreaRow) * num_sites);
 }
 
@@ -29,14 +28,14 @@ void AreaResults::add(std::span<const std::uint64_t> rows, std::span<const doubl
 }
 
 void AreaResults::write(std::uint64_t num_sites, std::uint64_t first_row) {
-  array_->begin(real_number, {num_sites});
+  array_.begin(real_number, {num_sites});
   std::vector<double> buffer;
   std::uint64_t next_row = first_row;
   const auto put = [&](double area) {
     buffer.push_back(area);
     ++next_row;
     if (buffer.size() < std::size_t{1} << 16U) return;
-    array_->write(io::NumberBytes(buffer));
+    array_.write(io::NumberBytes(buffer));
     buffer.clear();
   };
   std::vector<std::uint64_t> sizes;
@@ -49,7 +48,7 @@ void AreaResults::write(std::uint64_t num_sites, std::uint64_t first_row) {
     put(area.area);
   });
   while (next_row < first_row + num_sites) put(0);
-  array_->write(io::NumberBytes(buffer));
+  array_.write(io::NumberBytes(buffer));
 }
 
 }  // namespace rondel::distributed

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,7 +24,7 @@ namespace rondel::distributed {
 class AreaResults {
  public:
   // The areas are kept in the scratch file until write().
-  AreaResults(std::unique_ptr<ResultArray> result, const std::string& scratch);
+  AreaResults(const std::string& path, const std::string& scratch);
 
   // Reserves disk space for the areas of `num_sites` sites.
   void reserve(std::uint64_t num_sites);
@@ -35,10 +34,10 @@ class AreaResults {
   // area gets 0.
   void write(std::uint64_t num_sites, std::uint64_t first_row);
   // Gives the file its name.
-  void commit() { array_->commit(); }
+  void commit() { array_.commit(); }
 
  private:
-  std::unique_ptr<ResultArray> array_;
+  ResultArray array_;
   ScratchFile scratch_;
   std::vector<std::uint64_t> begin_ = {0};  // by list: where it begins in the scratch file; then
                                             // the end of the last one

@@ -129,7 +129,6 @@ class ResultWriter {
       first_edge += static_cast<Index>(stored.border.open_edges.size());
       first_face += faces.size();
     }
-    faces_end_ = first_face;
   }
 
   // Writes the corners of the faces that a bucket owns.
@@ -152,12 +151,8 @@ class ResultWriter {
 
   // Writes the ghost faces; joined faces keep their order among all faces.
   void write_ghost_faces() {
-    std::vector<std::uint64_t> ghost_faces;
-    for (const Index face : joined_.faces.ghost_faces) ghost_faces.push_back(numbers_.faces[face]);
-    if (ghost_faces.empty()) return;
-    results_.ghost_faces->begin(ghost_faces.size(), 1, faces_end_);
-    for (const std::uint64_t face : ghost_faces) results_.ghost_faces->add(face);
-    results_.ghost_faces->commit();
+    for (const Index face : joined_.faces.ghost_faces)
+      results_.ghost_faces->add(numbers_.faces[face]);
   }
 
   // Adds the areas of the cells of a bucket's vertices.
@@ -188,17 +183,7 @@ class ResultWriter {
   const system::Job& options_;
   FileResults& results_;
   bulk::JoinedNumbers numbers_;
-  bulk::GlobalIndex faces_end_ = 0;
 };
-
-io::ZarrHead areas_head(const std::string& /*type*/, std::uint64_t num_sites) {
-  return io::zarr_areas(num_sites);
-}
-
-// Opens a Zarr group if the path is the name of one; otherwise returns null.
-std::unique_ptr<io::ZarrGroup> open_group(const std::string& path) {
-  return io::is_zarr(path) ? std::make_unique<io::ZarrGroup>(path) : nullptr;
-}
 
 // Writes the duplicates of all buckets, in increasing order of site.
 void write_duplicates(const RunState& state, const BucketStore& store, RowFile& file) {
@@ -234,17 +219,11 @@ void count_results(const RunState& state, const Joined& joined, OutOfCoreReport&
 }  // namespace
 
 FileResults::FileResults(const OutOfCoreFiles& files, const std::string& area_scratch)
-    : group(open_group(files.faces)),
-      faces(group ? make_result(*group, &io::zarr_faces) : make_result(files.faces)) {
-  const auto is_in_group = [&](const std::string& path) { return group && path == files.faces; };
-  const auto result = [&](const std::string& path, MakeHead head) {
-    return is_in_group(path) ? make_result(*group, head) : make_result(path);
-  };
-  has_neighbors_in_group = is_in_group(files.neighbors);
-  if (group) ghost_faces.emplace(make_result(*group, &io::zarr_ghost_faces));
-  if (!files.neighbors.empty()) neighbors.emplace(result(files.neighbors, &io::zarr_neighbors));
-  if (!files.duplicates.empty()) duplicates.emplace(result(files.duplicates, &io::zarr_duplicates));
-  if (!files.areas.empty()) areas.emplace(result(files.areas, &areas_head), area_scratch);
+    : faces(files.faces) {
+  if (!files.ghost_faces.empty()) ghost_faces.emplace(files.ghost_faces);
+  if (!files.neighbors.empty()) neighbors.emplace(files.neighbors);
+  if (!files.duplicates.empty()) duplicates.emplace(files.duplicates);
+  if (!files.areas.empty()) areas.emplace(files.areas, area_scratch);
 }
 
 // Reserves space: a triangulation of n vertices has at most 2n - 4 faces.
@@ -252,15 +231,14 @@ void FileResults::reserve(std::uint64_t num_sites, std::uint64_t first_number) {
   faces.reserve(2 * num_sites, 3, first_number + num_sites);
   if (neighbors) neighbors->reserve(2 * num_sites, 3, first_number + 2 * num_sites);
   if (areas) areas->reserve(num_sites);
-  if (group) group->reserve(io::zarr_bytes_of_node * num_sites);
 }
 
 void FileResults::commit() {
   if (areas) areas->commit();
   if (duplicates) duplicates->commit();
   if (neighbors) neighbors->commit();
+  if (ghost_faces) ghost_faces->commit();
   faces.commit();
-  if (group) io::commit_zarr_mesh(*group, has_neighbors_in_group);
 }
 
 void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
@@ -272,6 +250,7 @@ void write_results(const RunState& state, const BucketStore& store, std::uint64_
   const std::uint64_t faces_end = first_number + report.num_faces;
   results.faces.begin(report.num_faces, 3, sites_end);
   if (results.neighbors) results.neighbors->begin(report.num_faces, 3, faces_end);
+  if (results.ghost_faces) results.ghost_faces->begin(report.num_ghost_faces, 1, faces_end);
   if (results.duplicates) results.duplicates->begin(report.num_duplicates, 2, sites_end);
   if (joined.dimension == 2) {
     ResultWriter(state, store, joined, first_number, options, results).run();
@@ -280,22 +259,6 @@ void write_results(const RunState& state, const BucketStore& store, std::uint64_
   }
   if (results.areas) results.areas->write(report.num_sites, first_number);
   if (results.duplicates) write_duplicates(state, store, *results.duplicates);
-}
-
-void write_nodes(const io::NpyRows& rows, std::size_t piece_sites, const system::Job& options,
-                 FileResults& results) {
-  if (!results.group) return;
-  io::ZarrNodes nodes(*results.group, rows.num_rows(), options.sphere.center);
-  std::vector<Point> sites;
-  std::vector<LonLat> positions;
-  for (std::uint64_t first = 0; first < rows.num_rows(); first += sites.size()) {
-    system::obey_stop();
-    sites.resize(std::min<std::uint64_t>(piece_sites, rows.num_rows() - first));
-    if (rows.are_positions()) positions.resize(sites.size());
-    rows.read(first, sites, options.threads, positions);
-    nodes.add(sites, positions, options.threads);
-  }
-  nodes.finish();
 }
 
 }  // namespace rondel::distributed

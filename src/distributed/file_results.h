@@ -5,19 +5,16 @@
 // faces, and writes them bucket by bucket.
 //
 // in    all buckets, stored
-// out   the files of the result, or a Zarr group
+// out   the files of the result
 // index buckets; rows of the input; faces of the result
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "bulk/bucket_faces.h"
 #include "distributed/area_results.h"
 #include "distributed/row_file.h"
 #include "distributed/run_state.h"
-#include "io/npy_rows.h"
-#include "io/zarr_mesh.h"
 #include "rondel/out_of_core.h"
 #include "system/job.h"
 
@@ -33,22 +30,16 @@ struct FileResults {
   // Gives all files their names.
   void commit();
 
-  std::unique_ptr<io::ZarrGroup> group;  // if the results are one group
   RowFile faces;
-  std::optional<RowFile> ghost_faces;  // in a group only
+  std::optional<RowFile> ghost_faces;
   std::optional<RowFile> neighbors;
   std::optional<RowFile> duplicates;
   std::optional<AreaResults> areas;
-  bool has_neighbors_in_group = false;
 };
 
 // Joins the buckets and writes the results. Adds counts to `report`. The first site and the first
 // face have the number `first_number`.
 void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
                    const system::Job& options, FileResults& results, OutOfCoreReport& report);
-
-// Writes what a Zarr group contains of the input, reading `piece_sites` sites at a time.
-void write_nodes(const io::NpyRows& rows, std::size_t piece_sites, const system::Job& options,
-                 FileResults& results);
 
 }  // namespace rondel::distributed

@@ -98,7 +98,6 @@ class OutOfCoreRun {
     do_buckets(slots, store);
     check_open_sites(store);
     write_results(state_, store, limits_.first_number, options_, results_, report);
-    write_nodes(rows_, limits_.piece_sites, options_, results_);
     if (!is_still_the_same()) throw FileError(rows_.name() + ": changed while it was read");
     results_.commit();
     return report;
@@ -296,10 +295,11 @@ OutOfCoreReport delaunay_file(const std::string& sites, const OutOfCoreFiles& fi
                               const Execution& execution) {
   const system::Call call(execution);
   api::validate(options, 0);
-  distributed::require_different(sites,
-                                 {files.faces, files.neighbors, files.areas, files.duplicates});
+  distributed::require_different(
+      sites, {files.faces, files.neighbors, files.areas, files.duplicates, files.ghost_faces});
   distributed::require_outside_scratch(
-      out_of_core.scratch, {sites, files.faces, files.neighbors, files.areas, files.duplicates});
+      out_of_core.scratch,
+      {sites, files.faces, files.neighbors, files.areas, files.duplicates, files.ghost_faces});
   const io::NpyRows rows(sites, out_of_core.radians);
   const auto limits = distributed::limits_of(out_of_core.memory);
   return distributed::run(rows, files, out_of_core, limits, {options, execution});

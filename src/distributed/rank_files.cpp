@@ -14,8 +14,6 @@
 #include "distributed/site_counts.h"
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
-#include "io/zarr_mesh.h"
-#include "rondel/error.h"
 #include "system/job.h"
 #include "system/large_vector.h"
 
@@ -28,9 +26,6 @@ LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
   steps.begin("read");
   const std::vector<std::string> results = {files.faces, files.neighbors, files.duplicates,
                                             files.areas, files.circumcenters};
-  for (const std::string& name : results) {
-    if (io::is_zarr(name)) throw FileError(name + ": several processes write .npy files alone");
-  }
   require_different(path, results);
   require_npy(files.faces);
   const io::NpyRows rows(path, files.radians);

@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "io/ending.h"
-#include "io/zarr_mesh.h"
 #include "rondel/error.h"
 
 namespace rondel::distributed {
@@ -34,9 +33,10 @@ void require_different(const std::string& sites, const std::vector<std::string>&
     const std::string& name = results[i];
     if (name.empty()) continue;
     if (are_same_file(sites, name)) throw FileError(name + ": the file of the sites, too");
-    if (io::is_zarr(name)) {
-      if (name == faces) continue;
-      throw FileError(name + ": a Zarr group, but not that of the faces");
+    if (io::ending(name) == ".zarr") {
+      throw FileError(name +
+                      ": Zarr groups are written in Python, by rondel.out_of_core.delaunay; here "
+                      "results are .npy files");
     }
     if (i != 0) require_npy(name);
     for (std::size_t j = 0; j < i; ++j) {

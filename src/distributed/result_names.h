@@ -13,8 +13,8 @@ namespace rondel::distributed {
 void require_npy(const std::string& name);
 
 // Throws FileError if the faces, the first result, have no name, or if two of the sites and the
-// results are one file. Results with empty names are not wanted. All results may be one Zarr group;
-// otherwise they are .npy files, and the caller has checked the ending of the faces.
+// results are one file. Results with empty names are not wanted. They are .npy files, and the
+// caller has checked the ending of the faces, except for .zarr, which is refused.
 void require_different(const std::string& sites, const std::vector<std::string>& results);
 
 // True if both are names of one file, which need not exist.

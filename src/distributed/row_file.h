@@ -5,13 +5,12 @@
 // otherwise as int64, since NumPy converts uint64 and int64 together to double.
 //
 // in    numbers, row by row
-// out   a ResultArray
+// out   a .npy file
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "distributed/result_array.h"
@@ -26,7 +25,7 @@ constexpr bool are_narrow(std::uint64_t num_different) {
 // Writes numbers of sites or faces.
 class RowFile {
  public:
-  explicit RowFile(std::unique_ptr<ResultArray> array) : array_(std::move(array)) {}
+  explicit RowFile(const std::string& path) : array_(path) {}
 
   // Reserves disk space for that many rows.
   void reserve(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
@@ -53,7 +52,7 @@ class RowFile {
 
   void write_buffer();
 
-  std::unique_ptr<ResultArray> array_;
+  ResultArray array_;
   bool is_narrow_ = true;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::int64_t> wide_;

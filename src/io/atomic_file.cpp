@@ -37,9 +37,6 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   }
 }
 
-AtomicFile::AtomicFile(int descriptor, std::string&& name) noexcept
-    : path_(std::move(name)), descriptor_(descriptor) {}
-
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::write(std::string_view bytes) {

@@ -44,8 +44,6 @@ RONDEL_API std::string temporary_name(const std::string& directory);
 class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
-  // Writes directly to an open descriptor, which commit() closes; FileError calls the file `name`.
-  AtomicFile(int descriptor, std::string&& name) noexcept;
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

@@ -16,9 +16,7 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
-#include "io/replaced.h"
 #include "io/replacement.h"
-#include "io/temporary_trees.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -68,9 +66,7 @@ class Temporaries {
 
 Temporaries temporaries;
 
-}  // namespace
-
-// Returns the path to which symbolic links lead, after at most 40 of them.
+// Returns the path of the file of that name with symbolic links resolved; the file need not exist.
 std::string resolve_links(const std::string& path) {
   constexpr int most_links = 40;  // Linux follows as many
   std::filesystem::path target = path;
@@ -82,7 +78,9 @@ std::string resolve_links(const std::string& path) {
   return target;
 }
 
-// If the file system has no permissions, nothing is lost when it refuses to set them.
+// Gives an open file the owner, group and permissions of the file that it replaces, as far as this
+// process may. It was created for its owner alone, so that it never has more permissions than it
+// should. If the file system has no permissions, nothing is lost when it refuses to set them.
 void take_permissions(int descriptor, const struct stat& replaced) {
   constexpr auto same_owner = static_cast<uid_t>(-1);
   mode_t mode = replaced.st_mode & 0777U;
@@ -92,6 +90,8 @@ void take_permissions(int descriptor, const struct stat& replaced) {
   }
   static_cast<void>(::fchmod(descriptor, mode));
 }
+
+}  // namespace
 
 std::string replaced_by(const std::string& path) { return resolve_links(path); }
 
@@ -185,9 +185,6 @@ void AtomicFile::discard() noexcept {
 
 namespace rondel {
 
-void remove_temporaries() noexcept {
-  io::temporaries.remove_all();
-  io::temporary_trees().remove_all();
-}
+void remove_temporaries() noexcept { io::temporaries.remove_all(); }
 
 }  // namespace rondel

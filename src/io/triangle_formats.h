@@ -41,10 +41,6 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh);
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
-// These formats consist of several files.
-void write_pvtp(const std::string& path, const MeshToWrite& mesh);
-void write_zarr_mesh(const std::string& path, const MeshToWrite& mesh);
-
 // Each of these reads the triangles of `bytes`, the content of a file. Indices count from 0 and may
 // be too large for the sites. They throw BadValue if the content is not as the format says.
 std::vector<Triple> read_npy(std::string_view bytes);

@@ -43,20 +43,6 @@ constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write
                                                              {".vtp", &io::write_vtp_triangles},
                                                              {".geojson", &io::write_geojson}}};
 
-// A format of several files, which cannot be written to one stream.
-struct TriangleFolderWriter {
-  std::string_view ending;
-  void (*write)(const std::string& path, const io::MeshToWrite& mesh);
-};
-constexpr std::array<TriangleFolderWriter, 2> triangle_folder_writers = {
-    {{".pvtp", &io::write_pvtp}, {".zarr", &io::write_zarr_mesh}}};
-
-// Returns the writer of a format of several files, or null.
-const TriangleFolderWriter* find_folder_writer(const FileName& file) {
-  return file.path == "-" ? nullptr
-                          : io::find_format<TriangleFolderWriter>(triangle_folder_writers, file);
-}
-
 }  // namespace
 
 void io::MeshToWrite::write_faces(
@@ -83,8 +69,7 @@ std::vector<Triple> read_triangles(const FileName& file) {
 }
 
 bool can_write_triangles(const FileName& file) {
-  return io::find_format<TriangleWriter>(triangle_writers, file) != nullptr ||
-         find_folder_writer(file) != nullptr;
+  return io::find_format<TriangleWriter>(triangle_writers, file) != nullptr;
 }
 
 void write_triangles(const FileName& output, const SiteTable& table,
@@ -92,11 +77,7 @@ void write_triangles(const FileName& output, const SiteTable& table,
   const system::Call call(execution);
   io::require_sites(table, triangulation);
   const io::MeshToWrite mesh = {table, triangulation, execution};
-  if (const TriangleFolderWriter* const writer = find_folder_writer(output)) {
-    writer->write(output.path, mesh);
-  } else {
-    io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
-  }
+  io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
 }
 
 }  // namespace rondel

@@ -60,7 +60,6 @@ void write_vtp(AtomicFile& file, const VtpMesh& mesh) {
   head.close("PolyData");
 
   file.write("<?xml version=\"1.0\"?>\n");
-  if (!mesh.comment.empty()) file.write("<!-- " + std::string(mesh.comment) + " -->\n");
   file.write(head.text());
   file.write("<AppendedData encoding=\"raw\">\n_");
   for (const VtpArray* array : head.arrays()) {

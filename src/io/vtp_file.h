@@ -46,7 +46,6 @@ inline VtpArray vtp_points(std::span<const Point> points) {
 
 // The arrays of a file.
 struct VtpMesh {
-  std::string_view comment{};  // not written if it is empty
   std::size_t num_points = 0;
   std::size_t num_polys = 0;
   VtpArray points;        // Float64, 3 components

@@ -223,7 +223,6 @@ class SeparateFiles(unittest.TestCase):
                 "--report",
                 "/dev/null",
             ),
-            ("delaunay", "s.csv", "-o", "f.zarr", "--areas", "f.zarr/"),
         ):
             done = self.run_tool(*words)
             self.assertEqual(done.returncode, 0, done.stderr)

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "faults/failing_files.h"
-#include "io/zarr_mesh.h"
 #include "rondel/delaunay.h"
 
 namespace rondel::test {
@@ -49,38 +48,6 @@ TEST(allocation_of_files, are_written_or_bad_alloc) {
       write_sites(path, table.sites, table.positions, {}, one);
     });
   }
-}
-
-void write_group(const std::string& path) {
-  io::ZarrGroup group(path);
-  group.reserve(1000);
-  io::ZarrArray array(group, io::zarr_areas(10));
-  array.write(std::string_view("0123456789"));
-  array.finish();
-  group.commit({});
-}
-
-// A group appears whole or not at all.
-TEST(allocation_of_files, groups_are_written_or_bad_alloc) {
-  const TemporaryDirectory directory;
-  const std::filesystem::path path = directory.file("mesh.zarr");
-  // The memory of the names that a signal would remove stays.
-  write_group(directory.file("first.zarr"));
-  fail_each_allocation([&](std::size_t n, Shortage shortage) {
-    bool is_written = false;
-    FailingAllocation failing(n, shortage);
-    try {
-      write_group(path.string());
-      is_written = true;
-    } catch (const std::bad_alloc&) {  // as it should be
-    }
-    const bool has_failed = failing.stop();
-    EXPECT_TRUE(has_failed || is_written);
-    EXPECT_EQ(std::filesystem::exists(path / "zarr.json"), is_written);
-    EXPECT_EQ(directory.num_files(), is_written ? 2U : 1U);
-    std::filesystem::remove_all(path);
-    return has_failed;
-  });
 }
 
 }  // namespace

@@ -216,7 +216,7 @@ class OutOfCore(unittest.TestCase):
                 self.assertEqual(done.stderr.count("\n"), 1)
         done = self.run_tool("delaunay", "sites.npy", "-o", "faces.ply", "--scratch", "scratch")
         self.assertEqual((done.returncode, done.stderr),
-                         (2, "rondel: --output: with --scratch 'faces.ply' must be a .npy file or a .zarr group\n"))
+                         (2, "rondel: --output: with --scratch 'faces.ply' must be a .npy file\n"))
         for memory in ("1M", "1m", "1024k", "1048576", "1.5M", "0.0015g", "0.0000015T"):
             found = 2 if "." in memory else 1
             done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", "--scratch", "scratch", "--memory", memory)

@@ -55,7 +55,8 @@ void test_run(const SiteSet& set, const Options& options, const distributed::Run
   const ScratchFolder folder;
   const std::string sites = folder.file("sites.npy");
   const OutOfCoreFiles files = {folder.file("faces.npy"), folder.file("neighbors.npy"),
-                                folder.file("areas.npy"), folder.file("duplicates.npy")};
+                                folder.file("areas.npy"), folder.file("duplicates.npy"),
+                                folder.file("ghost_faces.npy")};
   OutOfCoreOptions out_of_core;
   out_of_core.scratch = folder.file("scratch");
   write_sites(sites, set.sites);
@@ -77,6 +78,7 @@ void test_run(const SiteSet& set, const Options& options, const distributed::Run
   const std::vector<double> expected_areas = areas(expected);
   require_rows(files.areas, std::span<const double>(expected_areas), "the areas");
   require_rows(files.duplicates, expected.duplicates(), "the duplicates");
+  require_rows(files.ghost_faces, expected.ghost_faces(), "the ghost faces, by number");
   delaunay_file(sites, {files.faces}, out_of_core, options, {.threads = 1});
   require_rows(files.faces, expected.faces(), "the faces, with the usual limits");
 }

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_triangles, can_write_triangles, write_zarr against read_triangles, face_polygons: the triangles survive every format
-// that can be read; .geojson is JSON with a feature for each solid face, and .stl has their number; a Zarr group has the arrays.
+// write_triangles, can_write_triangles against read_triangles, face_polygons: the triangles survive every format that can be
+// read; .geojson is JSON with a feature for each solid face, and .stl has their number.
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <string>
 
@@ -23,7 +22,7 @@ constexpr std::array endings = {".npy", ".off", ".ply", ".obj", ".vtp", ".stl"};
 // A map takes a thousand times longer than a list, so that one of 16 inputs makes one.
 std::string next_ending(ByteSource& source) {
   const std::size_t which = source.below(16);
-  if (which >= 13) return which == 15 ? ".geojson" : which == 14 ? ".zarr" : ".pvtp";
+  if (which == 15) return ".geojson";
   return endings[which % endings.size()];
 }
 
@@ -47,41 +46,6 @@ void test_geojson(const std::string& path, const SiteTable& table, const Triangu
   require(drawn.size() + found.not_drawn.size() == found.features, "the same faces are drawn");
 }
 
-template <class Row>
-void require_chunk(const std::string& path, std::span<const Row> rows) {
-  const std::string bytes = rows.empty() ? std::string() : content(path);
-  require(std::ranges::equal(bytes, std::string_view(reinterpret_cast<const char*>(rows.data()),
-                                                     rows.size_bytes())),
-          "a chunk is the array");
-}
-
-void test_zarr(const std::string& path, const SiteTable& table, const Triangulation& t) {
-  write_zarr(path, table, t, {true, true, true});
-  require_chunk(path + "/faces/c.0.0", t.faces());
-  require_chunk(path + "/neighbors/c.0.0", t.neighbors());
-  require_chunk(path + "/duplicates/c.0.0", t.duplicates());
-  require_chunk(path + "/ghost_faces/c.0", t.ghost_faces());
-  require_chunk(path + "/sites/c.0.0", std::span<const Point>(table.sites));
-}
-
-// So few faces are one piece, which has them by places in its list of sites.
-void test_pvtp(const std::string& path, const SiteTable& table, const Triangulation& t) {
-  write_triangles(path, table, t);
-  const std::string head = content(path);
-  require((head.find("piece_0.vtp") != std::string::npos) == (t.num_faces() > 0), "one piece");
-  if (t.num_faces() == 0) return;
-  const auto faces = read_triangles(path.substr(0, path.size() - 5) + "/piece_0.vtp");
-  require(faces.size() == t.num_faces(), "all faces are in the piece");
-  std::map<Index, Index> site_of;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index site = site_of.emplace(faces[i][k], t.faces()[i][k]).first->second;
-      require(site == t.faces()[i][k], "a place of the piece is one site");
-    }
-  }
-  require(site_of.size() == t.num_vertices(), "all vertices are in the piece, once");
-}
-
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -100,10 +64,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_stl(path, table, t);
   } else if (ending == ".geojson") {
     fuzz::test_geojson(path, table, t);
-  } else if (ending == ".pvtp") {
-    fuzz::test_pvtp(path, table, t);
-  } else if (ending == ".zarr") {
-    fuzz::test_zarr(path, table, t);
   } else {
     write_triangles(path, table, t);
     if (t.num_faces() == 0) return 0;  // some formats refuse to be read without triangles

@@ -166,7 +166,11 @@ class Tool(unittest.TestCase):
         self.assert_error(result, f"rank 0, write: {nowhere}: No such file or directory")
         group = self.folder / "mesh.zarr"
         result = self.run_ranks(2, "delaunay", self.sites, "-o", group)
-        self.assert_error(result, f"rank 0, read: {group}: several processes write .npy files alone")
+        self.assert_error(
+            result,
+            f"rank 0, read: {group}: Zarr groups are written in Python, by "
+            "rondel.out_of_core.delaunay; here results are .npy files",
+        )
 
     def test_what_is_written_does_not_appear_when_another_file_fails(self):
         np.save(self.sites, np.eye(3))

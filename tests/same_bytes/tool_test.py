@@ -55,19 +55,6 @@ class Bytes(Folder):
         for ending in TRIANGLES:
             self.expect_equal_files("delaunay", "stations.csv", name=f"triangles.{ending}")
 
-    def test_triangles_in_folders(self):
-        for ending in ("pvtp", "zarr"):
-            found = []
-            for tool, name in ((NATIVE, "native"), (OTHER, "other")):
-                folder = self.folder / name
-                folder.mkdir(exist_ok=True)
-                for _ in range(2):  # the second one replaces the first
-                    self.succeed("delaunay", "stations.csv", "-o", f"{name}/mesh.{ending}", tool=tool)
-                found.append({path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()})
-            self.assertEqual(*found)
-            self.assertEqual(self.names(), ["native", "other", "stations.csv"])
-            self.assertLessEqual({path.name for path in folder.iterdir()}, {"mesh", "mesh.pvtp", "mesh.zarr"})
-
     def test_cells(self):
         for ending in CELLS:
             self.expect_equal_files("voronoi", "stations.csv", name=f"cells.{ending}")

@@ -74,7 +74,7 @@ class FileCase {
   [[nodiscard]] const Triangulation& expected() const { return expected_; }
   [[nodiscard]] OutOfCoreFiles files() const {
     return {folder_.file("faces.npy"), folder_.file("neighbors.npy"), folder_.file("areas.npy"),
-            folder_.file("duplicates.npy")};
+            folder_.file("duplicates.npy"), folder_.file("ghost_faces.npy")};
   }
 
   // NOLINTNEXTLINE(modernize-use-nodiscard): it writes files
@@ -92,6 +92,7 @@ class FileCase {
     EXPECT_TRUE(rows_of(files().faces, first_number).numbers == numbers_of(t.faces()));
     EXPECT_TRUE(rows_of(files().neighbors, first_number).numbers == numbers_of(t.neighbors()));
     EXPECT_TRUE(rows_of(files().duplicates, first_number).numbers == numbers_of(t.duplicates()));
+    EXPECT_TRUE(rows_of(files().ghost_faces, first_number).numbers == numbers_of(t.ghost_faces()));
     EXPECT_TRUE(areas_in(files().areas) == areas(t));
     EXPECT_EQ(report.num_sites, t.num_sites());
     EXPECT_EQ(report.num_vertices, t.num_vertices());

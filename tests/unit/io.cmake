@@ -14,7 +14,6 @@ rondel_add_test(io_test
   io_features_test.cpp
   io_conventions_test.cpp
   io_files_test.cpp
-  io_folders_test.cpp
   io_json_test.cpp
   io_meshes_test.cpp
   io_mutation_test.cpp
@@ -23,14 +22,12 @@ rondel_add_test(io_test
   io_netcdf_header_test.cpp
   io_netcdf_test.cpp
   io_number_test.cpp
-  io_pvtp_test.cpp
   io_rows_test.cpp
   io_sites_test.cpp
   io_triangles_test.cpp
   io_unpacked_test.cpp
   io_utf8_test.cpp
   io_wide_integers_test.cpp
-  io_zarr_test.cpp
   io_zip_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)
 

@@ -90,7 +90,7 @@ TEST(ending, is_of_the_format_or_of_the_path) {
   EXPECT_EQ(of(""), "");
   EXPECT_EQ(of("a."), "");
   EXPECT_EQ(of("/"), "");
-  EXPECT_EQ(of("a/b.zarr//"), ".zarr");
+  EXPECT_EQ(of("a/b.npy//"), ".npy");
   EXPECT_EQ(of(".csv"), ".csv");
   EXPECT_EQ(of("a.AZ@[`"), ".az@[`");
   EXPECT_EQ(of("a.csv", "NPY"), ".npy");

@@ -18,14 +18,14 @@
 namespace rondel::python {
 namespace {
 
-nb::dict delaunay_of_file(const std::string& sites, const std::array<std::string, 4>& files,
+nb::dict delaunay_of_file(const std::string& sites, const std::array<std::string, 5>& files,
                           std::uint64_t memory, const std::string& scratch, bool resume,
                           bool radians, bool is_weighted, const std::array<double, 3>& center,
                           double squared_radius, unsigned threads, const nb::object& progress) {
   // The work is always long enough to be watched.
   constexpr std::size_t size = std::numeric_limits<std::size_t>::max();
   const OutOfCoreReport report = watched(size, threads, progress, [&](const Execution& execution) {
-    return delaunay_file(sites, {files[0], files[1], files[2], files[3]},
+    return delaunay_file(sites, {files[0], files[1], files[2], files[3], files[4]},
                          {memory, scratch, resume, radians},
                          make_options(is_weighted, center, squared_radius), execution);
   });

@@ -148,7 +148,7 @@ def as_name(path: Path) -> str:
 def as_result_name(path: Path | None, argument: str) -> str:
     """That of a file of results, empty for None. Its ending is that of what is written, if any."""
     name = "" if path is None else as_name(path)
-    if os.path.splitext(name.rstrip("/"))[1].lower() not in ("", ".npy", ".zarr"):
+    if os.path.splitext(name.rstrip("/"))[1].lower() not in ("", ".npy"):
         raise ValueError(f"{argument} is {name!r}, whose ending is not .npy")
     return name
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _contours, _core, _geo, _globe, _plot, _tables
+from . import _contours, _core, _geo, _globe, _plot, _tables, _zarr
 from ._arrays import (
     as_center,
     as_floats,
@@ -372,6 +372,7 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
     to_xarray = _geo.triangles_to_xarray
     to_netcdf = _tables.triangles_to_netcdf
     to_parquet = _tables.triangles_to_parquet
+    to_zarr = _zarr.triangles_to_zarr
     lonlat_triangles = _plot.lonlat_triangles
     plot = _plot.plot_triangles
     isolines = _contours.isolines

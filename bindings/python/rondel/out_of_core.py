@@ -1,17 +1,20 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Triangulations that are larger than the memory: from NumPy's files to NumPy's files."""
+"""Triangulations that are larger than the memory: from NumPy's files to such files or Zarr."""
 
 from __future__ import annotations
 
 import dataclasses
 import operator
+import os
 import re
 from fractions import Fraction
+from typing import Any
 
 from . import _core
 from ._arrays import as_center, as_name, as_result_name, as_threads
 from ._types import ArrayLike, Model, Path, Progress
+from ._zarr_files import RunIntoGroup
 
 __all__ = ["Report", "delaunay"]
 
@@ -82,10 +85,12 @@ def delaunay(
         A `.npy` file of the triangles, shape (m, 3): input rows, counterclockwise. As all
         results, of type uint32 while all numbers fit, otherwise int64. If the name ends in
         `.zarr`, a Zarr group with the sites, too, which xarray, UXarray and Dask open; other
-        results are arrays in it if they have the same name.
+        results are arrays in it if they have the same name. It is written by zarr-python, chunk
+        by chunk, when the triangulation is done.
     scratch : path_like
-        A directory for some 64 bytes a site, 88 with neighbors, 128 with areas. Made if it is
-        not there, and removed at the end.
+        A directory for some 64 bytes a site, 88 with neighbors, 128 with areas, and for a Zarr
+        group as much as its arrays but the sites take. Made if it is not there, and removed at
+        the end.
     memory : int or str, optional
         What the process may have in memory, in bytes or as '500M', '1.5g', '1T' (powers of 1024):
         held to if the process has little else in memory.
@@ -107,7 +112,8 @@ def delaunay(
         At most so many work; one for each core by default.
     progress : callable, optional
         Called as ``progress(stage, fraction)`` with the stages 'count', 'deal', 'triangulate',
-        'join' and 'write'. If it raises, the run ends and can be resumed, as after Ctrl-C.
+        'join' and 'write', and 'group' for a Zarr group. If it raises, the run ends and can be
+        resumed, as after Ctrl-C.
 
     Returns
     -------
@@ -118,6 +124,8 @@ def delaunay(
     OSError
         With one line that names file, row and value of what is wrong, or how much memory or disk is
         missing.
+    ImportError
+        If `out` is a Zarr group and zarr-python 3 or later is not installed.
     InvalidInput
         If an option is not valid.
 
@@ -141,24 +149,50 @@ def delaunay(
     """
     if model not in ("projected", "weighted"):
         raise ValueError(f"model is {model!r}, which is neither 'projected' nor 'weighted'")
-    results = {"out": out, "neighbors": neighbors, "areas": areas, "duplicates": duplicates}
-    files = [as_result_name(file, argument) for argument, file in results.items()]
-    if not files[0]:
+    results = {"faces": out, "neighbors": neighbors, "areas": areas, "duplicates": duplicates}
+    group = _group_name(out)
+    arrays = [name for name, file in results.items() if group and _group_name(file) == group]
+    files = {
+        name: "" if name in arrays else as_result_name(file, "out" if name == "faces" else name)
+        for name, file in results.items()
+    }
+    if not group and not files["faces"]:
         raise ValueError("out has no name")
-    found = _core.delaunay_file(
-        as_name(path),
-        files,
-        _bytes(memory),
-        as_name(scratch),
-        bool(resume),
-        bool(radians),
-        model == "weighted",
-        as_center(center),
-        float(radius) ** 2,
-        as_threads(threads),
-        progress,
-    )
-    return Report(**found)
+    directory = as_name(scratch)
+    numbers = as_center(center), float(radius) ** 2
+
+    def run() -> dict[str, Any]:
+        found: dict[str, Any] = _core.delaunay_file(
+            as_name(path),
+            [files.get(name, "") for name in (*results, "ghost_faces")],
+            _bytes(memory),
+            directory,
+            bool(resume),
+            bool(radians),
+            model == "weighted",
+            *numbers,
+            as_threads(threads),
+            progress,
+        )
+        return found
+
+    if not group:
+        return Report(**run())
+    options = {
+        "files": dict(files),
+        "model": model,
+        "sphere": numbers,
+        "radians": bool(radians),
+    }
+    into = RunIntoGroup(as_name(path), group, directory, arrays[1:], options)
+    files.update({name: into.file(name) for name in (*arrays, "ghost_faces")})
+    return Report(**into.run(run, resume, progress))
+
+
+def _group_name(path: Path | None) -> str:
+    """The name of a Zarr group without slashes at its end; empty if the file is none."""
+    name = "" if path is None else os.fsdecode(path).rstrip("/")
+    return as_name(name) if os.path.splitext(name)[1].lower() == ".zarr" else ""
 
 
 def _bytes(memory: int | str) -> int:

@@ -1,0 +1,348 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Triangulations as groups of Zarr arrays (version 3), which zarr-python writes.
+
+A group is a mesh by UGRID 1.0, whose nodes are the sites, in chunks of at most 2^20 rows that are
+not compressed. Arrays are written chunk by chunk, so that they need not fit into memory.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import errno
+import itertools
+import os
+import re
+import shutil
+import time
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._types import FloatArray, Path, Progress, Triangulated
+
+_MOST_ROWS = 1 << 20  # of a chunk
+_MAKER = "made by rondel "
+_numbers = itertools.count()
+
+# All files that a group may have.
+_ARRAYS = "areas|duplicates|faces|ghost_faces|mesh|neighbors|node_lat|node_lon|sites"
+_KNOWN = re.compile(rf"zarr\.json|({_ARRAYS})(/(zarr\.json|c(\.\d+)*))?")
+
+
+class Rows(Protocol):
+    """An array that is read row by row: `shape`, `dtype`, and slices of rows."""
+
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def dtype(self) -> np.dtype[Any]: ...
+    def __getitem__(self, some: slice) -> npt.NDArray[Any]: ...
+
+
+@dataclasses.dataclass(frozen=True)
+class GroupContent:
+    """The arrays of a group; `nodes` returns points (k, 3) and degrees (k, 2) of some sites."""
+
+    num_nodes: int
+    nodes: Callable[[slice], tuple[FloatArray, FloatArray]]
+    faces: Rows
+    ghost_faces: Rows
+    neighbors: Rows | None = None
+    areas: Rows | None = None
+    duplicates: Rows | None = None
+
+
+def triangles_to_zarr(
+    self: Triangulated,
+    path: Path,
+    *,
+    neighbors: bool = False,
+    areas: bool = False,
+    duplicates: bool = False,
+) -> None:
+    """Writes a group of Zarr arrays (version 3), a folder, with the conventions of UGRID 1.0.
+
+    The group has `sites`, `node_lon`, `node_lat`, `faces` with the ghost faces, and `ghost_faces`
+    if there are some. It appears complete or not at all. A group that was made by Rondel, and to
+    which nothing was added, is replaced.
+
+    Parameters
+    ----------
+    path : path_like
+        The folder; a name that ends in `.zarr` is usual.
+    neighbors : bool, optional
+        Whether to write `neighbors`, shape (m, 3); by default False.
+    areas : bool, optional
+        Whether to write `areas`, shape (n,), the areas of the cells in steradians; by default
+        False.
+    duplicates : bool, optional
+        Whether to write `duplicates`, shape (k, 2); by default False.
+
+    Raises
+    ------
+    ImportError
+        If zarr-python 3 or later is not installed.
+    OSError
+        If the folder cannot be written, or is one that must not be replaced; then nothing is
+        changed.
+
+    """
+    degrees = np.nan_to_num(self.lonlat, nan=0.0)  # of a site at the center
+    content = GroupContent(
+        len(self.points),
+        lambda some: (self.points[some], degrees[some]),
+        self.simplices.view(np.uint32),
+        self._triangulation.ghost_faces.view(np.uint32),
+        self.neighbors.view(np.uint32) if neighbors else None,
+        _core.diagram(self._triangulation).areas if areas else None,
+        self.duplicates.view(np.uint32) if duplicates else None,
+    )
+    write_group(path, content)
+
+
+def write_group(path: Path, content: GroupContent, progress: Progress = None) -> None:
+    """Writes a group; calls ``progress("group", fraction)`` after each chunk."""
+    zarr = require_zarr()
+    with _replaced(path) as folder:
+        root = zarr.create_group(folder, zarr_format=3, attributes=_ATTRIBUTES)
+        add = _Adder(root, content, progress)
+        add.rows("faces", content.faces, _FACE, _connectivity("face_node", _CORNERS))
+        if content.ghost_faces.shape[0] > 0:
+            add.rows("ghost_faces", content.ghost_faces, ["n_ghost_face"], {"long_name": _GHOSTS})
+        if content.neighbors is not None:
+            add.rows("neighbors", content.neighbors, _FACE, _connectivity("face_face", _ACROSS))
+        if content.areas is not None:
+            areas = {**_at_nodes("areas of the cells"), "units": "sr"}
+            add.rows("areas", content.areas, ["n_node"], areas)
+        if content.duplicates is not None:
+            add.rows("duplicates", content.duplicates, _DUPLICATE, {"long_name": _REPEATS})
+        add.nodes()
+        topology = {
+            "cf_role": "mesh_topology",
+            "long_name": "topology of the mesh",
+            "topology_dimension": 2,
+            "node_coordinates": "node_lon node_lat",
+            "face_node_connectivity": "faces",
+            "face_dimension": "n_face",
+        }
+        if content.neighbors is not None:
+            topology["face_face_connectivity"] = "neighbors"
+        add.array("mesh", "int32", (), [], topology)
+        with warnings.catch_warnings():  # that version 3 does not specify it; xarray asks for it
+            warnings.simplefilter("ignore")
+            zarr.consolidate_metadata(root.store)
+
+
+_ATTRIBUTES = {
+    "Conventions": "CF-1.11 UGRID-1.0",
+    "title": "Delaunay triangulation on the sphere",
+    "history": _MAKER + _core.version,
+}
+_FACE = ["n_face", "n_max_face_nodes"]
+_DUPLICATE = ["n_duplicate", "two"]
+_CORNERS = "corners of the faces, counterclockwise"
+_ACROSS = "faces opposite to each corner"
+_GHOSTS = "faces that are flat or reversed, seen from the center"
+_REPEATS = "sites, each with the site that it repeats"
+
+
+def _connectivity(role: str, name: str) -> dict[str, Any]:
+    return {"cf_role": f"{role}_connectivity", "long_name": name, "start_index": 0}
+
+
+def _at_nodes(name: str) -> dict[str, Any]:
+    coordinates = "node_lon node_lat"
+    return {"long_name": name, "mesh": "mesh", "location": "node", "coordinates": coordinates}
+
+
+def _angle(name: str, units: str) -> dict[str, Any]:
+    return {"standard_name": name, "long_name": f"{name} of nodes", "units": units}
+
+
+class _Adder:
+    """Adds arrays to a group, chunk by chunk."""
+
+    def __init__(self, root: Any, content: GroupContent, progress: Progress) -> None:
+        self._root = root
+        self._content = content
+        self._progress = progress
+        fields = ("faces", "ghost_faces", "neighbors", "areas", "duplicates")
+        arrays = [getattr(content, field) for field in fields]
+        self._total = content.num_nodes + sum(a.shape[0] for a in arrays if a is not None)
+        self._done = 0
+
+    def array(
+        self, name: str, dtype: Any, shape: tuple[int, ...], names: list[str], attributes: Any
+    ) -> Any:
+        """Adds an array without chunks."""
+        return self._root.create_array(
+            name,
+            dtype=dtype,
+            shape=shape,
+            chunks=(chunk_rows(shape[0]), *shape[1:]) if shape else (),
+            filters=None,
+            compressors=None,
+            fill_value=0,
+            attributes=attributes,
+            dimension_names=names,
+            chunk_key_encoding={"name": "default", "separator": "."},
+            config={"write_empty_chunks": True},
+        )
+
+    def rows(self, name: str, rows: Rows, names: list[str], attributes: Any) -> None:
+        array = self.array(name, rows.dtype, rows.shape, names, attributes)
+        self._write([array], lambda some: [rows[some]])
+
+    def nodes(self) -> None:
+        n = self._content.num_nodes
+        arrays = [
+            self.array("sites", "float64", (n, 3), ["n_node", "xyz"], _at_nodes("sites")),
+            self.array("node_lon", "float64", (n,), ["n_node"], _angle("longitude", _EAST)),
+            self.array("node_lat", "float64", (n,), ["n_node"], _angle("latitude", _NORTH)),
+        ]
+
+        def read(some: slice) -> list[FloatArray]:
+            points, degrees = self._content.nodes(some)
+            return [points, degrees[:, 0], degrees[:, 1]]
+
+        self._write(arrays, read)
+
+    def _write(
+        self, arrays: list[Any], read: Callable[[slice], Sequence[npt.NDArray[Any]]]
+    ) -> None:
+        """Writes all rows of arrays of equal numbers of rows, a chunk of each at a time."""
+        num_rows = arrays[0].shape[0]
+        step = chunk_rows(num_rows)
+        for begin in range(0, num_rows, step):
+            some = slice(begin, min(begin + step, num_rows))
+            for array, values in zip(arrays, read(some), strict=True):
+                array[some] = values
+            self._done += some.stop - some.start
+            if self._progress is not None:
+                self._progress("group", self._done / self._total)
+
+
+_EAST = "degrees_east"
+_NORTH = "degrees_north"
+
+
+def chunk_rows(num_rows: int) -> int:
+    """The rows of a chunk: equally many in all, and as few chunks as 2^20 rows allow.
+
+    The last chunk is stored in full, so that chunks of 2^20 rows would waste space.
+    """
+    num_chunks = -(-num_rows // _MOST_ROWS)
+    return -(-num_rows // num_chunks) if num_chunks else 1
+
+
+def require_zarr() -> Any:
+    """The module zarr. Raises ImportError if it is not there, or is too old for version 3."""
+    need = "Zarr groups are written by zarr-python 3 or later"
+    try:
+        import zarr
+    except ImportError as error:
+        raise ImportError(f"{need}, which is not installed: pip install 'zarr>=3'") from error
+    if int(zarr.__version__.partition(".")[0]) < 3:
+        found = f"{need}, and {zarr.__version__} is installed: pip install 'zarr>=3'"
+        raise ImportError(found)
+    return zarr
+
+
+def require_replaceable(path: Path) -> str:
+    """The folder that will be written, without links. Raises OSError if it must not be replaced."""
+    name = os.fsdecode(path).rstrip("/") or "/"
+    target = os.path.realpath(name)
+
+    def refuse(why: str) -> OSError:
+        return FileExistsError(errno.EEXIST, f"{why}; the folder is not replaced", name)
+
+    with _told(name):
+        os.stat(os.path.join(os.path.dirname(target), "."))
+        if not os.path.lexists(target):
+            return target
+        if not os.path.isdir(target):
+            raise NotADirectoryError(errno.ENOTDIR, "a file, where a folder is to be made", name)
+        inside = list(_names_in(target))
+    for found, is_link in inside:
+        if is_link or not _KNOWN.fullmatch(found):
+            raise refuse(f"'{found}' in it is not ours")
+    if inside and not _is_ours(target):
+        raise refuse("it was not made by rondel")
+    return target
+
+
+def _names_in(folder: str, prefix: str = "") -> Iterator[tuple[str, bool]]:
+    """All that is in a folder, by its name there, and whether it is a symbolic link."""
+    with os.scandir(folder) as entries:
+        for entry in sorted(entries, key=lambda entry: entry.name):
+            yield prefix + entry.name, entry.is_symlink()
+            if entry.is_dir(follow_symlinks=False):
+                yield from _names_in(entry.path, f"{prefix}{entry.name}/")
+
+
+def _is_ours(folder: str) -> bool:
+    try:
+        with open(os.path.join(folder, "zarr.json"), encoding="utf-8") as file:
+            return _MAKER in file.read()
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+@contextlib.contextmanager
+def _told(path: str) -> Iterator[None]:
+    """Lets errors of the system name the path that the caller gave."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None or error.filename == path:
+            raise
+        raise OSError(error.errno, error.strerror, path) from None
+
+
+@contextlib.contextmanager
+def _replaced(path: Path) -> Iterator[str]:
+    """A new folder, which gets its name when all is done; of what fails nothing is left."""
+    name = os.fsdecode(path)
+    target = require_replaceable(path)
+    mode = os.stat(target).st_mode & 0o777 if os.path.isdir(target) else None
+    folder = os.path.join(os.path.dirname(target), f".rondel-{os.getpid()}-py{next(_numbers)}.tmp")
+    with _told(name):
+        os.mkdir(folder, 0o777 if mode is None else 0o700)
+        try:
+            yield folder
+            require_replaceable(path)
+            if mode is not None:
+                os.chmod(folder, mode)
+            _exchange(folder, target)
+        except BaseException as error:
+            _remove(folder, is_busy=isinstance(error, KeyboardInterrupt))
+            raise
+
+
+def _exchange(folder: str, target: str) -> None:
+    """Puts a folder into the place of another one, if there is one, which is removed."""
+    if not os.path.isdir(target):
+        os.rename(folder, target)
+        return
+    old = folder + "-old"
+    os.rename(target, old)
+    try:
+        os.rename(folder, target)
+    except BaseException:
+        os.rename(old, target)
+        raise
+    shutil.rmtree(old)
+
+
+def _remove(folder: str, is_busy: bool) -> None:
+    """Removes a folder, into which a thread of zarr may still write a chunk if it is busy."""
+    shutil.rmtree(folder, ignore_errors=True)
+    for _ in range(10 if is_busy else 0):
+        time.sleep(0.05)
+        shutil.rmtree(folder, ignore_errors=True)
