@@ -18,7 +18,8 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import degrees_of, unit_vectors
 from ._types import FloatArray, Progress
-from ._zarr import GroupContent, require_replaceable, require_zarr, write_group
+from ._zarr import GroupContent, require_zarr, write_group
+from ._zarr_folder import require_replaceable
 
 _FOLDER = "rondel-arrays"  # in the scratch directory
 _REPORT = "report.json"
