@@ -9,7 +9,7 @@ set(RONDEL_C_TARGETS "")
 set(RONDEL_PACKAGES rondel)
 set(RONDEL_HEADERS_LEFT_OUT PATTERN io.h EXCLUDE PATTERN polygons.h EXCLUDE PATTERN globe.h EXCLUDE
                             PATTERN out_of_core.h EXCLUDE PATTERN distributed.h EXCLUDE PATTERN mpi.h EXCLUDE
-                            PATTERN weights.h EXCLUDE PATTERN interpolate.h EXCLUDE PATTERN contours.h EXCLUDE
+                            PATTERN weights.h EXCLUDE PATTERN interpolate.h EXCLUDE PATTERN regrid.h EXCLUDE PATTERN contours.h EXCLUDE
                             PATTERN weight_files.h EXCLUDE PATTERN weight_check.h EXCLUDE PATTERN fields.h EXCLUDE PATTERN cell_rings.h EXCLUDE
                             PATTERN partition.h EXCLUDE PATTERN remap.h EXCLUDE PATTERN regions.h EXCLUDE PATTERN polygon_files.h EXCLUDE PATTERN mesh_files.h EXCLUDE PATTERN graphs.h EXCLUDE
                             PATTERN outlines.h EXCLUDE PATTERN feature_cells.h EXCLUDE PATTERN mesh.h EXCLUDE

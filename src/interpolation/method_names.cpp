@@ -8,12 +8,14 @@
 #include <cstddef>
 
 #include "rondel/interpolate.h"
+#include "rondel/regrid.h"
 
 namespace rondel {
 namespace {
 
 constexpr std::array<std::string_view, 6> method_names = {"nearest", "linear",  "laplace",
                                                           "sibson",  "hermite", "cubic"};
+constexpr std::array<std::string_view, 2> regrid_method_names = {"bilinear", "nearest_d2s"};
 constexpr std::array<std::string_view, 3> outside_names = {"nan", "nearest", "error"};
 constexpr std::array<std::string_view, 3> shared_place_names = {"first", "mean", "error"};
 constexpr std::array<std::string_view, 2> normalization_names = {"unity", "homogeneous"};
@@ -28,6 +30,9 @@ std::string_view name_in(const std::array<std::string_view, N>& names, Value val
 }  // namespace
 
 std::string_view name_of(Method method) noexcept { return name_in(method_names, method); }
+std::string_view name_of(RegridMethod method) noexcept {
+  return name_in(regrid_method_names, method);
+}
 std::string_view name_of(Outside outside) noexcept { return name_in(outside_names, outside); }
 std::string_view name_of(SharedPlace shared_place) noexcept {
   return name_in(shared_place_names, shared_place);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "interpolation/large_sums.h"
 #include "rondel/error.h"
@@ -136,6 +137,25 @@ bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end, cons
   return is_right;
 }
 
+// Throws InvalidInput for a number that is not below `limit`.
+void require_numbers(std::string_view name, std::span<const Index> numbers, std::size_t limit) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (numbers[k] < limit) continue;
+    throw InvalidInput(std::string(name) + '[' + std::to_string(k) + "] is " +
+                           std::to_string(numbers[k]) + " of " + std::to_string(limit),
+                       k);
+  }
+}
+
+// Appends a row, which is row r of `from`, to weights whose last row is complete.
+void append_row(const Weights& from, std::size_t r, Weights& to) {
+  const auto begin = static_cast<std::ptrdiff_t>(from.offsets[r]);
+  const auto end = static_cast<std::ptrdiff_t>(from.offsets[r + 1]);
+  to.columns.insert(to.columns.end(), from.columns.begin() + begin, from.columns.begin() + end);
+  to.values.insert(to.values.end(), from.values.begin() + begin, from.values.begin() + end);
+  to.offsets.push_back(to.columns.size());
+}
+
 }  // namespace
 
 std::uint64_t point_set_hash(std::span<const Point> points) {
@@ -168,6 +188,78 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
                          }
                        });
   if (!are_right) require_finite_weights(weights);
+}
+
+Weights renumbered(const Weights& weights, std::span<const Index> rows, std::size_t num_rows,
+                   std::span<const Index> columns, std::size_t num_columns) {
+  require_rows(weights);
+  require_length("rows", rows.size(), weights.num_rows());
+  require_length("columns", columns.size(), weights.num_columns);
+  require_numbers("rows", rows, num_rows);
+  require_numbers("columns", columns, num_columns);
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> former(num_rows, none);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (former[rows[r]] != none) {
+      throw InvalidInput("row " + std::to_string(rows[r]) + " stands twice", r);
+    }
+    former[rows[r]] = r;
+  }
+  Weights result;
+  result.num_columns = num_columns;
+  result.offsets.reserve(num_rows + 1);
+  result.columns.reserve(weights.columns.size());
+  result.values.reserve(weights.values.size());
+  for (const std::size_t r : former) {
+    if (r == none) {
+      result.offsets.push_back(result.columns.size());
+    } else {
+      append_row(weights, r, result);
+    }
+  }
+  for (Index& column : result.columns) column = columns[column];
+  return result;
+}
+
+Weights with_rows(const Weights& weights, std::span<const std::int32_t> mask,
+                  const Weights* others) {
+  require_rows(weights);
+  require_length("the mask", mask.size(), weights.num_rows());
+  if (others != nullptr) {
+    require_rows(*others);
+    require_length("the mask", mask.size(), others->num_rows());
+    if (others->num_columns != weights.num_columns) {
+      throw InvalidInput("matrices of " + std::to_string(weights.num_columns) + " and " +
+                         std::to_string(others->num_columns) + " columns");
+    }
+  }
+  Weights result;
+  result.num_columns = weights.num_columns;
+  result.sites_hash = weights.sites_hash;
+  result.targets_hash = weights.targets_hash;
+  result.offsets.reserve(weights.offsets.size());
+  for (std::size_t r = 0; r < mask.size(); ++r) {
+    if (mask[r] != 0) {
+      append_row(weights, r, result);
+    } else if (others != nullptr) {
+      append_row(*others, r, result);
+    } else {
+      result.offsets.push_back(result.columns.size());
+    }
+  }
+  return result;
+}
+
+Weights without_columns(const Weights& weights, std::span<const std::int32_t> mask) {
+  require_rows(weights);
+  require_length("the mask", mask.size(), weights.num_columns);
+  std::vector<std::int32_t> is_kept(weights.num_rows(), 1);
+  for (std::size_t r = 0; r < is_kept.size(); ++r) {
+    for (std::uint64_t k = weights.offsets[r]; k < weights.offsets[r + 1]; ++k) {
+      if (mask[weights.columns[k]] == 0) is_kept[r] = 0;
+    }
+  }
+  return with_rows(weights, is_kept);
 }
 
 }  // namespace rondel

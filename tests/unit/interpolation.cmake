@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(interpolation_test
+  interpolation_bilinear_test.cpp
   interpolation_collected_test.cpp
   interpolation_errors_test.cpp
   interpolation_linear_test.cpp
   interpolation_places_test.cpp
+  interpolation_regrid_test.cpp
   interpolation_rings_test.cpp
   interpolation_rules_test.cpp
   interpolation_weights_test.cpp

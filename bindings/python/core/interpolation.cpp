@@ -15,6 +15,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/interpolate.h"
+#include "rondel/regrid.h"
 #include "rondel/weights.h"
 
 namespace rondel::python {
@@ -94,6 +95,32 @@ ArrayOut<double> apply_weights(const Weights& weights, const FieldsIn& fields, d
   }));
 }
 
+Weights bilinear_of_axes(const NumbersIn& lon, const NumbersIn& lat, const PairsIn& targets,
+                         bool are_single) {
+  return unlocked([&] {
+    const auto lons = rows_of<double>(lon);
+    const auto lats = rows_of<double>(lat);
+    return bilinear_weights(
+        {.lon_deg = {lons.begin(), lons.end()}, .lat_deg = {lats.begin(), lats.end()}},
+        rows_of<LonLat>(targets), are_single ? single_rounding_deg : double_rounding_deg);
+  });
+}
+
+Weights renumbered_weights(const Weights& self, const IndicesIn& rows, std::size_t num_rows,
+                           const IndicesIn& columns, std::size_t num_columns) {
+  return unlocked([&] {
+    return renumbered(self, rows_of<Index>(rows), num_rows, rows_of<Index>(columns), num_columns);
+  });
+}
+
+Weights weights_with_rows(const Weights& self, const IndicesIn& mask, const Weights* others) {
+  return unlocked([&] { return with_rows(self, rows_of<std::int32_t>(mask), others); });
+}
+
+Weights weights_without_columns(const Weights& self, const IndicesIn& mask) {
+  return unlocked([&] { return without_columns(self, rows_of<std::int32_t>(mask)); });
+}
+
 void add_weights(nb::module_& module) {
   nb::class_<Weights>(module, "Weights")
       .def_static("from_arrays", &weights_from_arrays, nb::arg("offsets").noconvert(),
@@ -112,8 +139,14 @@ void add_weights(nb::module_& module) {
             if (self.targets_hash == 0) self.targets_hash = targets;
           },
           nb::arg("sites_hash"), nb::arg("targets_hash"))
+      .def("renumbered", &renumbered_weights, nb::arg("rows").noconvert(), nb::arg("num_rows"),
+           nb::arg("columns").noconvert(), nb::arg("num_columns"))
+      .def("with_rows", &weights_with_rows, nb::arg("mask").noconvert(), nb::arg("others").none())
+      .def("without_columns", &weights_without_columns, nb::arg("mask").noconvert())
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
            nb::arg("most_missing"), nb::arg("threads"));
+  module.def("bilinear_weights", &bilinear_of_axes, nb::arg("lon").noconvert(),
+             nb::arg("lat").noconvert(), nb::arg("targets").noconvert(), nb::arg("are_single"));
 }
 
 ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
@@ -158,6 +191,14 @@ void add_interpolation(nb::module_& module) {
           },
           nb::arg("targets").noconvert(), nb::arg("choices"), nb::arg("threads"),
           nb::arg("progress").none())
+      .def(
+          "nearest_d2s_weights",
+          [](const Interpolator& self, const PointsIn& sources, unsigned threads) {
+            return watched_quietly(sources.shape(0), threads, [&](const Execution& execution) {
+              return nearest_d2s_weights(self, points_of(sources), execution);
+            });
+          },
+          nb::arg("sources").noconvert(), nb::arg("threads"))
       .def("values", &values_at, nb::arg("fields").noconvert(),
            nb::arg("gradients").noconvert().none(), nb::arg("targets").noconvert(),
            nb::arg("choices"), nb::arg("threads"), nb::arg("progress").none())

@@ -258,20 +258,11 @@ class Places:
         made = tri.weights(target.points(), method, **options)
         if self._used is None and target._located is None:
             return made
-        offsets, columns, data = made.indptr, numbers[made.indices], made.data
         if target._located is not None:
-            sizes = np.diff(offsets)
-            used = np.repeat(target._located, sizes)
-            columns, data = columns[used], data[used]
-            offsets = np.append(0, np.cumsum(np.where(target._located, sizes, 0)))
-        return Weights(
-            offsets.astype(np.int64),
-            columns,
-            data,
-            (target.lon.size, self.lon.size),
-            sites_hash=point_set_hash(self.points()),
-            targets_hash=point_set_hash(target.points()),
-        )
+            made = made._with_rows(target._located)
+        made = made._renumbered(None, numbers, (target.lon.size, self.lon.size))
+        made._weights.know_places(point_set_hash(self.points()), point_set_hash(target.points()))
+        return made
 
     @property
     def have_cells(self) -> bool:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from ._arrays import point_set_hash
-from ._bilinear import bilinear_weights
+from . import _core
+from ._arrays import as_floats, as_threads, point_set_hash
 from ._geo import Path
 from ._remap import Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
-from ._types import BoolArray, Progress
+from ._types import Progress
 from ._weight_files import write_weights
 from ._weights import Weights
 
@@ -371,70 +371,54 @@ def _made(
     if method == "nearest_s2d":
         made = _nearest(source, target)
     elif method == "nearest_d2s":
-        made = _transposed(_nearest(target, source), source.mask())
+        made = _nearest_d2s(source, target, threads)
     else:
         if method == "bilinear" and source.are_axes:
-            lon, lat = target.degrees()
-            made = bilinear_weights(*source.axes, lon.reshape(-1), lat.reshape(-1))
+            made = _bilinear(source, target)
         else:
             kind: Any = "linear" if method == "bilinear" else method
             made = source.weights_to(target, kind, threads=threads, progress=progress)
         mask = source.mask()
         if mask is not None:
-            needs = np.add.reduceat(np.append(~mask[made.indices], False), made.indptr[:-1]) > 0
-            made = _with_rows(made, needs & (np.diff(made.indptr) > 0))
+            made = made._without_columns(mask)
     mask = target.mask()
-    return made if mask is None else _with_rows(made, ~mask)
+    return made if mask is None else made._with_rows(mask)
 
 
 def _nearest(source: Places, target: Places) -> Weights:
     """For each target the nearest source that takes part; no row if none does."""
     tri, numbers = source.triangulated(source.mask())
-    count_of_targets = target.lon.size
-    shape = (count_of_targets, source.lon.size)
+    shape = (target.lon.size, source.lon.size)
     if len(numbers) == 0:
-        return Weights(np.zeros(count_of_targets + 1, np.int64), [], [], shape)
-    made = tri.weights(target.points(), "nearest")
-    return Weights(made.indptr, numbers[made.indices], made.data, shape)
+        return Weights(np.zeros(shape[0] + 1, np.int64), [], [], shape)
+    return tri.weights(target.points(), "nearest")._renumbered(None, numbers, shape)
 
 
-def _transposed(weights: Weights, mask: BoolArray | None) -> Weights:
-    """Each source that takes part gives its value to its nearest target, which has their sum."""
-    row = np.repeat(np.arange(weights.shape[0]), np.diff(weights.indptr))
-    used = np.ones(len(row), bool) if mask is None else mask[row]
-    order = np.argsort(weights.indices[used], kind="stable")
-    offsets = np.zeros(weights.shape[1] + 1, np.int64)
-    np.cumsum(np.bincount(weights.indices[used], minlength=weights.shape[1]), out=offsets[1:])
-    shape = (weights.shape[1], weights.shape[0])
-    return Weights(offsets, row[used][order], np.ones(len(order)), shape)
+def _nearest_d2s(source: Places, target: Places, threads: int | None) -> Weights:
+    """Each source that takes part gives its value to the nearest target that does."""
+    tri, numbers = target.triangulated(target.mask())
+    shape = (target.lon.size, source.lon.size)
+    if len(numbers) == 0:
+        return Weights(np.zeros(shape[0] + 1, np.int64), [], [], shape)
+    mask = source.mask()
+    used = np.arange(shape[1]) if mask is None else np.flatnonzero(mask)
+    points = source.points().reshape(-1, 3)[used]
+    made = tri._interpolator().nearest_d2s_weights(points, as_threads(threads))
+    return Weights._of(made)._renumbered(numbers, used, shape)
+
+
+def _bilinear(source: Places, target: Places) -> Weights:
+    """Bilinear weights for the axes of the source; without entries for targets outside."""
+    given = (*source.axes, *target.degrees())
+    are_single = any(each.dtype.kind == "f" and each.dtype.itemsize < 8 for each in given)
+    lon, lat = as_floats(given[0], "lon"), as_floats(given[1], "lat")
+    return Weights._of(_core.bilinear_weights(lon, lat, target.pairs(), are_single))
 
 
 def _filled(weights: Weights, source: Places, target: Places) -> Weights:
     """The nearest source where a target has nothing, but for those that take no part."""
-    empty = np.diff(weights.indptr) == 0
+    is_kept = np.diff(weights.indptr) > 0
     mask = target.mask()
-    rows = empty if mask is None else empty & mask
-    return _with_rows(weights, rows, _nearest(source, target)) if rows.any() else weights
-
-
-def _with_rows(weights: Weights, rows: BoolArray, others: Weights | None = None) -> Weights:
-    """With some rows of others, or empty."""
-    taken = [(weights, ~rows)] if others is None else [(weights, ~rows), (others, rows)]
-    parts = []
-    for matrix, which in taken:
-        sizes = np.diff(matrix.indptr)
-        used = np.repeat(which, sizes)
-        row = np.repeat(np.arange(len(sizes)), sizes)[used]
-        parts.append((row, matrix.indices[used], matrix.data[used]))
-    row, column, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
-    order = np.argsort(row, kind="stable")
-    offsets = np.zeros(len(rows) + 1, np.int64)
-    np.cumsum(np.bincount(row, minlength=len(rows)), out=offsets[1:])
-    return Weights(
-        offsets,
-        column[order],
-        weight[order],
-        weights.shape,
-        sites_hash=weights.sites_hash,
-        targets_hash=weights.targets_hash,
-    )
+    if mask is not None:
+        is_kept |= ~mask
+    return weights if is_kept.all() else weights._with_rows(is_kept, _nearest(source, target))

@@ -17,7 +17,7 @@ from ._errors import warn_caller
 from ._geo import Path
 from ._repr import Described, count
 from ._tables import _replaced
-from ._types import ArrayLike, FloatArray, IntArray
+from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 from ._weight_files import weights_to_netcdf
 
 
@@ -296,6 +296,27 @@ class Weights(Described):
             raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     to_netcdf = weights_to_netcdf
+
+    def _renumbered(self, rows: Any, columns: Any, shape: tuple[int, int]) -> Weights:
+        """The weights of a part of targets and sites as those of all: the numbers of its rows and
+        columns, None where they are all.
+        """
+        numbers = [
+            np.ascontiguousarray(np.arange(size) if given is None else given, np.int32)
+            for given, size in zip((rows, columns), self.shape, strict=True)
+        ]
+        return Weights._of(self._weights.renumbered(numbers[0], shape[0], numbers[1], shape[1]))
+
+    def _with_rows(self, is_kept: BoolArray, others: Weights | None = None) -> Weights:
+        """The same with the rows of others, or empty ones, where `is_kept` is false."""
+        mask = np.ascontiguousarray(is_kept, np.int32)
+        return Weights._of(
+            self._weights.with_rows(mask, None if others is None else others._weights)
+        )
+
+    def _without_columns(self, is_kept: BoolArray) -> Weights:
+        """The same with empty rows where a column is needed for which `is_kept` is false."""
+        return Weights._of(self._weights.without_columns(np.ascontiguousarray(is_kept, np.int32)))
 
     def _facts(self) -> list[tuple[str, str]]:
         rows, columns = self.shape
