@@ -70,15 +70,34 @@ Triangulation triangulated(Job& job, const InterpolateOptions& options, const Si
   return triangulation;
 }
 
-// Interpolates fields at the targets. All fields without gaps share one triangulation; successive
+// Interpolates fields at the targets. Methods of regridding have weights. All fields without gaps share one triangulation; successive
 // fields with the same gaps share another one.
 class FieldCarrier {
  public:
   FieldCarrier(Job& job, const InterpolateOptions& options, const SiteTable& table,
-               const Targets& targets, InterpolateCounts& counts)
-      : job_(job), options_(options), table_(table), targets_(targets), counts_(counts) {}
+               const Targets& targets, const std::optional<Weights>& weights,
+               InterpolateCounts& counts)
+      : job_(job),
+        options_(options),
+        table_(table),
+        targets_(targets),
+        weights_(weights),
+        counts_(counts) {}
 
   std::vector<double> carry(std::vector<double> values) {
+    std::vector<double> carried(targets_.table.sites.size());
+    if (weights_) {
+      job_.time(Stage::query, [&] { apply(*weights_, values, carried, 1, {}, job_.execution()); });
+    } else {
+      carried = interpolated(std::move(values));
+    }
+    counts_.missing += static_cast<std::size_t>(
+        std::ranges::count_if(carried, [](double value) { return std::isnan(value); }));
+    return carried;
+  }
+
+ private:
+  std::vector<double> interpolated(std::vector<double> values) {
     std::vector<bool> is_known;
     is_known.reserve(values.size());
     for (const double value : values) is_known.push_back(!std::isnan(value));
@@ -102,16 +121,14 @@ class FieldCarrier {
                                     job_.execution());
       });
     });
-    counts_.missing += static_cast<std::size_t>(
-        std::ranges::count_if(carried, [](double value) { return std::isnan(value); }));
     return carried;
   }
 
- private:
   Job& job_;
   const InterpolateOptions& options_;
   const SiteTable& table_;
   const Targets& targets_;
+  const std::optional<Weights>& weights_;  // of a method of regridding
   InterpolateCounts& counts_;
   std::optional<Interpolator> whole_;
   std::optional<Interpolator> partial_;
@@ -120,10 +137,11 @@ class FieldCarrier {
 };
 
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
-                         const Targets& targets, InterpolateCounts& counts) {
+                         const Targets& targets, const std::optional<Weights>& weights,
+                         InterpolateCounts& counts) {
   FieldSet fields;
   fields.num_points = targets.table.sites.size();
-  FieldCarrier carrier(job, options, table, targets, counts);
+  FieldCarrier carrier(job, options, table, targets, weights, counts);
   for (const std::string& name : options.columns) {
     FieldArray array;
     array.name = name;
@@ -137,7 +155,8 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
 // Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
 // a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
-                        const Targets& targets, InterpolateCounts& counts) {
+                        const Targets& targets, const std::optional<Weights>& weights,
+                        InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
   const auto [file, variable] = netcdf_part(options.source_file());
   std::vector<std::string> names = options.columns;
@@ -149,7 +168,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   out.axes = in.fields().axes;
   tell(file.path, in.fields().remarks);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
-  FieldCarrier carrier(job, options, table, targets, counts);
+  FieldCarrier carrier(job, options, table, targets, weights, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
       std::vector<double> values(table.sites.size());
@@ -185,8 +204,9 @@ void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFil
   file.source.areas = std::move(areas);
 }
 
-void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
-                      Targets& targets, InterpolateCounts& counts) {
+// Adds the weights and the areas of the sites, by a triangulation of the cells that are not masked.
+void interpolate_weights(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+                         const Targets& targets, InterpolateCounts& counts, WeightFile& file) {
   const SiteTable& table = grid.table;
   const std::vector<Index> numbers = unmasked_sites(grid);
   const bool has_masked = numbers.size() < table.sites.size();
@@ -194,17 +214,28 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   if (has_masked) kept = table.selection(grid.unmasked());
   const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table, counts);
   const Interpolator interpolator(triangulation);
-  WeightFile file;
   job.time(Stage::query, [&] {
     file.weights = with_places(targets.table, [&] {
       return interpolator.weights(targets.table.sites, options.interpolation, job.execution());
     });
   });
-  file.method = name_of(options.interpolation.method);
-  file.normalization = "none";
-  file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
   if (has_masked) spread(numbers, table, file);
+}
+
+void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+                      Targets& targets, std::optional<Weights>& weights,
+                      InterpolateCounts& counts) {
+  WeightFile file;
+  if (weights) {
+    file.weights = std::move(*weights);
+    file.method = name_of(*options.regrid);
+  } else {
+    interpolate_weights(job, options, grid, targets, counts, file);
+    file.method = name_of(options.interpolation.method);
+  }
+  file.normalization = "none";
+  file.source.points = grid.table.is_lonlat() ? grid.table.positions : lonlats(grid.table.sites);
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
   file.source.mask = grid.mask;
   file.target = std::move(targets.side);
@@ -234,7 +265,8 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }
-  if (common.build.model == Model::weighted && options.interpolation.method != Method::nearest) {
+  const bool is_nearest = !options.regrid && options.interpolation.method == Method::nearest;
+  if (common.build.model == Model::weighted && !is_nearest) {
     throw UsageError("--method: weighted sites have no method but nearest");
   }
   Job job(common);
@@ -246,11 +278,13 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   const SiteTable* const tables[] = {&table, &targets.table};
   require_angles(common.read, tables);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
-  if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, counts);
-  if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, counts);
+  std::optional<Weights> weights;
+  if (options.regrid) weights = regrid_weights(job, *options.regrid, grid, targets);
+  if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, weights, counts);
+  if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, weights, counts);
   if (!options.weights.empty()) {
     counts.missing = 0;
-    write_weights_of(job, options, grid, targets, counts);
+    write_weights_of(job, options, grid, targets, weights, counts);
   }
   report(job, options, counts);
   return done;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "rondel/interpolate.h"
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
+#include "rondel/regrid.h"
 #include "rondel/remap.h"
 #include "rondel/weight_check.h"
 
@@ -44,13 +46,14 @@ struct CheckWeightsOptions {
 
 /// The options of `rondel interpolate`.
 struct InterpolateOptions {
-  CommonOptions common;              ///< INPUT: the sites
-  std::string target;                ///< --to; "-": standard input
-  std::string weights;               ///< --weights; empty: values
-  std::string weight_format;         ///< --weight-format
-  std::vector<std::string> columns;  ///< --value
-  InterpolationOptions interpolation;
-  NetcdfOptions netcdf;  ///< --kind --deflate
+  CommonOptions common;                ///< INPUT: the sites
+  std::string target;                  ///< --to; "-": standard input
+  std::string weights;                 ///< --weights; empty: values
+  std::string weight_format;           ///< --weight-format
+  std::vector<std::string> columns;    ///< --value
+  InterpolationOptions interpolation;  ///< --method, unless it is one of `regrid`
+  std::optional<RegridMethod> regrid;  ///< --method bilinear or nearest_d2s
+  NetcdfOptions netcdf;                ///< --kind --deflate
 
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
@@ -74,6 +77,11 @@ void add_grid_cells(WeightSide& side);
 LonLatGrid lonlat_grid(const std::string& name);
 /// Returns the four corners of each cell, counterclockwise.
 std::vector<LonLat> corners_of(const LonLatGrid& grid);
+
+/// Returns the weights of --method bilinear or nearest_d2s; sources that are masked take no part.
+/// \throws FileError for a source of bilinear weights that is no grid with axes
+Weights regrid_weights(Job& job, RegridMethod method, const NetcdfSites& grid,
+                       const Targets& targets);
 
 /// The options of `rondel remap`.
 struct RemapCommandOptions {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <variant>
 
 #include "netcdf_options.h"
 #include "remap.h"
@@ -61,16 +62,42 @@ std::unordered_map<std::string, Value> named_values() {
   return values;
 }
 
+// Adds --method, of interpolation or of regridding.
+void add_method(CLI::App& parser, InterpolateOptions& options) {
+  using AnyMethod = std::variant<Method, RegridMethod>;
+  std::unordered_map<std::string, AnyMethod> methods;
+  for (const auto& [name, method] : named_values<Method>()) methods.emplace(name, method);
+  for (const auto& [name, method] : named_values<RegridMethod>()) methods.emplace(name, method);
+  const auto take = [&options, methods](const std::string& text) {
+    const AnyMethod& method = methods.at(text);
+    if (const auto* regrid = std::get_if<RegridMethod>(&method)) options.regrid = *regrid;
+    if (const auto* plain = std::get_if<Method>(&method)) options.interpolation.method = *plain;
+  };
+  parser
+      .add_option_function<std::string>(
+          "--method", take,
+          "nearest, linear, laplace, sibson (default), hermite or cubic between any sites;\n"
+          "bilinear on a grid along axes; or nearest_d2s, each site given to its nearest target")
+      ->check([methods](const std::string& text) {
+        return methods.contains(text) ? std::string() : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+}
+
 // Adds how values are interpolated, also at targets outside and at sites that share a place.
-void add_methods(CLI::App& parser, InterpolationOptions& options) {
-  add_word<Method>(parser, "--method", options.method, named_values<Method>(),
-                   "nearest, linear, laplace, sibson (default), hermite or cubic");
-  add_word<Outside>(
-      parser, "--outside", options.outside, named_values<Outside>(),
+void add_methods(CLI::App& parser, InterpolateOptions& options) {
+  add_method(parser, options);
+  const CLI::Option* const outside = add_word<Outside>(
+      parser, "--outside", options.interpolation.outside, named_values<Outside>(),
       "A target in no triangle that the center sees: nan (default), nearest or error");
-  add_word<SharedPlace>(
-      parser, "--duplicates", options.shared_place, named_values<SharedPlace>(),
+  const CLI::Option* const duplicates = add_word<SharedPlace>(
+      parser, "--duplicates", options.interpolation.shared_place, named_values<SharedPlace>(),
       "Sites in one place: first (default: the one with the lowest number), mean or error");
+  for (const CLI::Option* const option : {outside, duplicates}) {
+    require_effect(
+        options.common, option, [&options] { return !options.regrid; },
+        "with --method bilinear or nearest_d2s");
+  }
 }
 
 }  // namespace
@@ -211,12 +238,23 @@ Command add_interpolate_command(CLI::App& tool) {
     }
     return written;
   });
-  add_methods(*parser, options->interpolation);
+  add_methods(*parser, *options);
   add_build_options(*parser, options->common);
+  for (const char* const name : {"--model", "--center"}) {
+    require_effect(
+        options->common, parser->get_option(name),
+        [given = options.get()] { return given->regrid != RegridMethod::bilinear; },
+        "with --method bilinear");
+  }
   add_report_options(*parser, options->common);
   parser->footer(
       "A site whose value is missing (empty, nan, NA, null) takes no part in that column, as if\n"
-      "it were not in the file; weights are those of all sites. Grids go from longitude -180\n"
+      "it were not in the file; weights are those of all sites. With bilinear and nearest_d2s a\n"
+      "target that needs a missing value has none. bilinear takes netCDF with a grid along\n"
+      "longitudes and latitudes: between the last row and the pole of a grid around the globe it\n"
+      "goes to the mean of that row; other targets outside have no value. With nearest_d2s\n"
+      "(ESMF's nearest destination to source) a target has the sum of what it is given. Grids go "
+      "from longitude -180\n"
       "eastward and from the south pole northward; centers have the digits of an exact\n"
       "division, rounded once. DEG divides 180.\n\n"
       "Examples:\n"
@@ -224,7 +262,8 @@ Command add_interpolate_command(CLI::App& tool) {
       "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
       "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
       "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
-      "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4");
+      "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4\n"
+      "  rondel interpolate model.nc --to grid:1 --method bilinear -o on-grid.nc");
   return {parser, [options] { return run_interpolate(*options); }};
 }
 

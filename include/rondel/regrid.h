@@ -45,11 +45,15 @@ RONDEL_API std::optional<LonLatAxes> axes_of_grid(std::span<const LonLat> places
 inline constexpr double double_rounding_deg = 1e-9;
 inline constexpr double single_rounding_deg = 1e-4;
 
+/// Returns how far the coordinates of axes may be from what they mean: as numbers of single precision
+/// if all of them are such, and not all are multiples of 1/1024 degree.
+RONDEL_API double rounding_of(const LonLatAxes& axes);
+
 /// Computes bilinear weights: linear in longitude and in latitude in each rectangle between four
 /// places of the grid.
 ///
-/// 1. A row has at most four entries, but for rule 4; weights are positive and their sum is 1 up to
-///    4 ulp. At a place of the grid there is one entry, on a line between two places there are two.
+/// 1. A row has at most four entries, but for rule 4; weights are positive, and their sum is 1 up to
+///    2^-52 for each entry. At a place of the grid there is one entry, on a line between two places there are two.
 /// 2. Longitudes count modulo 360 degrees. A grid goes around the globe if the gap behind its last
 ///    column is at most 1.5 of its widest steps; then there are rectangles between the last and the
 ///    first column. Columns that repeat the first ones a turn later take no part.

@@ -254,6 +254,20 @@ std::optional<LonLatAxes> axes_of_grid(std::span<const LonLat> places,
   return axes;
 }
 
+double rounding_of(const LonLatAxes& axes) {
+  bool is_round = true;
+  for (const auto* const axis : {&axes.lon_deg, &axes.lat_deg}) {
+    for (const double number : *axis) {
+      if (!(std::abs(number) < turn_deg * 4) ||
+          static_cast<double>(static_cast<float>(number)) != number) {
+        return double_rounding_deg;
+      }
+      is_round = is_round && std::trunc(number * 1024) == number * 1024;
+    }
+  }
+  return is_round ? double_rounding_deg : single_rounding_deg;
+}
+
 Weights bilinear_weights(const LonLatAxes& grid, std::span<const LonLat> targets,
                          double rounding_deg) {
   const system::ArithmeticScope arithmetic;

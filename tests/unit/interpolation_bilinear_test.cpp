@@ -218,6 +218,16 @@ TEST(bilinear, targets_beside_a_line_by_rounding_are_at_it) {
   EXPECT_EQ(coarse.offsets, std::vector<std::uint64_t>({0, 2, 3}));
 }
 
+TEST(bilinear, axes_in_single_precision_are_known_by_their_numbers) {
+  const auto single = [](double number) { return static_cast<double>(static_cast<float>(number)); };
+  EXPECT_EQ(rounding_of({{0, 0.5, 1}, {10, 10.25}}), double_rounding_deg);
+  EXPECT_EQ(rounding_of({{0, 0.1, 0.2}, {10, 20}}), double_rounding_deg);
+  EXPECT_EQ(rounding_of({{0, single(0.1), single(0.2)}, {10, 20}}), single_rounding_deg);
+  EXPECT_EQ(rounding_of({{0, 1}, {10, single(20.3)}}), single_rounding_deg);
+  EXPECT_EQ(rounding_of({{0, single(0.1)}, {10, 20.3}}), double_rounding_deg);
+  EXPECT_EQ(rounding_of({{0, 1e300}, {10, single(20.3)}}), double_rounding_deg);
+}
+
 TEST(bilinear, hashes_are_those_of_places_and_targets) {
   const LonLatAxes grid = {.lon_deg = {0, 90}, .lat_deg = {0, 45}};
   const std::vector<LonLat> places = {{0, 0}, {90, 0}, {0, 45}, {90, 45}};
