@@ -155,8 +155,7 @@ Command add_delaunay_command(CLI::App& tool) {
 // places that several of them have.
 void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
   add_word<PolygonEdges>(
-      parser, "--edges", options.edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      parser, "--edges", options.edges, named_values<PolygonEdges>(),
       "What joins positions of --clip and --densify: lonlat (default; straight in\n"
       "longitude and latitude, RFC 7946) or geodesic (great circles)");
   add_word<PolygonOverlap>(

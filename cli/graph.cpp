@@ -11,6 +11,7 @@
 #include "command.h"
 #include "report.h"
 #include "rondel/graphs.h"
+#include "rondel/names.h"
 #include "rondel/outlines.h"
 #include "validate.h"
 
@@ -27,19 +28,10 @@ struct GraphOptions {
   double tolerance_deg = 0.01;
 };
 
-// Returns the graph of a word of --kind; nothing for words that mean polygons or circles.
-std::optional<GraphKind> graph_kind(const std::string& name) {
-  if (name == "delaunay") return GraphKind::delaunay;
-  if (name == "urquhart") return GraphKind::urquhart;
-  if (name == "gabriel") return GraphKind::gabriel;
-  if (name == "relative") return GraphKind::relative;
-  if (name == "mst") return GraphKind::spanning_tree;
-  return std::nullopt;
-}
-
 // Returns what is wrong with a word of --kind; empty if nothing is.
 std::string reading_error(const std::string& name) {
-  if (graph_kind(name) || name == "hull" || name == "alpha" || name == "circles") return {};
+  if (from_name<GraphKind>(name) || name == "hull" || name == "alpha" || name == "circles")
+    return {};
   return "'" + name + "' is not a choice";
 }
 
@@ -48,7 +40,7 @@ std::string reading_error(const std::string& name) {
 void require_format(const GraphOptions& options) {
   const std::string format = options.common.format();
   const bool is_geojson = format == "geojson";
-  if (graph_kind(options.kind)) {
+  if (from_name<GraphKind>(options.kind)) {
     require_output(options.common, is_geojson || format == "csv" || format == "npy",
                    ".geojson .csv .npy");
   } else if (options.kind == "circles") {
@@ -100,7 +92,7 @@ ExitStatus run_graph(const GraphOptions& options) {
   const auto write_polygons = [&](const Outline& outline) {
     write_outline(target, triangulation, outline, options.tolerance_deg, job.execution());
   };
-  if (const auto kind = graph_kind(options.kind)) {
+  if (const auto kind = from_name<GraphKind>(options.kind)) {
     run([&] { return site_graph(triangulation, *kind, job.execution()); },
         [&](const SiteGraph& graph) {
           write_graph(target, triangulation, graph, options.tolerance_deg, job.execution());

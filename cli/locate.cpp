@@ -6,18 +6,13 @@
 // out   a row for each query: vertex, edge, face or outside, the face, and one to three sites
 // index queries and sites in the order of their files; faces as `rondel delaunay` writes them
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "query_job.h"
+#include "rondel/names.h"
 
 namespace rondel::cli {
 namespace {
-
-// The words stand in the order of the enumerators of Where.
-constexpr std::array<std::string_view, 4> words_of_place = {"vertex", "edge", "face", "outside"};
-
-std::string_view word_for(Where where) { return words_of_place[static_cast<std::size_t>(where)]; }
 
 // Returns the answers as rows; fields without a meaning, as the third site of an edge, are empty.
 std::string table_of(const std::vector<Location>& locations, char separator) {
@@ -31,7 +26,7 @@ std::string table_of(const std::vector<Location>& locations, char separator) {
     text += '\n';
     append(text, i);
     text += separator;
-    text += word_for(location.where);
+    text += name_of(location.where);
     for (const Index index :
          {location.face, location.sites[0], location.sites[1], location.sites[2]}) {
       text += separator;
@@ -56,9 +51,9 @@ ExitStatus run_locate(const QueryOptions& options) {
     job.write_text(table_of(locations, job.separator()));
   }
   QueryJob::Counts counts;
-  for (std::size_t i = 0; i < words_of_place.size(); ++i) {
-    const auto number = std::ranges::count(locations, static_cast<Where>(i), &Location::where);
-    counts.emplace_back(words_of_place[i], static_cast<std::size_t>(number));
+  for (const std::string_view name : names_of<Where>()) {
+    const auto number = std::ranges::count(locations, from_name<Where>(name), &Location::where);
+    counts.emplace_back(name, static_cast<std::size_t>(number));
   }
   job.report(counts);
   return done;

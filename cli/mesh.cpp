@@ -7,26 +7,25 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <unordered_map>
+#include <optional>
+#include <string>
 
 #include "mesh_make.h"
 #include "netcdf_options.h"
 #include "process.h"
 #include "report.h"
+#include "rondel/names.h"
 #include "validate.h"
 #include "words.h"
 
 namespace rondel::cli {
 namespace {
 
-// The words of --format, and the endings of names, by which OUTPUT is a mesh.
-const std::unordered_map<std::string, mesh::MeshFormat>& mesh_formats() {
-  static const std::unordered_map<std::string, mesh::MeshFormat> formats = {
-      {"nc", mesh::MeshFormat::mpas},       {"nc4", mesh::MeshFormat::mpas},
-      {"mpas", mesh::MeshFormat::mpas},     {"ugrid", mesh::MeshFormat::ugrid},
-      {"scrip", mesh::MeshFormat::scrip},   {"esmf", mesh::MeshFormat::esmf},
-      {"exodus", mesh::MeshFormat::exodus}, {"exo", mesh::MeshFormat::exodus}};
-  return formats;
+// Returns the format of meshes that a format of files or an ending means, or nothing.
+std::optional<mesh::MeshFormat> mesh_format_of(const std::string& format) {
+  if (format == "nc" || format == "nc4") return mesh::MeshFormat::mpas;
+  if (format == "exo") return mesh::MeshFormat::exodus;
+  return from_name<mesh::MeshFormat>(format);
 }
 
 // Checks the radius of the sphere of a mesh: squares of lengths must neither overflow nor vanish.
@@ -62,10 +61,12 @@ mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
   return arrays;
 }
 
-bool is_mesh_file(const CommonOptions& common) { return mesh_formats().contains(common.format()); }
+bool is_mesh_file(const CommonOptions& common) {
+  return mesh_format_of(common.format()).has_value();
+}
 
 mesh::MeshFormat mesh_format(const CommonOptions& common) {
-  return mesh_formats().at(common.format());
+  return mesh_format_of(common.format()).value();
 }
 
 void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,

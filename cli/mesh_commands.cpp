@@ -58,8 +58,7 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
       ->allow_extra_args(false)
       ->type_name("FILE");
   const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      parser, "--edges", options.edges, named_values<PolygonEdges>(),
       "What joins positions of --refine, --fixed and --along: lonlat (default;\n"
       "straight in longitude and latitude, RFC 7946) or geodesic (great circles)");
   require_effect(
@@ -118,10 +117,9 @@ Command add_scvt_command(CLI::App& group) {
   CLI::Option* start = parser->add_option("--start", options->start,
                                           "Begin with the sites of FILE, and keep them in order");
   start->excludes(number)->type_name("FILE");
-  add_word<mesh::ScvtMethod>(
-      *parser, "--method", options->scvt.method,
-      {{"lbfgs", mesh::ScvtMethod::lbfgs}, {"lloyd", mesh::ScvtMethod::lloyd}},
-      "lbfgs (default), or lloyd, to compare");
+  add_word<mesh::ScvtMethod>(*parser, "--method", options->scvt.method,
+                             named_values<mesh::ScvtMethod>(),
+                             "lbfgs (default), or lloyd, to compare");
   add_tolerances(*parser, options->scvt);
   parser->add_flag("--no-repair", options->no_repair,
                    "Leave short edges, obtuse triangles, and cells with\n"

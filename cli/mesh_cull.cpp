@@ -122,8 +122,7 @@ Command add_mesh_cull_command(CLI::App& mesh) {
                    "FILE.nc:NAME, FILE.csv:COLUMN; of NAME(nCells, nRegions) those in any region")
       ->type_name("FILE");
   const CLI::Option* const edges = add_word<PolygonEdges>(
-      *parser, "--edges", options->polygon_edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      *parser, "--edges", options->polygon_edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
   require_effect(

@@ -10,6 +10,7 @@
 #include "command.h"
 #include "netcdf_part.h"
 #include "rondel/mesh_files.h"
+#include "rondel/names.h"
 #include "table_options.h"
 #include "validate.h"
 
@@ -20,7 +21,7 @@ constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz";
 
 // Returns what is wrong with a word of --model; empty if nothing is.
 std::string model_error(const std::string& text) {
-  if (text == "projected" || text == "weighted") return {};
+  if (from_name<Model>(text)) return {};
   return "'" + text + "' is not a model (projected, weighted)";
 }
 
@@ -208,8 +209,8 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
       .add_option_function<std::string>(
           "--model",
           [&options](const std::string& text) {
-            options.build.model = text == "weighted" ? Model::weighted : Model::projected;
-            if (text == "projected" && !options.read.radius.empty()) {
+            options.build.model = from_name<Model>(text).value();
+            if (options.build.model == Model::projected && !options.read.radius.empty()) {
               throw UsageError("--radius: circles need --model weighted, not projected");
             }
           },

@@ -178,7 +178,7 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   });
   file.method =
       options.remap.order == 2 ? "Conservative remapping, second order" : "Conservative remapping";
-  file.normalization = options.remap.norm == RemapNorm::destarea ? "destarea" : "fracarea";
+  file.normalization = name_of(options.remap.norm);
   job.time(Stage::write, [&] { write_weights(common.target(), file, options.netcdf); });
   report(job, file, common.output);
   return done;

@@ -52,16 +52,6 @@ void add_weights_input(CLI::App& parser, CommonOptions& options, const std::stri
       ->type_name("FORMAT");
 }
 
-// Returns the values of an enumeration by the names that the library gives them.
-template <class Value>
-std::unordered_map<std::string, Value> named_values() {
-  std::unordered_map<std::string, Value> values;
-  for (std::uint8_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
-    values.emplace(name_of(static_cast<Value>(k)), static_cast<Value>(k));
-  }
-  return values;
-}
-
 // Adds --method, of interpolation or of regridding.
 void add_method(CLI::App& parser, InterpolateOptions& options) {
   using AnyMethod = std::variant<Method, RegridMethod>;
@@ -275,8 +265,7 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       "What cells of grids have in the north and south: parallels (default) or\n"
       "great-circles (ESMF's)");
   const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      parser, "--edges", options.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
   const auto has_side = [&options](CellForm form) {
@@ -324,13 +313,11 @@ Command add_remap_command(CLI::App& tool) {
       *parser, "--order", options->remap.order, {{"1", 1U}, {"2", 2U}},
       "1 (default): the field is constant in each source; 2: it has a gradient there");
   add_word<RemapNorm>(
-      *parser, "--norm", options->remap.norm,
-      {{"destarea", RemapNorm::destarea}, {"fracarea", RemapNorm::fracarea}},
+      *parser, "--norm", options->remap.norm, named_values<RemapNorm>(),
       "What sums are divided by: destarea (default: the target's area, so integrals are\n"
       "kept) or fracarea (the part that sources cover, so constants are)");
   add_word<CellOverlap>(
-      *parser, "--overlap", options->remap.overlap,
-      {{"error", CellOverlap::error}, {"first", CellOverlap::first}, {"share", CellOverlap::share}},
+      *parser, "--overlap", options->remap.overlap, named_values<CellOverlap>(),
       "What becomes of a place that several cells of one side have: error (default: two of\n"
       "them are named), first (the cell with the lowest number has it) or share (each has its\n"
       "part)");

@@ -80,8 +80,6 @@ std::string faces_line(const Counts& counts) {
 
 }  // namespace
 
-const char* name_of(Model model) { return model == Model::projected ? "projected" : "weighted"; }
-
 void tell(const std::string& file, const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) {
     std::fprintf(stderr, "rondel: %s: %s\n", file.c_str(), remark.c_str());

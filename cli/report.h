@@ -18,9 +18,6 @@
 
 namespace rondel::cli {
 
-/// Returns "projected" or "weighted".
-const char* name_of(Model model);
-
 /// Returns "1 site" or "2 sites".
 std::string count(std::size_t number, const std::string& one, const std::string& many);
 

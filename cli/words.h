@@ -10,11 +10,23 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 #include "command.h"
+#include "rondel/names.h"
 
 namespace rondel::cli {
+
+/// Returns the values of an enumeration by the names that the library gives them.
+template <class Value>
+std::unordered_map<std::string, Value> named_values() {
+  std::unordered_map<std::string, Value> values;
+  for (const std::string_view name : names_of<Value>()) {
+    values.emplace(name, *from_name<Value>(name));
+  }
+  return values;
+}
 
 /// Adds an option that takes one of the words in `choices`.
 /// \param name  the option, "--edges"

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondel/contours.h"
@@ -37,8 +38,14 @@ RONDEL_API CoastLines coast_lines();
 /// The lines that a globe shows when it is opened.
 enum class GlobeLines : std::uint8_t { delaunay, voronoi, both };
 
+/// Returns the name of a value: "delaunay", "voronoi", "both"; empty for other numbers.
+RONDEL_API std::string_view name_of(GlobeLines lines) noexcept;
+
 /// The meaning of the colors of a globe's cells when it is opened.
 enum class GlobeFill : std::uint8_t { none, area, values };
+
+/// Returns the name of a value: "none", "area", "values"; empty for other numbers.
+RONDEL_API std::string_view name_of(GlobeFill fill) noexcept;
 
 /// What a globe shows when it is opened; all of it can be changed in the page.
 struct GlobeOptions {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "rondel/export.h"
@@ -27,6 +28,10 @@ enum class GraphKind : std::uint8_t {
   relative,       ///< edges ab without a vertex c such that |ac| < |ab| and |bc| < |ab|
   spanning_tree,  ///< the minimum spanning tree of all vertices
 };
+
+/// Returns the name of a value: "delaunay", "urquhart", "gabriel", "relative", "mst"; empty for other
+/// numbers.
+RONDEL_API std::string_view name_of(GraphKind kind) noexcept;
 
 /// The edges of a graph between vertices, with their lengths.
 struct SiteGraph {

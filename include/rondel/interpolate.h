@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -80,9 +79,6 @@ RONDEL_API std::string_view name_of(Outside outside) noexcept;
 RONDEL_API std::string_view name_of(SharedPlace shared_place) noexcept;
 RONDEL_API std::string_view name_of(Normalization normalization) noexcept;
 RONDEL_API std::string_view name_of(Undetermined undetermined) noexcept;
-
-/// Returns the method with this name, or nothing.
-RONDEL_API std::optional<Method> method_of(std::string_view name) noexcept;
 
 /// Options of the estimate of gradients.
 struct GradientOptions {

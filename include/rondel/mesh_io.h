@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondel/export.h"
@@ -27,6 +28,9 @@ enum class MeshFormat : std::uint8_t {
   /// Exodus II on the unit sphere as TempestRemap writes it: one block for each number of corners
   exodus,
 };
+
+/// Returns the name of a value: "mpas", "ugrid" ...; empty for other numbers.
+RONDEL_API std::string_view name_of(MeshFormat format) noexcept;
 
 using rondel::NetcdfKind;
 

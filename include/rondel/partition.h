@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rondel/cell_rings.h"
@@ -36,6 +37,9 @@ enum class GridSides : std::uint8_t {
   /// The shorter arcs between the corners, as ESMF's conservative method takes them.
   great_circles,
 };
+
+/// Returns the name of a value: "parallels", "great_circles"; empty for other numbers.
+RONDEL_API std::string_view name_of(GridSides sides) noexcept;
 
 /// Cells prepared for overlays with others. Copies share the memory; several threads may use one.
 class RONDEL_API Partition {

@@ -10,6 +10,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondel/cell_rings.h"
@@ -25,12 +26,18 @@ enum class PolygonEdges : std::uint8_t {
   geodesic,  ///< the shorter arc of a great circle
 };
 
+/// Returns the name of a value: "lonlat", "geodesic"; empty for other numbers.
+RONDEL_API std::string_view name_of(PolygonEdges edges) noexcept;
+
 /// The treatment of features that overlap, contain or repeat each other by more than rounding.
 enum class PolygonOverlap : std::uint8_t {
   keep,   ///< their cells overlap
   error,  ///< a FileError names two of them, and a place in both
   first,  ///< a place in several features belongs to the first of them
 };
+
+/// Returns the name of a value: "keep", "error", "first"; empty for other numbers.
+RONDEL_API std::string_view name_of(PolygonOverlap overlap) noexcept;
 
 /// A function that decides whether a feature is taken, by its index and the properties of all
 /// features.

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rondel/dynamic.h"
@@ -26,6 +27,9 @@ enum class Where : std::uint8_t {
   face,     ///< the inside of a solid face: its three corners
   outside,  ///< no solid face: the ray leaves between ghost faces
 };
+
+/// Returns the name of a value: "vertex", "edge" ...; empty for other numbers.
+RONDEL_API std::string_view name_of(Where where) noexcept;
 
 /// The answer of Locator::locate().
 struct Location {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rondel/export.h"
@@ -25,6 +26,9 @@ enum class RemapNorm : std::uint8_t {
   fracarea,  ///< the area that sources cover: constants are conserved
 };
 
+/// Returns the name of a value: "destarea", "fracarea"; empty for other numbers.
+RONDEL_API std::string_view name_of(RemapNorm norm) noexcept;
+
 /// The treatment of places that belong to several cells of one partition.
 enum class CellOverlap : std::uint8_t {
   error,  ///< the cells are refused; the message has two of them and a place
@@ -33,6 +37,9 @@ enum class CellOverlap : std::uint8_t {
   /// overlap.
   share,
 };
+
+/// Returns the name of a value: "error", "first", "share"; empty for other numbers.
+RONDEL_API std::string_view name_of(CellOverlap overlap) noexcept;
 
 struct RemapOptions {
   /// The order of the method. 1: the field is constant in each source cell. 2: it is linear, with a

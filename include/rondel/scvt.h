@@ -51,6 +51,9 @@ enum class ScvtMethod : std::uint8_t {
   lloyd,  ///< moves every site to its centroid; for comparison
 };
 
+/// Returns the name of a value: "lbfgs", "lloyd"; empty for other numbers.
+RONDEL_API std::string_view name_of(ScvtMethod method) noexcept;
+
 /// A function that is called at the start of a level and after every step.
 using ScvtSeen = std::function<void(const ScvtStep&)>;
 

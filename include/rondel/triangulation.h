@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "rondel/export.h"
 #include "rondel/sites.h"
@@ -45,6 +46,9 @@ enum class Builder : std::uint8_t {
 
 /// Returns the name of a value: "ring", "incremental" ...
 RONDEL_API const char* name_of(Builder builder) noexcept;
+
+/// Returns the name of a model: "projected", "weighted"; empty for other numbers.
+RONDEL_API std::string_view name_of(Model model) noexcept;
 
 /// The work of a build and its time.
 struct BuildReport {

@@ -19,6 +19,7 @@
 #include "query/distance.h"
 #include "query/engine.h"
 #include "rondel/error.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 #include "system/mutex.h"
 #include "system/shortest_text.h"
@@ -48,6 +49,10 @@ struct RangeLists {
 };
 
 }  // namespace
+
+std::string_view name_of(Where where) noexcept {
+  return system::name_in({"vertex", "edge", "face", "outside"}, where);
+}
 
 class Locator::Impl {
  public:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "api/triangulation_impl.h"
+#include "system/enum_names.h"
 
 namespace rondel {
 namespace {
@@ -15,6 +16,10 @@ namespace {
 const Triangulation::Impl without_sites;
 
 }  // namespace
+
+std::string_view name_of(Model model) noexcept {
+  return system::name_in({"projected", "weighted"}, model);
+}
 
 const char* name_of(Builder builder) noexcept {
   constexpr std::array names = {"given", "ring", "incremental", "sphere", "blocks"};

@@ -30,6 +30,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_partition.h"
 #include "system/arithmetic.h"
+#include "system/enum_names.h"
 #include "system/parallel.h"
 
 namespace rondel::mesh {
@@ -332,19 +333,7 @@ AreaPartition lune_partition(const std::vector<Point>& units, const std::vector<
 }  // namespace
 
 std::string_view name_of(PartitionEnd end) noexcept {
-  switch (end) {
-    case PartitionEnd::converged:
-      return "converged";
-    case PartitionEnd::rounded:
-      return "rounded";
-    case PartitionEnd::iterations:
-      return "iterations";
-    case PartitionEnd::infeasible:
-      return "infeasible";
-    case PartitionEnd::stopped:
-      return "stopped";
-  }
-  return "";
+  return system::name_in({"converged", "rounded", "iterations", "infeasible", "stopped"}, end);
 }
 
 AreaPartition area_partition(std::span<const Point> sites, std::span<const double> targets,

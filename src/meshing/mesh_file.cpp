@@ -12,6 +12,7 @@
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 
 namespace rondel::meshing {
@@ -90,6 +91,10 @@ CellCorners::CellCorners(const mesh::MeshArrays& arrays) : arrays_(arrays) {
 }  // namespace rondel::meshing
 
 namespace rondel::mesh {
+
+std::string_view name_of(MeshFormat format) noexcept {
+  return system::name_in({"mpas", "ugrid", "scrip", "esmf", "exodus"}, format);
+}
 
 void write(const std::string& path, const MeshArrays& arrays, const MeshFileOptions& options,
            const Execution& execution) {

@@ -17,6 +17,7 @@
 #include "meshing/scvt_repair.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 
 namespace rondel::mesh {
@@ -223,18 +224,12 @@ void require_fixed(std::span<const Point> fixed, std::size_t count) {
 
 }  // namespace
 
+std::string_view name_of(ScvtMethod method) noexcept {
+  return system::name_in({"lbfgs", "lloyd"}, method);
+}
+
 std::string_view name_of(ScvtEnd end) noexcept {
-  switch (end) {
-    case ScvtEnd::converged:
-      return "converged";
-    case ScvtEnd::iterations:
-      return "iterations";
-    case ScvtEnd::stopped:
-      return "stopped";
-    case ScvtEnd::stuck:
-      return "stuck";
-  }
-  return "";
+  return system::name_in({"converged", "iterations", "stopped", "stuck"}, end);
 }
 
 Scvt scvt(const ScvtOptions& options, const Execution& execution) {

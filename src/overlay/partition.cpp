@@ -20,6 +20,7 @@
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
@@ -232,6 +233,10 @@ void validate(const CellRings& cells) {
 }
 
 }  // namespace
+
+std::string_view name_of(GridSides sides) noexcept {
+  return system::name_in({"parallels", "great_circles"}, sides);
+}
 
 Partition::Partition(std::shared_ptr<const PartitionData> data) : data_(std::move(data)) {}
 

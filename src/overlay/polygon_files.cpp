@@ -16,6 +16,7 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/types.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 #include "system/shortest_text.h"
 
@@ -66,6 +67,14 @@ FeatureLines lines_of_features(const io::PolygonFeatures& features, const Polygo
 }
 
 }  // namespace
+
+std::string_view name_of(PolygonEdges edges) noexcept {
+  return system::name_in({"lonlat", "geodesic"}, edges);
+}
+
+std::string_view name_of(PolygonOverlap overlap) noexcept {
+  return system::name_in({"keep", "error", "first"}, overlap);
+}
 
 PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
                            const Execution& execution) {

@@ -20,6 +20,7 @@
 #include "overlay/shared_places.h"
 #include "overlay/slopes_of_cells.h"
 #include "rondel/error.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -218,6 +219,14 @@ Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas
 }
 
 }  // namespace
+
+std::string_view name_of(RemapNorm norm) noexcept {
+  return system::name_in({"destarea", "fracarea"}, norm);
+}
+
+std::string_view name_of(CellOverlap overlap) noexcept {
+  return system::name_in({"error", "first", "share"}, overlap);
+}
 
 Remap remap(const Partition& source, const Partition& target, const RemapOptions& options,
             const Execution& execution) {

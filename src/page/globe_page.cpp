@@ -20,6 +20,7 @@
 #include "page/page_text.h"
 #include "rondel/globe.h"
 #include "rondel/version.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -52,16 +53,6 @@ FirstView view_of_sites(const std::vector<Point>& directions) {
   return {
       {exact::argument(middle.y, middle.x) / degree, exact::argument(middle.z, height) / degree},
       farthest > 0 ? std::max(1.0, 0.9 / std::max(farthest, smallest)) : 1.0};
-}
-
-const char* name_of(GlobeLines lines) {
-  return lines == GlobeLines::delaunay  ? "delaunay"
-         : lines == GlobeLines::voronoi ? "voronoi"
-                                        : "both";
-}
-
-const char* name_of(GlobeFill fill) {
-  return fill == GlobeFill::none ? "none" : fill == GlobeFill::area ? "area" : "values";
 }
 
 // Returns the value as JSON in ASCII that cannot end the script element that contains it. Bytes
@@ -107,27 +98,26 @@ std::string html_text(std::string_view text) {
 nlohmann::ordered_json about_page(const SiteTable& table, const Triangulation& triangulation,
                                   const GlobeOptions& options, const FirstView& view,
                                   const std::vector<page::PageArray>& arrays) {
-  nlohmann::ordered_json about = {
-      {"sites", triangulation.num_sites()},
-      {"vertices", triangulation.num_vertices()},
-      {"faces", triangulation.num_faces()},
-      {"ghosts", triangulation.num_ghost_faces()},
-      {"duplicates", triangulation.duplicates().size()},
-      {"hidden", triangulation.hidden().size()},
-      {"dimension", triangulation.dimension()},
-      {"model", triangulation.model() == Model::weighted ? "weighted" : "projected"},
-      {"show", name_of(options.lines)},
-      {"fill", name_of(options.fill)},
-      {"showSites", options.show_sites},
-      {"circles", options.show_circles},
-      {"coast", options.show_coast},
-      {"graticule", options.graticule_deg},
-      {"view", {view.middle.lon_deg, view.middle.lat_deg}},
-      {"closeness", view.closeness},
-      {"up", options.up_deg},
-      {"valueName", options.value_name},
-      {"columns", nlohmann::ordered_json::array()},
-      {"arrays", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json about = {{"sites", triangulation.num_sites()},
+                                  {"vertices", triangulation.num_vertices()},
+                                  {"faces", triangulation.num_faces()},
+                                  {"ghosts", triangulation.num_ghost_faces()},
+                                  {"duplicates", triangulation.duplicates().size()},
+                                  {"hidden", triangulation.hidden().size()},
+                                  {"dimension", triangulation.dimension()},
+                                  {"model", name_of(triangulation.model())},
+                                  {"show", name_of(options.lines)},
+                                  {"fill", name_of(options.fill)},
+                                  {"showSites", options.show_sites},
+                                  {"circles", options.show_circles},
+                                  {"coast", options.show_coast},
+                                  {"graticule", options.graticule_deg},
+                                  {"view", {view.middle.lon_deg, view.middle.lat_deg}},
+                                  {"closeness", view.closeness},
+                                  {"up", options.up_deg},
+                                  {"valueName", options.value_name},
+                                  {"columns", nlohmann::ordered_json::array()},
+                                  {"arrays", nlohmann::ordered_json::array()}};
   for (const Column& column : table.columns) {
     about["columns"].push_back({{"name", column.name}, {"isNumeric", column.is_numeric}});
   }
@@ -178,6 +168,14 @@ std::string filled_in(std::string_view frame,
 }
 
 }  // namespace
+
+std::string_view name_of(GlobeLines lines) noexcept {
+  return system::name_in({"delaunay", "voronoi", "both"}, lines);
+}
+
+std::string_view name_of(GlobeFill fill) noexcept {
+  return system::name_in({"none", "area", "values"}, fill);
+}
 
 std::string globe_page(const SiteTable& table, const Triangulation& triangulation,
                        const Diagram& diagram, const GlobeOptions& options,

@@ -16,6 +16,7 @@
 #include "readings/lunes.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
+#include "system/enum_names.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
@@ -204,6 +205,10 @@ void sort_by_edge(std::size_t num_sites, std::vector<NearPair>& candidates) {
 }
 
 }  // namespace
+
+std::string_view name_of(GraphKind kind) noexcept {
+  return system::name_in({"delaunay", "urquhart", "gabriel", "relative", "mst"}, kind);
+}
 
 SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                      const Execution& execution) {

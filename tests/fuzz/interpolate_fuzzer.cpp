@@ -14,6 +14,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/interpolate.h"
+#include "rondel/names.h"
 #include "rondel/query.h"
 #include "rondel/sites.h"
 
@@ -220,7 +221,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Question q;
   q.options.model = source.byte() % 16 == 15 ? Model::weighted : Model::projected;
   q.how.method = static_cast<Method>(source.below(6));
-  fuzz::require(method_of(name_of(q.how.method)) == q.how.method, "a name of its own");
+  fuzz::require(
+      from_name<Method>(name_of(q.how.method)) == q.how.method && names_of<Method>().size() == 6,
+      "a name of its own");
   q.how.outside = source.below(2) == 0 ? Outside::missing : Outside::nearest;
   q.how.shared_place = source.below(3) == 2 ? SharedPlace::mean : SharedPlace::first;
   const bool has_gradients = q.how.method == Method::hermite || q.how.method == Method::cubic;

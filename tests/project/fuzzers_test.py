@@ -110,7 +110,7 @@ class Fuzzers(unittest.TestCase):
         for name, fuzzers in fuzzers_of.items():
             sources = (folder / FUZZERS[fuzzer] for fuzzer in fuzzers)
             text = " ".join(without_comments(s.read_text(encoding="utf-8")) for s in sources)
-            call = rf"\b{name.split('::')[-1]}\("
+            call = rf"\b{name.split('::')[-1]}(<[\w:]+>)?\("
             self.assertIsNotNone(re.search(call, text), f"{fuzzers} do not call {name}")
 
 

@@ -5,6 +5,7 @@ rondel_add_test(interpolation_test
   interpolation_collected_test.cpp
   interpolation_errors_test.cpp
   interpolation_linear_test.cpp
+  interpolation_names_test.cpp
   interpolation_places_test.cpp
   interpolation_regrid_test.cpp
   interpolation_rings_test.cpp

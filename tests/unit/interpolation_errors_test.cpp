@@ -16,22 +16,6 @@
 namespace rondel::test {
 namespace {
 
-TEST(interpolation_names, each_value_has_one_of_its_own) {
-  EXPECT_EQ(name_of(Method::sibson), "sibson");
-  EXPECT_EQ(name_of(Outside::missing), "nan");
-  EXPECT_EQ(name_of(SharedPlace::mean), "mean");
-  EXPECT_EQ(name_of(Normalization::homogeneous), "homogeneous");
-  EXPECT_EQ(name_of(Undetermined::zero), "zero");
-  for (std::uint8_t k = 0; k < 6; ++k) {
-    const auto method = static_cast<Method>(k);
-    EXPECT_EQ(method_of(name_of(method)), method);
-  }
-  EXPECT_EQ(name_of(static_cast<Method>(6)), "");
-  EXPECT_EQ(name_of(static_cast<Undetermined>(2)), "");
-  EXPECT_EQ(method_of("Sibson"), std::nullopt);
-  EXPECT_EQ(method_of(""), std::nullopt);
-}
-
 TEST(interpolation_errors, a_missing_value_is_missed_where_it_counts) {
   const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
   const Interpolator interpolator(delaunay(sites));

@@ -20,16 +20,12 @@
 #include "columns.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 
 namespace rondel::python {
 namespace {
 
 using ValuesIn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-GlobeLines lines_of(const std::string& show) {
-  if (show == "delaunay") return GlobeLines::delaunay;
-  return show == "voronoi" ? GlobeLines::voronoi : GlobeLines::both;
-}
 
 SiteTable table_of(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
@@ -60,12 +56,12 @@ void add_globe(nb::module_& module) {
       [](const Triangulation& t, const PointsIn& points, const Diagram& diagram,
          const std::vector<ColumnIn>& columns, const std::optional<ValuesIn>& values,
          const Isolines* isolines, const std::string& name, const std::string& title,
-         const std::string& show, bool sites, bool circles,
+         nb::handle show, bool sites, bool circles,
          const std::optional<std::tuple<double, double>>& view) {
         GlobeOptions options;
         options.title = title;
         options.value_name = name;
-        options.lines = lines_of(show);
+        options.lines = named<GlobeLines>("show", show);
         options.show_sites = sites;
         options.show_circles = circles;
         if (view) options.view = LonLat{std::get<0>(*view), std::get<1>(*view)};
@@ -73,7 +69,7 @@ void add_globe(nb::module_& module) {
       },
       nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
       nb::arg("columns"), nb::arg("values").none(), nb::arg("isolines").none(), nb::arg("name"),
-      nb::arg("title"), nb::arg("show"), nb::arg("sites"), nb::arg("circles"),
+      nb::arg("title"), nb::arg("show").none(), nb::arg("sites"), nb::arg("circles"),
       nb::arg("view").none());
   module.def("coast_lines", [] {
     CoastLines coast = coast_lines();

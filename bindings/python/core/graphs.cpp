@@ -14,6 +14,7 @@
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/outlines.h"
 
 namespace rondel::python {
@@ -24,9 +25,10 @@ using OutlineOut =
     std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 using CirclesOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<std::int32_t>>;
 
-GraphOut graph(const Triangulation& t, int kind) {
+GraphOut graph(const Triangulation& t, nb::handle name) {
+  const auto kind = named<GraphKind>("kind", name);
   SiteGraph found = watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
-    return site_graph(t, static_cast<GraphKind>(kind), execution);
+    return site_graph(t, kind, execution);
   });
   return {to_array<std::int32_t>(std::move(found.edges)),
           to_array<double>(std::move(found.lengths))};

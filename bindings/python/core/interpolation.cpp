@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
 
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/interpolate.h"
 #include "rondel/regrid.h"
 #include "rondel/weights.h"
@@ -29,36 +28,6 @@ std::span<const double> numbers_of(const FieldsIn& fields) {
 }
 std::span<const Point> vectors_of(const VectorsIn& fields) {
   return {reinterpret_cast<const Point*>(fields.data()), fields.size() / 3};
-}
-
-// Method, Outside, SharedPlace and Normalization as numbers, and the rings of gradients.
-using Choices = std::tuple<int, int, int, int, unsigned>;
-
-InterpolationOptions options_of(const Choices& choices) {
-  const auto& [method, outside, shared_place, normalization, rings] = choices;
-  return {.method = static_cast<Method>(method),
-          .outside = static_cast<Outside>(outside),
-          .shared_place = static_cast<SharedPlace>(shared_place),
-          .normalization = static_cast<Normalization>(normalization),
-          .gradient = {.rings = rings}};
-}
-
-template <class Value>
-nb::tuple names_of_values() {
-  nb::list names;
-  for (std::uint8_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
-    const std::string_view name = name_of(static_cast<Value>(k));
-    names.append(nb::str(name.data(), name.size()));
-  }
-  return nb::tuple(names);
-}
-
-// Returns the names of the values of each enumeration, in the order of Choices, and then those of
-// Undetermined.
-nb::tuple interpolation_names() {
-  return nb::make_tuple(names_of_values<Method>(), names_of_values<Outside>(),
-                        names_of_values<SharedPlace>(), names_of_values<Normalization>(),
-                        names_of_values<Undetermined>());
 }
 
 Weights weights_from_arrays(const OffsetsIn& offsets, const IndicesIn& columns,
@@ -151,10 +120,10 @@ void add_weights(nb::module_& module) {
 
 ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
                            const std::optional<VectorsIn>& gradients, const PointsIn& targets,
-                           const Choices& choices, unsigned threads, const nb::object& listener) {
+                           const InterpolationOptions& options, unsigned threads,
+                           const nb::object& listener) {
   return to_array<double>(
       watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
-        const InterpolationOptions options = options_of(choices);
         if (!gradients) {
           return self.values(numbers_of(fields), points_of(targets), options, execution);
         }
@@ -167,7 +136,21 @@ ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
 
 void add_interpolation(nb::module_& module) {
   add_weights(module);
-  module.def("interpolation_names", &interpolation_names);
+  module.attr("METHODS") = names_in_python<Method>();
+  nb::class_<InterpolationOptions>(module, "InterpolationOptions")
+      .def(
+          "__init__",
+          [](InterpolationOptions* self, nb::handle method, nb::handle outside,
+             nb::handle duplicates, nb::handle normalization, unsigned rings) {
+            new (self) InterpolationOptions{
+                .method = named<Method>("method", method),
+                .outside = named<Outside>("outside", outside),
+                .shared_place = named<SharedPlace>("duplicates", duplicates),
+                .normalization = named<Normalization>("normalization", normalization),
+                .gradient = {.rings = rings}};
+          },
+          nb::kw_only(), nb::arg("method").none(), nb::arg("outside").none(),
+          nb::arg("duplicates").none(), nb::arg("normalization").none(), nb::arg("rings"));
   module.def(
       "point_set_hash",
       [](const PointsIn& points) {
@@ -183,13 +166,13 @@ void add_interpolation(nb::module_& module) {
           nb::arg("triangulation"))
       .def(
           "weights",
-          [](const Interpolator& self, const PointsIn& targets, const Choices& choices,
+          [](const Interpolator& self, const PointsIn& targets, const InterpolationOptions& options,
              unsigned threads, const nb::object& listener) {
             return watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
-              return self.weights(points_of(targets), options_of(choices), execution);
+              return self.weights(points_of(targets), options, execution);
             });
           },
-          nb::arg("targets").noconvert(), nb::arg("choices"), nb::arg("threads"),
+          nb::arg("targets").noconvert(), nb::arg("options"), nb::arg("threads"),
           nb::arg("progress").none())
       .def(
           "nearest_d2s_weights",
@@ -201,30 +184,29 @@ void add_interpolation(nb::module_& module) {
           nb::arg("sources").noconvert(), nb::arg("threads"))
       .def("values", &values_at, nb::arg("fields").noconvert(),
            nb::arg("gradients").noconvert().none(), nb::arg("targets").noconvert(),
-           nb::arg("choices"), nb::arg("threads"), nb::arg("progress").none())
+           nb::arg("options"), nb::arg("threads"), nb::arg("progress").none())
       .def(
           "gradient",
-          [](const Interpolator& self, std::size_t size, unsigned rings, int undetermined,
+          [](const Interpolator& self, std::size_t size, unsigned rings, nb::handle undetermined,
              unsigned threads, const nb::object& listener) {
-            const GradientOptions options{.rings = rings,
-                                          .undetermined = static_cast<Undetermined>(undetermined)};
+            const GradientOptions options{
+                .rings = rings, .undetermined = named<Undetermined>("undetermined", undetermined)};
             return watched(size, threads, listener, [&](const Execution& execution) {
               return self.gradient(options, execution);
             });
           },
-          nb::arg("size"), nb::arg("rings"), nb::arg("undetermined"), nb::arg("threads"),
+          nb::arg("size"), nb::arg("rings"), nb::arg("undetermined").none(), nb::arg("threads"),
           nb::arg("progress").none())
       .def(
           "vectors",
           [](const Interpolator& self, const VectorsIn& fields, const PointsIn& targets,
-             const Choices& choices, unsigned threads, const nb::object& listener) {
+             const InterpolationOptions& options, unsigned threads, const nb::object& listener) {
             return points_out(
                 watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
-                  return self.vectors(vectors_of(fields), points_of(targets), options_of(choices),
-                                      execution);
+                  return self.vectors(vectors_of(fields), points_of(targets), options, execution);
                 }));
           },
-          nb::arg("fields").noconvert(), nb::arg("targets").noconvert(), nb::arg("choices"),
+          nb::arg("fields").noconvert(), nb::arg("targets").noconvert(), nb::arg("options"),
           nb::arg("threads"), nb::arg("progress").none());
 }
 

@@ -16,6 +16,7 @@
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
 
@@ -46,12 +47,12 @@ std::tuple<MeshArrays, std::vector<std::string>> mesh_of_file(const std::string&
   return {std::move(arrays), std::move(remarks)};
 }
 
-void write_mesh(const MeshArrays& arrays, const std::string& path, int format, bool is_cdf2,
+void write_mesh(const MeshArrays& arrays, const std::string& path, nb::handle format, bool is_cdf2,
                 unsigned threads) {
+  const auto named_format = named<mesh::MeshFormat>("format", format);
   run_watched(arrays.num_cells(), threads, nb::none(), [&](const Execution& execution) {
     mesh::write(path, arrays,
-                {static_cast<mesh::MeshFormat>(format),
-                 is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::by_name},
+                {named_format, is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::by_name},
                 execution);
   });
 }
@@ -89,7 +90,7 @@ void add_mesh(nb::module_& module) {
   add_array<double, &MeshArrays::kite_areas>(type, "kite_areas");
   add_array<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
   type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
-  type.def("write", &write_mesh, nb::arg("path"), nb::arg("format"), nb::arg("is_cdf2"),
+  type.def("write", &write_mesh, nb::arg("path"), nb::arg("format").none(), nb::arg("is_cdf2"),
            nb::arg("threads"));
   type.def(
       "write_graph",

@@ -18,6 +18,7 @@
 #include "interrupt.h"
 #include "mesh_sizes.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/partition.h"
@@ -90,10 +91,9 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
 
 // Returns the lines of a file; `read` is read_lines() or read_places().
 template <auto read>
-std::vector<ArrayOut<double>> lines_of_file(const std::string& path, bool is_geodesic,
+std::vector<ArrayOut<double>> lines_of_file(const std::string& path, nb::handle edges,
                                             unsigned threads) {
-  const PolygonOptions options{.edges =
-                                   is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat};
+  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
   std::vector<ArrayOut<double>> lines;
   for (std::vector<Point>& line : watched_quietly(0, threads, [&](const Execution& execution) {
          return read(FileName{path, {}}, options, execution);
@@ -118,7 +118,7 @@ void add_mesh_parts(nb::module_& module) {
   add_sites("sites_along", &sites_of_lines<mesh::sites_along>);
   module.def("mesh_polygons", &mesh_polygons, nb::arg("arrays"), nb::arg("tolerance_deg"));
   const auto add_reader = [&](const char* name, auto* function) {
-    module.def(name, function, nb::arg("path"), nb::arg("is_geodesic"), nb::arg("threads"));
+    module.def(name, function, nb::arg("path"), nb::arg("edges").none(), nb::arg("threads"));
   };
   add_reader("read_lines", &lines_of_file<mesh::read_lines>);
   add_reader("read_places", &lines_of_file<mesh::read_places>);

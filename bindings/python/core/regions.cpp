@@ -17,6 +17,7 @@
 #include "columns.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/feature_cells.h"
 #include "rondel/partition.h"
 
@@ -62,11 +63,10 @@ void add_region_functions(nb::module_& module) {
       nb::arg("progress").none());
   module.def(
       "feature_cells",
-      [](const std::string& path, double tolerance, bool is_geodesic, unsigned overlap,
+      [](const std::string& path, double tolerance, nb::handle edges, nb::handle overlap,
          const Partition* within, unsigned threads, const nb::object& listener) {
-        const PolygonOptions options{
-            .edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
-            .overlap = static_cast<PolygonOverlap>(overlap)};
+        const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                                     .overlap = named<PolygonOverlap>("overlap", overlap)};
         return watched(0, threads, listener, [&](const Execution& execution) {
           const FeatureTable table = read_features(path, options, execution);
           return within == nullptr
@@ -75,7 +75,7 @@ void add_region_functions(nb::module_& module) {
                                              execution);
         });
       },
-      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("overlap"),
+      nb::arg("path"), nb::arg("tolerance"), nb::arg("edges").none(), nb::arg("overlap").none(),
       nb::arg("within").none(), nb::arg("threads"), nb::arg("progress").none());
   module.def(
       "cell_rings",

@@ -23,6 +23,7 @@
 #include "columns.h"
 #include "interrupt.h"
 #include "module.h"
+#include "named.h"
 #include "rondel/mesh_files.h"
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
@@ -59,16 +60,13 @@ RingsOut rings_out(CellRings rings) {
           indices_out(std::move(rings.whole))};
 }
 
-GridSides sides_of(bool are_arcs) {
-  return are_arcs ? GridSides::great_circles : GridSides::parallels;
-}
-
 // Returns the partition, its mask, its shape, the centers of the file in degrees, the remarks of the
 // reader, and the meridians and parallels between the cells, if it is a grid.
-nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
+nb::tuple read_partition(const std::string& path, nb::handle sides, unsigned threads) {
+  const auto grid_sides = named<GridSides>("sides", sides);
   auto [partition, table] = unlocked([&] {
     CellTable read = read_cells(path);
-    Partition made = partition_of(read, sides_of(are_arcs), {.threads = threads});
+    Partition made = partition_of(read, grid_sides, {.threads = threads});
     return std::tuple(std::move(made), std::move(read));
   });
   LonLatGrid lines = table.grid.value_or(LonLatGrid{});
@@ -88,10 +86,10 @@ std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
 // out.
 // Returns the cells, the properties and the remarks of the reader.
 std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partition(
-    const std::string& path, bool is_geodesic, unsigned overlap,
+    const std::string& path, nb::handle edges, nb::handle overlap,
     const std::optional<IndicesIn>& groups, unsigned threads) {
-  PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
-                         .overlap = static_cast<PolygonOverlap>(overlap)};
+  PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                         .overlap = named<PolygonOverlap>("overlap", overlap)};
   if (groups) {
     options.is_taken = [taken = mask_of(*groups)](std::size_t feature, auto&&) {
       return feature >= taken.size() || taken[feature] >= 0;
@@ -148,15 +146,15 @@ ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 
                                           rows_of<LonLat>(centers), {shape[0], shape[1]}));
 }
 
-RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
-                  bool is_fracarea, const IndicesIn& source_mask, const IndicesIn& target_mask,
-                  unsigned overlap, unsigned threads, const nb::object& listener) {
+RemapOut remap_of(const Partition& source, const Partition& target, unsigned order, nb::handle norm,
+                  const IndicesIn& source_mask, const IndicesIn& target_mask, nb::handle overlap,
+                  unsigned threads, const nb::object& listener) {
   const RemapOptions options{
       .order = order,
-      .norm = is_fracarea ? RemapNorm::fracarea : RemapNorm::destarea,
+      .norm = named<RemapNorm>("norm", norm),
       .source_mask = mask_of(source_mask),
       .target_mask = mask_of(target_mask),
-      .overlap = static_cast<CellOverlap>(overlap),
+      .overlap = named<CellOverlap>("overlap", overlap),
   };
   Remap found = watched(
       source.num_cells() + target.num_cells(), threads, listener,
@@ -183,13 +181,13 @@ void add_partition(nb::module_& module) {
           nb::arg("triangulation"), nb::arg("threads"))
       .def_static(
           "lonlat_grid",
-          [](const NumbersIn& lon, const NumbersIn& lat, bool are_arcs, unsigned threads) {
+          [](const NumbersIn& lon, const NumbersIn& lat, nb::handle sides, unsigned threads) {
+            const auto grid_sides = named<GridSides>("sides", sides);
             const LonLatGrid grid{numbers_of(lon), numbers_of(lat)};
-            return unlocked([&] {
-              return Partition::lonlat_grid(grid, sides_of(are_arcs), {.threads = threads});
-            });
+            return unlocked(
+                [&] { return Partition::lonlat_grid(grid, grid_sides, {.threads = threads}); });
           },
-          nb::arg("lon").noconvert(), nb::arg("lat").noconvert(), nb::arg("are_arcs"),
+          nb::arg("lon").noconvert(), nb::arg("lat").noconvert(), nb::arg("sides").none(),
           nb::arg("threads"))
       .def_static(
           "from_rings",
@@ -226,18 +224,18 @@ void add_remap(nb::module_& module) {
       .def(nb::init<>())
       .def_prop_rw("columns", &texts_of_columns, &set_columns);
   add_partition(module);
-  module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
+  module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("sides").none(),
              nb::arg("threads"));
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
              nb::arg("of_each"), nb::arg("centers").noconvert(), nb::arg("threads"));
   module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
              nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
-             nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("groups").noconvert().none(),
-             nb::arg("threads"));
+             nb::arg("edges").none(), nb::arg("overlap").none(),
+             nb::arg("groups").noconvert().none(), nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
-             nb::arg("is_fracarea"), nb::arg("source_mask").noconvert(),
-             nb::arg("target_mask").noconvert(), nb::arg("overlap"), nb::arg("threads"),
+             nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
+             nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),
              nb::arg("progress").none());
 }
 

@@ -23,9 +23,6 @@ from ._properties import json_cells
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 
-_OVERLAPS = ("keep", "error", "first")  # in the order of the C++ enumeration
-
-
 Groups: TypeAlias = np.ndarray[Any, np.dtype[np.int32]] | None
 Polygons: TypeAlias = tuple[_core.Partition, _core.CellColumns]  # and their properties
 
@@ -34,7 +31,7 @@ def read_polygons(
     name: str, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
 ) -> Polygons:
     """The polygons of a file of GeoJSON; those with a group below 0 are left out."""
-    rules = _is_geodesic(edges), _number_of(overlap), groups
+    rules = edges, overlap, groups
     partition, columns, remarks = _read(
         name, lambda file: _core.read_polygon_partition(file, *rules, threads)
     )
@@ -52,19 +49,16 @@ def polygons_of(
 
 
 def features_of(
-    features: Any, edges: Edges, overlap: PolygonOverlap, read: Callable[[str, bool, int], Any]
+    features: Any,
+    edges: Edges,
+    overlap: PolygonOverlap,
+    read: Callable[[str, Edges, PolygonOverlap], Any],
 ) -> Any:
     """The result of `read`, which gets a file with the features, and the rules."""
-    rules = _is_geodesic(edges), _number_of(overlap)
+    rules = edges, overlap
     if is_file(features):
         return _read(os.fspath(features), lambda file: read(file, *rules))
     return _of_objects(features, edges, lambda file: read(file, *rules))
-
-
-def _number_of(overlap: PolygonOverlap) -> int:
-    if overlap not in _OVERLAPS:
-        raise ValueError(f"overlap must be 'keep', 'error' or 'first', not {overlap!r}")
-    return _OVERLAPS.index(overlap)
 
 
 def _is_geodesic(edges: Edges) -> bool:

@@ -15,8 +15,6 @@ from ._types import FloatArray, IntArray
 
 GraphName: TypeAlias = Literal["delaunay", "urquhart", "gabriel", "relative", "mst"]
 
-_GRAPHS = ("delaunay", "urquhart", "gabriel", "relative", "mst")
-
 
 class Graph(NamedTuple):
     """A graph of sites.
@@ -108,9 +106,7 @@ class Graphs:
         [[0, 1], [1, 2], [2, 3]]
 
         """
-        if kind not in _GRAPHS:
-            raise ValueError(f"kind must be one of {', '.join(map(repr, _GRAPHS))}, not {kind!r}")
-        return Graph(*_core.site_graph(self._triangulation, _GRAPHS.index(kind)))
+        return Graph(*_core.site_graph(self._triangulation, kind))
 
     def edge_index(
         self, kind: GraphName = "delaunay", *, both: bool = True

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -20,33 +20,26 @@ SharedPlace: TypeAlias = Literal["first", "mean", "error"]
 Normalization: TypeAlias = Literal["unity", "homogeneous"]
 Undetermined: TypeAlias = Literal["zero", "missing"]
 
-METHODS, _OUTSIDE, _SHARED_PLACE, _NORMALIZATION, _UNDETERMINED = _core.interpolation_names()
-
-
-def _position(name: str, value: Any, known: tuple[str, ...]) -> int:
-    if value not in known:
-        raise ValueError(f"{name} must be one of {', '.join(map(repr, known))}, not {value!r}")
-    return known.index(value)
-
-
+METHODS: tuple[str, ...] = _core.METHODS
 USUAL_RINGS = 2
 
 
-def choices_of(
+def options_of(
     method: Method,
     outside: Outside,
     duplicates: SharedPlace,
     normalization: Normalization,
     rings: int,
-) -> tuple[int, int, int, int, int]:
+) -> _core.InterpolationOptions:
+    """The options of the library; raises ValueError for names that it does not know."""
     if _as_rings(rings) != USUAL_RINGS and method not in ("hermite", "cubic"):
         raise ValueError(f"rings are of the methods 'hermite' and 'cubic', not of {method!r}")
-    return (
-        _position("method", method, METHODS),
-        _position("outside", outside, _OUTSIDE),
-        _position("duplicates", duplicates, _SHARED_PLACE),
-        _position("normalization", normalization, _NORMALIZATION),
-        _as_rings(rings),
+    return _core.InterpolationOptions(
+        method=method,
+        outside=outside,
+        duplicates=duplicates,
+        normalization=normalization,
+        rings=_as_rings(rings),
     )
 
 
@@ -162,9 +155,9 @@ class Interpolation:
 
         """
         rays, _ = as_targets(targets)
-        choices = choices_of(method, outside, duplicates, normalization, rings)
+        options = options_of(method, outside, duplicates, normalization, rings)
         return Weights._of(
-            self._interpolator().weights(rays, choices, as_threads(threads), progress)
+            self._interpolator().weights(rays, options, as_threads(threads), progress)
         )
 
     def interpolate(
@@ -224,7 +217,7 @@ class Interpolation:
         fields = as_fields(values, self.npoints)
         require_finite_or_nan(fields, "values")
         rays, shape = as_targets(targets)
-        choices = choices_of(method, outside, duplicates, normalization, rings)
+        options = options_of(method, outside, duplicates, normalization, rings)
         leading = fields.shape[:-1]
         slopes = None
         if gradients is not None:
@@ -235,7 +228,7 @@ class Interpolation:
         if not fields.size:
             return np.full((*leading, *shape), np.nan)
         found = self._interpolator().values(
-            fields.reshape(-1, self.npoints), slopes, rays, choices, as_threads(threads), progress
+            fields.reshape(-1, self.npoints), slopes, rays, options, as_threads(threads), progress
         )
         return found.reshape((*leading, *shape))[()]
 
@@ -294,7 +287,7 @@ class Interpolation:
             self._interpolator().gradient(
                 self.npoints,
                 _as_rings(rings),
-                _position("undetermined", undetermined, _UNDETERMINED),
+                undetermined,
                 as_threads(threads),
                 progress,
             )

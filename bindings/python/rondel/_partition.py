@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of
 from ._errors import InvalidInput, warn_caller
-from ._partition_files import FileCells, Sides, are_arcs
+from ._partition_files import FileCells, Sides
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
@@ -146,7 +146,7 @@ class Partition(FileCells, Described):
 
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        lines = meridians, parallels, are_arcs(sides)
+        lines = meridians, parallels, sides
         made = _core.Partition.lonlat_grid(*lines, as_threads(threads))
         axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
         shape = len(axes[1]), len(axes[0])

@@ -21,12 +21,6 @@ Sides: TypeAlias = Literal["parallels", "great_circles"]
 Made = TypeVar("Made", bound="FileCells")
 
 
-def are_arcs(sides: str) -> bool:
-    if sides not in ("parallels", "great_circles"):
-        raise ValueError(f"sides must be 'parallels' or 'great_circles', not {sides!r}")
-    return sides == "great_circles"
-
-
 class FileCells:
     """The data of a `Partition`, and the functions that read it."""
 
@@ -145,12 +139,10 @@ class FileCells:
         found: list[Any] = []
         write_named(
             name,
-            lambda name: found.extend(
-                _core.read_partition(name, are_arcs(sides), count_of_threads)
-            ),
+            lambda name: found.extend(_core.read_partition(name, sides, count_of_threads)),
         )
         partition, mask, shape, centers, remarks, *lines = found
-        origin = ("lonlat_grid", *lines, are_arcs(sides)) if len(lines[0]) else None
+        origin = ("lonlat_grid", *lines, sides) if len(lines[0]) else None
         for remark in remarks:
             warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
         places = centers if len(centers) else None

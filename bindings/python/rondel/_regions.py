@@ -498,8 +498,8 @@ def feature_cells(
         features,
         edges,
         overlap,
-        lambda name, is_geodesic, rule: _core.feature_cells(
-            name, tolerance, is_geodesic, rule, area, as_threads(threads), progress
+        lambda name, edges, rule: _core.feature_cells(
+            name, tolerance, edges, rule, area, as_threads(threads), progress
         ),
     )
     return Regions._of(found, np.arange(found.num_cells), "feature")

@@ -114,9 +114,6 @@ class Remap(Described):
         return f"{source} to {target}, {weights}"
 
 
-_OVERLAPS = ("error", "first", "share")
-
-
 def remap(
     source: Any,
     target: Any,
@@ -192,10 +189,6 @@ def remap(
     array([3.5, 5.5])
 
     """
-    if norm not in ("destarea", "fracarea"):
-        raise ValueError(f"norm must be 'destarea' or 'fracarea', not {norm!r}")
-    if overlap not in _OVERLAPS:
-        raise ValueError(f"overlap must be 'error', 'first' or 'share', not {overlap!r}")
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
     cells = [_as_partition(side, threads) for side in (source, target)]
@@ -207,9 +200,9 @@ def remap(
         cells[0]._partition,
         cells[1]._partition,
         order,
-        norm == "fracarea",
+        norm,
         *masks,
-        _OVERLAPS.index(overlap),
+        overlap,
         as_threads(threads),
         progress,
     )

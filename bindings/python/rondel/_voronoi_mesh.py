@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 Kind: TypeAlias = Literal["cdf5", "cdf2"]
 
-_FORMATS = ("mpas", "ugrid", "scrip", "esmf", "exodus")
-
 
 class EdgeWeights(NamedTuple):
     """Weights of edges in compressed rows (CSR), which `Mesh.tangential_weights` returns.
@@ -292,7 +290,7 @@ class Mesh:
     def _write(self, path: Path, form: str, kind: Kind, threads: int | None) -> None:
         if kind not in ("cdf5", "cdf2"):
             raise ValueError(f"kind is {kind!r}, which is neither 'cdf5' nor 'cdf2'")
-        self._arrays.write(as_name(path), _FORMATS.index(form), kind == "cdf2", as_threads(threads))
+        self._arrays.write(as_name(path), form, kind == "cdf2", as_threads(threads))
 
     def to_mpas(
         self,

@@ -16,7 +16,7 @@ from ._interpolation import (
     SharedPlace,
     as_targets,
     as_vectors,
-    choices_of,
+    options_of,
 )
 from ._types import ArrayLike, FloatArray, Progress
 
@@ -76,12 +76,12 @@ class VectorInterpolation(Interpolation):
         """
         fields = as_vectors(vectors, self.npoints, "vectors")
         rays, shape = as_targets(targets)
-        choices = choices_of(method, outside, duplicates, "homogeneous", rings)
+        options = options_of(method, outside, duplicates, "homogeneous", rings)
         leading = fields.shape[:-2]
         if not fields.size:
             return np.full((*leading, *shape, 3), np.nan)
         found = self._interpolator().vectors(
-            fields.reshape(-1, self.npoints, 3), rays, choices, as_threads(threads), progress
+            fields.reshape(-1, self.npoints, 3), rays, options, as_threads(threads), progress
         )
         return found.reshape((*leading, *shape, 3))
 
