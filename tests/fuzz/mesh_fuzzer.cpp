@@ -95,8 +95,8 @@ void test_regions(const std::vector<Point>& sites) {
     regions.corners.push_back(static_cast<Index>(regions.points.size()));
     regions.points.push_back({site.x / length, site.y / length, site.z / length});
     if (regions.corners.size() % 5 != 0) continue;
-    regions.rings.push_back(regions.corners.size());
-    regions.cells.push_back(regions.rings.size() - 1);
+    regions.end_ring();
+    regions.end_cell();
   }
   if (regions.rings.back() != regions.corners.size()) regions.corners.resize(regions.rings.back());
   try {

@@ -205,9 +205,8 @@ CellRings next_rings(ByteSource& source, const Triangulation& t) {
   }
   if (t.dimension() == 2 && source.below(2) == 0) {
     for (const Triple& face : t.faces()) {
-      for (const Index v : face) rings.corners.push_back(v);
-      rings.rings.push_back(rings.corners.size());
-      rings.cells.push_back(rings.rings.size() - 1);
+      rings.append_ring(face);
+      rings.end_cell();
     }
   }
   const std::size_t more = source.below(4);
@@ -216,11 +215,18 @@ CellRings next_rings(ByteSource& source, const Triangulation& t) {
     for (std::size_t k = 0; k < size; ++k) {
       rings.corners.push_back(static_cast<Index>(source.below(rings.points.size() + 1)));
     }
-    rings.rings.push_back(rings.corners.size());
-    if (source.below(4) != 0) rings.cells.push_back(rings.rings.size() - 1);
+    rings.end_ring();
+    if (source.below(4) != 0) rings.end_cell();
   }
   if (source.below(16) == 0) rings.cells.push_back(source.byte());
   return rings;
+}
+
+std::vector<Index> corners_by_offsets(const CellRings& cells, std::size_t ring) {
+  const auto at = [&](std::size_t r) {
+    return cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]);
+  };
+  return {at(ring), at(ring + 1)};
 }
 
 // Every cell but some, which become empty.
@@ -228,14 +234,18 @@ Partition without_some(const Partition& cells, Index step) {
   const CellRings all = cells.rings();
   CellRings result;
   result.points = all.points;
+  CellRings again = result;
   for (std::size_t i = 0; i < all.num_cells(); ++i) {
-    for (auto r = all.cells[i]; i % step != 0 && r < all.cells[i + 1]; ++r) {
-      for (auto k = all.rings[r]; k < all.rings[r + 1]; ++k) {
-        result.corners.push_back(all.corners[k]);
-      }
-      result.rings.push_back(result.corners.size());
-    }
-    result.cells.push_back(result.rings.size() - 1);
+    again.append_cell(all, i);
+    if (i % step != 0) result.append_rings(all, i);
+    result.end_cell();
+  }
+  require(again.cells == all.cells && again.rings == all.rings && again.corners == all.corners &&
+              again.whole == all.whole,
+          "all cells one after the other are the cells");
+  for (std::size_t r = 0; r + 1 < all.rings.size(); ++r) {
+    require(std::ranges::equal(all.corners_of(r), corners_by_offsets(all, r)),
+            "a ring has its corners");
   }
   return Partition(result);
 }
