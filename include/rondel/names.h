@@ -6,7 +6,7 @@
 /// has the names of its values in the tool, in files and in Python.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -18,7 +18,7 @@ namespace rondel {
 template <class Value>
 std::vector<std::string_view> names_of() {
   std::vector<std::string_view> names;
-  for (std::uint8_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
+  for (std::size_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
     names.push_back(name_of(static_cast<Value>(k)));
   }
   return names;
@@ -29,7 +29,7 @@ std::vector<std::string_view> names_of() {
 template <class Value>
 std::optional<Value> from_name(std::string_view name) {
   const std::vector<std::string_view> names = names_of<Value>();
-  for (std::uint8_t k = 0; k < names.size(); ++k) {
+  for (std::size_t k = 0; k < names.size(); ++k) {
     if (names[k] == name) return static_cast<Value>(k);
   }
   return std::nullopt;

@@ -238,8 +238,8 @@ TEST(bilinear, hashes_are_those_of_places_and_targets) {
 }
 
 // Expects InvalidInput with this text and index.
-void expect_refused(const LonLatAxes& grid, const std::vector<LonLat>& targets,
-                    const std::string& text, std::size_t index) {
+void expect_bad_grid(const LonLatAxes& grid, const std::vector<LonLat>& targets,
+                     const std::string& text, std::size_t index) {
   try {
     (void)bilinear_weights(grid, targets);
     FAIL() << text;
@@ -253,17 +253,17 @@ TEST(bilinear, what_is_no_axis_is_refused) {
   const std::vector<double> good = {0, 1, 2};
   const std::size_t no = InvalidInput::no_index;
   const std::string rule = "must be an axis: two numbers or more, increasing or decreasing";
-  expect_refused({{}, good}, {}, "lon " + rule, no);
-  expect_refused({good, {7}}, {}, "lat " + rule, no);
-  expect_refused({{0, nan, 2}, good}, {}, "lon[1] is nan: an axis has no gaps", 1);
-  expect_refused({good, {0, 1, std::numeric_limits<double>::infinity()}}, {}, "lat[2] is inf", 2);
-  expect_refused({{0, 1, 1}, good}, {}, "lon[2] is 1 after 1", 2);
-  expect_refused({good, {3, 2, 2.5, 1}}, {}, "lat[2] is 2.5 after 2", 2);
-  expect_refused({{0, 360}, good}, {}, "lon[1] is 360 after 0", 1);
-  expect_refused({{0x1.8p60, 0x1.8p60 + 512}, good}, {}, "two different meridians", no);
-  expect_refused({good, {0, 91}}, {}, "91", 3);
-  expect_refused({good, good}, {{0, 0}, {0, -90.5}}, "-90.5", 1);
-  expect_refused({good, good}, {{nan, 0}}, "not finite", 0);
+  expect_bad_grid({{}, good}, {}, "lon " + rule, no);
+  expect_bad_grid({good, {7}}, {}, "lat " + rule, no);
+  expect_bad_grid({{0, nan, 2}, good}, {}, "lon[1] is nan: an axis has no gaps", 1);
+  expect_bad_grid({good, {0, 1, std::numeric_limits<double>::infinity()}}, {}, "lat[2] is inf", 2);
+  expect_bad_grid({{0, 1, 1}, good}, {}, "lon[2] is 1 after 1", 2);
+  expect_bad_grid({good, {3, 2, 2.5, 1}}, {}, "lat[2] is 2.5 after 2", 2);
+  expect_bad_grid({{0, 360}, good}, {}, "lon[1] is 360 after 0", 1);
+  expect_bad_grid({{0x1.8p60, 0x1.8p60 + 512}, good}, {}, "two different meridians", no);
+  expect_bad_grid({good, {0, 91}}, {}, "91", 3);
+  expect_bad_grid({good, good}, {{0, 0}, {0, -90.5}}, "-90.5", 1);
+  expect_bad_grid({good, good}, {{nan, 0}}, "not finite", 0);
 }
 
 TEST(bilinear, places_of_a_grid_have_axes) {

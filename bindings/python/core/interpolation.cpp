@@ -132,10 +132,7 @@ ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
       }));
 }
 
-}  // namespace
-
-void add_interpolation(nb::module_& module) {
-  add_weights(module);
+void add_options(nb::module_& module) {
   module.attr("METHODS") = names_in_python<Method>();
   nb::class_<InterpolationOptions>(module, "InterpolationOptions")
       .def(
@@ -151,6 +148,13 @@ void add_interpolation(nb::module_& module) {
           },
           nb::kw_only(), nb::arg("method").none(), nb::arg("outside").none(),
           nb::arg("duplicates").none(), nb::arg("normalization").none(), nb::arg("rings"));
+}
+
+}  // namespace
+
+void add_interpolation(nb::module_& module) {
+  add_weights(module);
+  add_options(module);
   module.def(
       "point_set_hash",
       [](const PointsIn& points) {
