@@ -54,7 +54,7 @@ inline std::vector<double> areas_in(const std::string& path) {
 
 template <class Row>
 std::vector<std::uint64_t> numbers_of(std::span<const Row> rows) {
-  constexpr std::size_t width = sizeof(Row) / sizeof(Index);
+  constexpr std::size_t width = sizeof(std::array<Row, 1>) / sizeof(Index);
   std::vector<std::uint64_t> numbers;
   for (const Row& row : rows) {
     for (const Index i : std::bit_cast<std::array<Index, width>>(row)) numbers.push_back(i);

@@ -63,10 +63,10 @@ TEST(overlay_pieces, of_octants_are_halves) {
     ASSERT_EQ(found.offsets.size(), 9U);
     ASSERT_EQ(found.columns.size(), 16U);
     EXPECT_EQ(found.moments.size(), has_moments ? 16U : 0U);
-    for (Index i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < 8; ++i) {
       EXPECT_EQ(found.offsets[i], 2 * i);
       // Turned octant k begins in the middle of octant k, so that octant k ends in it.
-      const Index before = i / 4 * 4 + (i + 3) % 4;
+      const std::size_t before = i / 4 * 4 + (i + 3) % 4;
       EXPECT_EQ(found.columns[2 * i], std::min(i, before));
       EXPECT_EQ(found.columns[2 * i + 1], std::max(i, before));
       EXPECT_NEAR(found.areas[2 * i], pi / 4, 1e-15);
@@ -121,7 +121,7 @@ TEST(overlay_pieces, of_parts_need_no_cover) {
   const Subdivision north(turned_octants(45, 4), false, 1);
   const PieceRows found = overlay::pieces_of_parts(octants, octant_sizes, north, true, {});
   ASSERT_EQ(found.columns.size(), 8U);
-  for (Index i = 0; i <= 8; ++i) EXPECT_EQ(found.offsets[i], std::min<std::uint64_t>(2 * i, 8));
+  for (std::size_t i = 0; i <= 8; ++i) EXPECT_EQ(found.offsets[i], std::min<std::size_t>(2 * i, 8));
   for (std::size_t k = 0; k < 8; ++k) {
     EXPECT_NEAR(found.areas[k], pi / 4, 1e-14);
     EXPECT_NEAR(found.moments[k].z, pi / 8, 1e-14);
