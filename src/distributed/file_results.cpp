@@ -149,10 +149,13 @@ class ResultWriter {
     });
   }
 
-  // Writes the ghost faces; joined faces keep their order among all faces.
+  // Writes the numbers of the ghost faces in increasing order.
   void write_ghost_faces() {
-    for (const Index face : joined_.faces.ghost_faces)
-      results_.ghost_faces->add(numbers_.faces[face]);
+    std::vector<std::uint64_t> numbers;
+    numbers.reserve(joined_.faces.ghost_faces.size());
+    for (const Index face : joined_.faces.ghost_faces) numbers.push_back(numbers_.faces[face]);
+    std::ranges::sort(numbers);
+    for (const std::uint64_t number : numbers) results_.ghost_faces->add(number);
   }
 
   // Adds the areas of the cells of a bucket's vertices.
