@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 
 #include "rondel/predicates.h"
@@ -23,6 +24,14 @@ struct InPlane {
 // Returns the distance |dlon| + |dlat| in degrees.
 inline double distance_in_plane(const LonLat& p, const LonLat& q) {
   return std::abs(p.lon_deg - q.lon_deg) + std::abs(p.lat_deg - q.lat_deg);
+}
+
+// Returns which of some equal parts of the map's longitudes has this one; the first and the last part
+// have what is beyond the map.
+inline std::size_t part_of_longitudes(double lon_deg, std::size_t num_parts) {
+  const double share = std::clamp((lon_deg + 180) / 360, 0.0, 1.0);
+  const auto part = static_cast<std::size_t>(share * static_cast<double>(num_parts));
+  return std::min(part, num_parts - 1);
 }
 
 // True if two positions are within 1e-6 degrees of each other, so that a line that ends at one of

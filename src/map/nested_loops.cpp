@@ -55,9 +55,7 @@ class SidesByLongitude {
     return {loop[k], loop[k + 1 == loop.size() ? 0 : k + 1]};
   }
   [[nodiscard]] std::size_t list_at(double lon_deg) const {
-    const double share = (lon_deg + 180) / 360;
-    const auto list = static_cast<std::size_t>(share * static_cast<double>(lists_.size()));
-    return std::min(list, lists_.size() - 1);
+    return part_of_longitudes(lon_deg, lists_.size());
   }
 
   std::span<const std::vector<LonLat>> loops_;

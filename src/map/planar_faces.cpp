@@ -206,9 +206,7 @@ void PlanarFaces::list_by_longitude() {
 }
 
 std::size_t PlanarFaces::list_at(double lon_deg) const {
-  const double share = (lon_deg + 180) / 360;
-  const auto list = static_cast<std::size_t>(share * static_cast<double>(lists_.size()));
-  return std::min(list, lists_.size() - 1);
+  return part_of_longitudes(lon_deg, lists_.size());
 }
 
 }  // namespace rondel::map
