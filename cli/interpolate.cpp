@@ -70,8 +70,8 @@ Triangulation triangulated(Job& job, const InterpolateOptions& options, const Si
   return triangulation;
 }
 
-// Interpolates fields at the targets. Methods of regridding have weights. All fields without gaps share one triangulation; successive
-// fields with the same gaps share another one.
+// Interpolates fields at the targets. Methods of regridding have weights. All fields without gaps
+// share one triangulation; successive fields with the same gaps share another one.
 class FieldCarrier {
  public:
   FieldCarrier(Job& job, const InterpolateOptions& options, const SiteTable& table,

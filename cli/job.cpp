@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point start) {
 
 }  // namespace
 
-// What a job remembers between its stages.
+// A job remembers this between its stages.
 struct Job::State {
   explicit State(const CommonOptions& common) : options(common), line(common.quiet) {}
 

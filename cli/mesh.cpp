@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the commands of `rondel mesh` share: reading a mesh or its sites, and writing the mesh, its
-// graph and its report.
+// The commands of `rondel mesh` share these functions: reading a mesh or its sites, and writing the
+// mesh, its graph and its report.
 #include "mesh.h"
 
 #include <CLI/CLI.hpp>

@@ -30,7 +30,7 @@ constexpr Color hidden_circle_color{0.000, 0.440, 0.340, 0.30};
 constexpr Color isoline_color{0.02, 0.02, 0.04, 0.75};
 constexpr Color site_color{0.06, 0.06, 0.08};
 
-// What is behind the globe is mixed with white.
+// Lines on the far side of the globe have colors that are mixed with white.
 const Color triangulation_back_color = blend(triangulation_color, white, 0.75);
 const Color diagram_back_color = blend(diagram_color, white, 0.70);
 constexpr double back_circle_paleness = 0.75;

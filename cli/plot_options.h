@@ -20,8 +20,8 @@ namespace rondel::cli {
 
 /// Which edges are drawn: those of the triangles, those of the cells, or both.
 enum class Show { none, delaunay, voronoi, both };
-/// What colors show: the areas of the cells, a value in each cell, or a field that is linear in the
-/// triangles.
+/// Colors show nothing, the areas of the cells, a value in each cell, or a field that is linear in
+/// the triangles.
 enum class Fill { none, area, cells, field };
 
 /// The options as they are given.

@@ -67,8 +67,8 @@ void prepare_process() {
   handle_signals();
 }
 
-// Where the parent has made the process ignore Ctrl-C, as shells do with jobs in the background, it
-// goes on ignoring it.
+// A process that its parent has made ignore Ctrl-C, as shells do with jobs in the background, goes
+// on ignoring it.
 const std::atomic<bool>& interrupted_by_user() {
   if (std::signal(SIGINT, &rondel_interrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
   return is_interrupted;

@@ -20,8 +20,8 @@
 
 namespace rondel::interpolation {
 
-// What a reader is asked for: fields of these names, or all; with num_points = 0 at as many points
-// as the file has.
+// A reader is asked for the fields of these names, or for all. With num_points = 0 they are at as
+// many points as the file has.
 struct FieldsToRead {
   std::span<const std::string> names;
   std::uint64_t num_points;
@@ -34,7 +34,7 @@ FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted);
 
-// What a writer gets before any values: the fields, and the points that they are at.
+// A writer gets the fields and the points that they are at before it gets any values.
 struct FieldsToWrite {
   const FieldSet& fields;  // names, dimensions and attributes of the fields, without values
   const WeightSide& side;

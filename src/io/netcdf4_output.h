@@ -20,7 +20,7 @@
 
 namespace rondel::io {
 
-// What the file is to have.
+// The dimensions, variables and attributes that the file gets.
 struct Netcdf4Definitions {
   const std::vector<NetcdfDimension>& dimensions;
   const std::vector<NetcdfAttribute>& attributes;

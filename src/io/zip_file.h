@@ -30,7 +30,7 @@ class RONDEL_API ZipWriter {
   void finish();
 
  private:
-  // What the directory at the end says of a member.
+  // A member, as the directory at the end describes it.
   struct Member {
     std::string name;
     std::uint32_t checksum;

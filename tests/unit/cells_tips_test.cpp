@@ -83,7 +83,7 @@ TEST(cell_map_tips, turned_lunes_leave_points_where_they_are) {
   }
 }
 
-// The same for so few sites that it takes no time.
+// So few sites have the tips of the cells above in no time.
 TEST(cell_map_tips, of_few_sites_shrink_where_they_are) {
   for (const char* kind : {"rotated_circle_0", "meridian_rounded"}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {

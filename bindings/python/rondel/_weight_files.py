@@ -142,7 +142,7 @@ def write_weights(
 def _degrees(points: ArrayLike | None) -> FloatArray:
     if points is None:
         return np.zeros((0, 2))
-    return np.ascontiguousarray(degrees_of(as_floats(points, "points").reshape(-1, 3)))
+    return degrees_of(as_floats(points, "points").reshape(-1, 3))
 
 
 def _areas(values: ArrayLike | None, name: str) -> FloatArray:
