@@ -7,18 +7,12 @@ include(CMakePackageConfigHelpers)
 set(RONDEL_TARGETS rondel)
 set(RONDEL_C_TARGETS "")
 set(RONDEL_PACKAGES rondel)
-set(RONDEL_HEADERS_LEFT_OUT PATTERN io.h EXCLUDE PATTERN polygons.h EXCLUDE PATTERN globe.h EXCLUDE
-                            PATTERN out_of_core.h EXCLUDE PATTERN distributed.h EXCLUDE PATTERN mpi.h EXCLUDE
-                            PATTERN weights.h EXCLUDE PATTERN interpolate.h EXCLUDE PATTERN regrid.h EXCLUDE PATTERN contours.h EXCLUDE
-                            PATTERN weight_files.h EXCLUDE PATTERN weight_check.h EXCLUDE PATTERN fields.h EXCLUDE PATTERN cell_rings.h EXCLUDE
-                            PATTERN partition.h EXCLUDE PATTERN remap.h EXCLUDE PATTERN regions.h EXCLUDE PATTERN polygon_files.h EXCLUDE PATTERN mesh_files.h EXCLUDE PATTERN graphs.h EXCLUDE
-                            PATTERN outlines.h EXCLUDE PATTERN feature_cells.h EXCLUDE PATTERN mesh.h EXCLUDE
-                            PATTERN mesh_quality.h EXCLUDE PATTERN mesh_io.h EXCLUDE PATTERN mesh_partition.h EXCLUDE PATTERN mesh_size.h EXCLUDE
-                            PATTERN mesh_cull.h EXCLUDE PATTERN mesh_lines.h EXCLUDE PATTERN mesh_size_files.h EXCLUDE PATTERN point_sets.h EXCLUDE PATTERN scvt.h EXCLUDE)
+# The headers of the core, and with files all of them.
+set(RONDEL_HEADERS "check|delaunay|diagram|dynamic|error|export|hull|names|predicates|query|rondel|sites|triangulation|types|version")
 if(RONDEL_BUILD_IO)
-  list(APPEND RONDEL_TARGETS rondel_io rondel_remap rondel_mesh rondel_distributed rondel_globe)
-  list(APPEND RONDEL_PACKAGES rondel-io rondel-remap rondel-mesh rondel-distributed rondel-globe)
-  set(RONDEL_HEADERS_LEFT_OUT "")
+  list(APPEND RONDEL_TARGETS rondel_geo rondel_distributed)
+  list(APPEND RONDEL_PACKAGES rondel-geo rondel-distributed)
+  set(RONDEL_HEADERS "[^/]+")
 endif()
 if(TARGET rondel_wasm_exceptions)
   list(APPEND RONDEL_TARGETS rondel_wasm_exceptions)
@@ -38,7 +32,7 @@ foreach(kind "" C_)
 endforeach()
 install(DIRECTORY include/rondel ${PROJECT_BINARY_DIR}/include/rondel
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
-        FILES_MATCHING PATTERN "*.h" ${RONDEL_HEADERS_LEFT_OUT})
+        FILES_MATCHING REGEX "/(${RONDEL_HEADERS})\\.h$")
 install(EXPORT rondelTargets NAMESPACE rondel::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondel COMPONENT development)
 get_target_property(RONDEL_LIBRARY_TYPE rondel TYPE)
@@ -61,10 +55,10 @@ endif()
 if(RONDEL_HAS_TBB)
   string(APPEND RONDEL_LINK_RONDEL " -ltbb")
 endif()
-set(RONDEL_LINK_IO "-lz")
+set(RONDEL_LINK_GEO "-lz")
 if(NOT RONDEL_IS_STATIC)
   set(RONDEL_LINK_RONDEL "")
-  set(RONDEL_LINK_IO "")
+  set(RONDEL_LINK_GEO "")
 endif()
 foreach(name ${RONDEL_PACKAGES})
   configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)

@@ -3,7 +3,7 @@
 
 /// \file
 /// The interpretation of the Climate and Forecast conventions (CF 1.11) and their relatives: which
-/// variables are coordinates, and what numbers stand for (target rondel::io). The readers of files,
+/// variables are coordinates, and what numbers stand for (target rondel::geo). The readers of files,
 /// the tool and the Python package share it.
 #pragma once
 

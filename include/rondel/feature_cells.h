@@ -3,7 +3,7 @@
 
 /// \file
 /// Voronoi cells of lines and polygons: the part of the sphere to which a river, road, border or
-/// country is nearest (target rondel::remap).
+/// country is nearest (target rondel::geo).
 #pragma once
 
 #include <cstddef>

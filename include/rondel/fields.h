@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading and writing of values at points (target rondel::remap). Every function throws FileError
+/// Reading and writing of values at points (target rondel::geo). Every function throws FileError
 /// with one line that names the file.
 #pragma once
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// An interactive globe in the browser (target rondel::globe): one page of HTML that needs neither
+/// An interactive globe in the browser (target rondel::geo): one page of HTML that needs neither
 /// a server nor a network. Its reader can turn the globe and zoom in down to centimetres, pick
 /// sites, cells and triangles, search, choose what is shown, and save a picture.
 #pragma once

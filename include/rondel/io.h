@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading and writing of files (target rondel::io; POSIX and Windows). Every function throws
+/// Reading and writing of files (target rondel::geo; POSIX and Windows). Every function throws
 /// FileError with one line that names the file and, where there is one, the line and the value.
 /// Output goes to a temporary file beside the named one and is renamed when it is complete, so a
 /// failure or a signal leaves the file that was there before. The library does not wait for the

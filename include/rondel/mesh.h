@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Meshes for models of atmosphere and ocean, from the sites of their cells (target rondel::mesh).
+/// Meshes for models of atmosphere and ocean, from the sites of their cells (target rondel::geo).
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Meshes of a part of the sphere, such as the ocean or a region (target rondel::mesh).
+/// Meshes of a part of the sphere, such as the ocean or a region (target rondel::geo).
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 /// \file
 /// Reading the cells of models: unstructured meshes and grids in longitude and latitude (target
-/// rondel::remap).
+/// rondel::geo).
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading and writing of meshes in the formats of models and their tools (target rondel::mesh).
+/// Reading and writing of meshes in the formats of models and their tools (target rondel::geo).
 /// Every function throws FileError with one line that names the file. Output appears complete or
 /// not at all, and equal meshes give equal bytes.
 #pragma once

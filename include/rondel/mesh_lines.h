@@ -3,7 +3,7 @@
 
 /// \file
 /// Sites along lines, so that edges of cells follow the lines (coasts, borders of regions, rivers),
-/// and sites on lines (target rondel::mesh).
+/// and sites on lines (target rondel::geo).
 #pragma once
 
 #include <cstddef>

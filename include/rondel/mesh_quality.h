@@ -3,7 +3,7 @@
 
 /// \file
 /// The quality of a mesh, in the numbers that decide whether a model runs on it (target
-/// rondel::mesh).
+/// rondel::geo).
 #pragma once
 
 #include <array>

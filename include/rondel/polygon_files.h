@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading polygons as cells: countries, land, catchments (target rondel::remap).
+/// Reading polygons as cells: countries, land, catchments (target rondel::geo).
 #pragma once
 
 #include <cstddef>

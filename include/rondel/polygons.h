@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Cells and faces as polygons of longitude and latitude (target rondel::io), for programs that
+/// Cells and faces as polygons of longitude and latitude (target rondel::geo), for programs that
 /// draw or store maps: the polygons of the GeoJSON that write_cells() and write_triangles() write.
 #pragma once
 

@@ -115,7 +115,7 @@ struct LonLatRegions {
 };
 
 /// Computes polygons within [-180, 180] x [-90, 90], cut at the antimeridian and the poles (target
-/// rondel::io).
+/// rondel::geo).
 ///
 /// 1. They are valid in the sense of OGC simple features, exactly, for these doubles.
 /// 2. Where two cells meet, both have the same positions, bit by bit, also where only one of them

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Checks of files of weights (target rondel::remap).
+/// Checks of files of weights (target rondel::geo).
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading and writing of weights in the formats of other programs (target rondel::remap). Every
+/// Reading and writing of weights in the formats of other programs (target rondel::geo). Every
 /// function throws FileError with one line that names the file.
 #pragma once
 

@@ -14,11 +14,10 @@
 #include <string_view>
 
 #include "rondel/error.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
-class RONDEL_API BadValue : public std::runtime_error {
+class BadValue : public std::runtime_error {
  public:
   explicit BadValue(const std::string& what, std::uint64_t line = 0)
       : std::runtime_error(what), line_(line) {}

@@ -11,8 +11,6 @@
 #include <span>
 #include <string>
 
-#include "rondel/export.h"
-
 namespace rondel::io {
 
 // Throws InvalidInput unless each value is beyond the one before it, in the same direction:
@@ -20,7 +18,6 @@ namespace rondel::io {
 // next, all east or all west. Values that are NaN are passed over.
 // \param is_longitude  whether values may jump by turns of 360 degrees
 // \param name  the name of a value in the message, "latitude"
-RONDEL_API void require_order(std::span<const double> values, bool is_longitude,
-                              const std::string& name);
+void require_order(std::span<const double> values, bool is_longitude, const std::string& name);
 
 }  // namespace rondel::io

@@ -12,26 +12,25 @@
 #include <string_view>
 
 #include "rondel/conventions.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
 // Returns the text with ASCII letters in lower case; other characters are not changed.
-RONDEL_API std::string lower_case(std::string_view text);
+std::string lower_case(std::string_view text);
 // Returns the text without blanks at both ends.
-RONDEL_API std::string_view without_blanks(std::string_view text);
+std::string_view without_blanks(std::string_view text);
 
 // The two kinds of coordinates on a sphere.
 enum class CoordinateKind { lon, lat };
 
 // True if models give this name to longitudes, or latitudes, of places. It decides if no attribute
 // does.
-RONDEL_API bool is_known_name(std::string_view name, CoordinateKind kind);
+bool is_known_name(std::string_view name, CoordinateKind kind);
 // True if MPAS or ICON give this name to longitudes, or latitudes, of vertices or edges.
 bool is_name_of_part(std::string_view name, CoordinateKind kind);
 // Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its
 // units, 3 its standard_name.
-RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
+int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
 // True if the standard_name says that these are coordinates of a rotated pole or of a map
 // projection, whatever their units are (CF 5.6).
 bool is_rotated_or_projected(const VariableHeader& variable);
@@ -42,12 +41,12 @@ std::string remark_on_rotation(const VariableHeader& variable);
 bool are_partners(std::string_view lon, std::string_view lat);
 // Returns a sentence for each variable that has a name of longitudes or latitudes and units that
 // are no degrees, and for each that is rotated or projected; each begins with "; ".
-RONDEL_API std::string remark_on_units(std::span<const VariableHeader> variables);
+std::string remark_on_units(std::span<const VariableHeader> variables);
 // True if MPAS or ICON, whose coordinates are radians, have a variable of this name.
 bool is_in_radians(std::string_view name);
 // True if the variable has the name of a list of neighbors or corners in MPAS or ICON, or a cf_role
 // of such a list in UGRID.
-RONDEL_API bool is_connectivity(const VariableHeader& variable);
+bool is_connectivity(const VariableHeader& variable);
 // True if `name` is a usual name of the bounds of `coordinate`.
 bool is_name_of_bounds(std::string_view name, std::string_view coordinate);
 }  // namespace rondel::io

@@ -17,22 +17,19 @@
 
 #include "io/netcdf_reader.h"
 #include "rondel/conventions.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
 // Return the headers of all variables of the file, in their order, and of one variable.
-RONDEL_API std::vector<VariableHeader> headers_of(const NetcdfReader& file);
-RONDEL_API VariableHeader header_of(const NetcdfReader& file,
-                                    const NetcdfReader::Variable& variable);
+std::vector<VariableHeader> headers_of(const NetcdfReader& file);
+VariableHeader header_of(const NetcdfReader& file, const NetcdfReader::Variable& variable);
 
 // Returns the values unpacked, with NaN for missing ones. Throws BadValue if they are no numbers.
-RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
-                                             const NetcdfReader::Variable& variable);
+std::vector<double> meant_numbers(const NetcdfReader& file, const NetcdfReader::Variable& variable);
 
 // Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing.
 // degrees_of() does so, too.
-RONDEL_API void require_sphere(const NetcdfReader& file);
+void require_sphere(const NetcdfReader& file);
 
 // The units of a coordinate that has none and is related to no variable with units.
 enum class UsualUnits { of_name, degrees, radians };
@@ -40,21 +37,18 @@ enum class UsualUnits { of_name, degrees, radians };
 // the first of its relatives that has some; a relative may be null. The first relative is of the
 // same kind: if the longitudes of corners are west of Greenwich, so are the centers', but latitudes
 // say nothing about that. Throws BadValue for units that are neither degrees nor radians.
-RONDEL_API std::vector<double> degrees_of(
-    const NetcdfReader& file, const NetcdfReader::Variable& variable,
-    UsualUnits usual = UsualUnits::of_name,
-    std::initializer_list<const NetcdfReader::Variable*> relatives = {});
+std::vector<double> degrees_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
+                               UsualUnits usual = UsualUnits::of_name,
+                               std::initializer_list<const NetcdfReader::Variable*> relatives = {});
 
 // Returns an array with its dimensions in another order: order[k] is the new position of dimension
 // k of `shape`.
-RONDEL_API std::vector<double> transposed(std::span<const std::uint64_t> shape,
-                                          const std::vector<std::size_t>& order,
-                                          std::vector<double> values);
+std::vector<double> transposed(std::span<const std::uint64_t> shape,
+                               const std::vector<std::size_t>& order, std::vector<double> values);
 // Returns the values with the dimensions in the wanted order; dimensions are given by their numbers
 // in the file, which differ.
-RONDEL_API std::vector<double> in_order(const NetcdfReader::Variable& variable,
-                                        const std::vector<std::size_t>& wanted,
-                                        std::vector<double> values);
+std::vector<double> in_order(const NetcdfReader::Variable& variable,
+                             const std::vector<std::size_t>& wanted, std::vector<double> values);
 
 // Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
 struct PlaceArrays {
@@ -67,8 +61,7 @@ struct PlaceArrays {
   std::vector<double> lat;
 };
 // Reads the places. Throws BadValue if the dimensions of `lon` and `lat` do not agree.
-RONDEL_API PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
-                                 const NetcdfReader::Variable& lat,
-                                 UsualUnits usual = UsualUnits::of_name);
+PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
+                      const NetcdfReader::Variable& lat, UsualUnits usual = UsualUnits::of_name);
 
 }  // namespace rondel::io

@@ -23,11 +23,10 @@
 #include <vector>
 
 #include "io/netcdf_format.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
-class RONDEL_API ValueRules {
+class ValueRules {
  public:
   // Throws BadValue if scale_factor or add_offset is no finite number, or several.
   explicit ValueRules(const NetcdfVariable& variable);
@@ -72,6 +71,6 @@ class RONDEL_API ValueRules {
 };
 
 // Returns the number that netCDF writes where nothing was written; NaN for types that have none.
-RONDEL_API double default_fill(NetcdfType type);
+double default_fill(NetcdfType type);
 
 }  // namespace rondel::io

@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
@@ -26,13 +25,13 @@ Column make_column(std::string_view name);
 void append_cell(Column& column, std::string_view cell);
 
 // Appends a field of a table, in quotes if it needs them.
-RONDEL_API void append_csv_field(std::string& text, std::string_view field, char separator);
+void append_csv_field(std::string& text, std::string_view field, char separator);
 
 // Returns a table with a header and a line for each row; an empty text if there are no columns.
-RONDEL_API std::string csv_of(std::span<const Column> columns);
+std::string csv_of(std::span<const Column> columns);
 
 // Returns the columns of such a table. Throws BadValue if the text is no table or has another
 // number of rows.
-RONDEL_API std::vector<Column> columns_of_csv(std::string_view text, std::size_t num_rows);
+std::vector<Column> columns_of_csv(std::string_view text, std::size_t num_rows);
 
 }  // namespace rondel::io

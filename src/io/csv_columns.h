@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
@@ -37,15 +36,15 @@ CoordinateColumns find_columns(const std::vector<std::string>& header, const Rea
 // Returns the names of the columns without blanks around them. A column without a name, as pandas'
 // to_csv() and R's write.csv() write their index, gets its position as a name, counted from 1:
 // "column_1".
-RONDEL_API std::vector<std::string> column_names(const std::vector<std::string_view>& header);
+std::vector<std::string> column_names(const std::vector<std::string_view>& header);
 
 // Returns the column of exactly this name, or nothing. Throws BadValue with both positions if two
 // have it.
-RONDEL_API std::optional<std::size_t> find_column(const std::vector<std::string>& names,
-                                                  std::string_view name);
+std::optional<std::size_t> find_column(const std::vector<std::string>& names,
+                                       std::string_view name);
 
 // Throws BadValue if two columns have the same name.
-RONDEL_API void require_different_names(const std::vector<std::string>& names);
+void require_different_names(const std::vector<std::string>& names);
 
 // True if other programs treat a record that begins with this field as a comment.
 bool is_comment(std::string_view first_field);

@@ -15,18 +15,16 @@
 #include <string_view>
 #include <vector>
 
-#include "rondel/export.h"
-
 namespace rondel::io {
 
 // Returns the text of a table without the byte order mark of UTF-8. Throws BadValue for UTF-16.
-RONDEL_API std::string_view table_text(std::string_view bytes);
+std::string_view table_text(std::string_view bytes);
 
 // 1. Records end with LF or CRLF, or with the text. Empty lines are skipped. A CR alone ends no
 //    record, and may stand only in quotes.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
 //    one and line ends are part of it. Elsewhere quotes are ordinary characters.
-class RONDEL_API CsvRecords {
+class CsvRecords {
  public:
   CsvRecords(std::string_view text, char delimiter)
       : next_(text.data()), start_(next_), end_(next_ + text.size()), delimiter_(delimiter) {}

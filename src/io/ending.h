@@ -28,10 +28,10 @@ RONDEL_API std::string ending(const FileName& file);
 inline constexpr std::array<std::string_view, 9> netcdf_endings = {
     ".nc", ".nc4", ".cdf", ".ncf", ".ug", ".exo", ".e", ".g", ".h5"};
 // True if the format or, if none is named, the ending of the path is one of them.
-RONDEL_API bool has_netcdf_ending(const FileName& file);
+bool has_netcdf_ending(const FileName& file);
 
 // Returns the options, with the kind that the file's name tells if they have none.
-RONDEL_API NetcdfOptions with_kind(NetcdfOptions options, const FileName& file);
+NetcdfOptions with_kind(NetcdfOptions options, const FileName& file);
 
 // Returns the row of a table of formats whose member `ending` matches the file; null if there is
 // none.
@@ -46,8 +46,8 @@ const Format* find_format(std::span<const Format> formats, const FileName& file)
 
 // Throws FileError: `out.dat: unknown ending ".dat"; cells are written as .geojson .vtp .npz`,
 // where `what` is "cells are written as".
-[[noreturn]] RONDEL_API void throw_unknown_ending(const FileName& file, std::string_view what,
-                                                  std::span<const std::string_view> known);
+[[noreturn]] void throw_unknown_ending(const FileName& file, std::string_view what,
+                                       std::span<const std::string_view> known);
 
 // Returns the row of find_format(); if there is none, throws FileError with all known endings.
 template <typename Format>

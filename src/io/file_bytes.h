@@ -12,14 +12,13 @@
 #include <string>
 #include <string_view>
 
-#include "rondel/export.h"
 #include "system/huge_pages.h"
 
 namespace rondel::io {
 
 // A file that is read in two steps, so that false claims in its header can be refused before the
 // rest takes time and memory.
-class RONDEL_API FileBytes {
+class FileBytes {
  public:
   // Opens the file and reads its head. "-" is standard input. Throws FileError:
   // "stations.csv: No such file or directory", "stations.csv: compressed (gzip); unpack it first".

@@ -10,13 +10,12 @@
 #include <string>
 #include <utility>
 
-#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
 
 // Returns the file, and the name behind the last colon. The name is empty if a file of the whole
 // name exists, or none of the part before the colon.
-RONDEL_API std::pair<FileName, std::string> split_part(const FileName& file);
+std::pair<FileName, std::string> split_part(const FileName& file);
 
 }  // namespace rondel::io

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
 
@@ -46,6 +45,6 @@ enum class FeatureKinds : std::uint8_t { polygons, all };
 // Reads Polygons and MultiPolygons, alone or in collections, or all kinds of geometries. A feature
 // without a place has no rings. Throws FileError with the line of the first geometry that is not
 // valid.
-RONDEL_API PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds);
+PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds);
 
 }  // namespace rondel::io

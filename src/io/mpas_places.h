@@ -12,7 +12,6 @@
 #include <string>
 
 #include "io/netcdf_reader.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -22,6 +21,6 @@ enum class PlacesMay : std::uint8_t { be_missing, not_be_missing };
 // Throws BadValue with the first place, if lonCell and latCell are not the directions of xCell,
 // yCell and zCell, or, as `may` says, no place; `kind` is "Cell", "Edge" or "Vertex". Does nothing
 // if the file lacks one of them.
-RONDEL_API void require_one_place(const NetcdfReader& file, const std::string& kind, PlacesMay may);
+void require_one_place(const NetcdfReader& file, const std::string& kind, PlacesMay may);
 
 }  // namespace rondel::io

@@ -12,7 +12,6 @@
 
 #include "io/netcdf_header.h"
 #include "io/netcdf_reader.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -25,7 +24,6 @@ void resolve_names(NetcdfHeader& header);
 // Returns the variable's name in the reader for one that a user wrote: "/group/name", or the name
 // alone if only one group has it. An index in brackets may follow. Other names are returned as they
 // are.
-RONDEL_API std::string full_name(std::span<const NetcdfReader::Variable> variables,
-                                 const std::string& name);
+std::string full_name(std::span<const NetcdfReader::Variable> variables, const std::string& name);
 
 }  // namespace rondel::io

@@ -19,7 +19,6 @@
 
 #include "io/file_bytes.h"
 #include "io/netcdf_format.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -33,7 +32,7 @@ struct NetcdfBox {
 };
 
 // True if a netCDF file of any format begins with these bytes.
-RONDEL_API bool is_netcdf(std::string_view head);
+bool is_netcdf(std::string_view head);
 
 // A file of netCDF-4 has what the classic formats have, and more:
 // 1. Variables of a group are called "group/name", and come after those of the file itself, as do
@@ -42,7 +41,7 @@ RONDEL_API bool is_netcdf(std::string_view head);
 // 3. An attribute of several strings is a text with spaces between them.
 // 4. Variables and attributes of types that the file defines itself are left out; the message of
 //    require() says so of such a variable.
-class RONDEL_API NetcdfReader {
+class NetcdfReader {
  public:
   // A variable with its place in the file.
   struct Variable : NetcdfVariable {
@@ -132,17 +131,15 @@ class RONDEL_API NetcdfReader {
 };
 
 // Returns the text of an attribute; an empty text if there is none, or it is a number.
-RONDEL_API std::string netcdf_text(std::span<const NetcdfAttribute> attributes,
-                                   std::string_view name);
+std::string netcdf_text(std::span<const NetcdfAttribute> attributes, std::string_view name);
 // Returns the attribute, or null.
-RONDEL_API const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
-                                                 std::string_view name);
+const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
+                                      std::string_view name);
 
 // Returns the lengths of a grid of `size` cells, which SCRIP lists from the fastest dimension on,
 // with the slowest dimension first. Returns an empty vector if there are fewer than two. Throws
 // BadValue if their product is not the size.
-RONDEL_API std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
-                                                    const NetcdfReader::Variable& lengths,
-                                                    std::uint64_t size);
+std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
+                                         const NetcdfReader::Variable& lengths, std::uint64_t size);
 
 }  // namespace rondel::io

@@ -23,7 +23,6 @@
 #include "io/binary.h"
 #include "io/netcdf_format.h"
 #include "io/parallel_write.h"
-#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
@@ -38,7 +37,7 @@ class Netcdf4Output;
 // definition, in any number of pieces, then finish(). Equal calls give equal bytes; for netCDF-4,
 // with the same library. A dimension of size 0 is the dimension of records, of which there are
 // none; there may be one such dimension.
-class RONDEL_API NetcdfWriter {
+class NetcdfWriter {
  public:
   explicit NetcdfWriter(AtomicFile& file);
   ~NetcdfWriter();

@@ -31,7 +31,7 @@ struct NpyHeader {
 };
 
 // Reads the header of a file of version 1, 2 or 3. Throws BadValue if it is not valid.
-RONDEL_API NpyHeader parse_npy_header(std::string_view bytes);
+NpyHeader parse_npy_header(std::string_view bytes);
 
 // Returns a header of version 1 for an array in C order, padded so that the data is aligned to 64
 // bytes.
@@ -39,7 +39,7 @@ RONDEL_API std::string make_npy_header(std::string_view dtype,
                                        std::span<const std::uint64_t> shape);
 
 // Returns the shape as Python writes it, such as "(10, 3)".
-RONDEL_API std::string shape_text(std::span<const std::uint64_t> shape);
+std::string shape_text(std::span<const std::uint64_t> shape);
 
 // A two-dimensional array in the bytes of a file.
 class NpyTable {

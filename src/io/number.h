@@ -17,14 +17,13 @@
 #include <type_traits>
 
 #include "io/bad_value.h"
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::io {
 
 // Returns the finite number in `field`; blanks around it and a leading plus are allowed. `what`
 // names it in the message of BadValue: `longitude "12,5" is not a number`.
-RONDEL_API double parse_number(std::string_view field, std::string_view what);
+double parse_number(std::string_view field, std::string_view what);
 
 // Returns the integer in `field`; blanks around it are allowed. `what` is as above.
 std::int64_t parse_integer(std::string_view field, std::string_view what);
@@ -55,7 +54,7 @@ double exact_double(Number value) {
 }
 
 // Appends the shortest digits that give back the same bits.
-RONDEL_API void append_number(std::string& out, double value);
+void append_number(std::string& out, double value);
 void append_integer(std::string& out, std::uint64_t value);
 
 // True if JSON accepts `text` as a number (RFC 8259, section 6).
@@ -65,7 +64,7 @@ bool is_json_number(std::string_view text);
 // without control characters.
 std::string one_line(std::string_view text, std::size_t longest);
 // Returns one_line() of a value, at most 60 bytes, in quotes.
-RONDEL_API std::string in_quotes(std::string_view value);
+std::string in_quotes(std::string_view value);
 
 // Returns the position in degrees of a longitude and latitude, given in degrees or radians. Throws
 // BadValue if they are not finite or the latitude lies beyond a pole.
@@ -79,6 +78,6 @@ double checked_radius(double radius, bool is_radians);
 Point checked_point(const Point& point);
 
 // Returns the text without the blanks and tabs around it.
-RONDEL_API std::string_view trim(std::string_view text);
+std::string_view trim(std::string_view text);
 
 }  // namespace rondel::io

@@ -14,7 +14,6 @@
 #include <string>
 
 #include "io/atomic_file.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -24,7 +23,7 @@ inline constexpr std::size_t items_per_piece = 4096;
 // Calls append(text, begin, end) for the pieces of [0, count), which appends their text, and writes
 // the texts one after the other. The texts of four pieces a thread are in memory at once. Between
 // pieces it calls report(end) from the calling thread, if that is given.
-RONDEL_API void write_in_parallel(
+void write_in_parallel(
     AtomicFile& file, unsigned threads, std::size_t count, std::size_t grain,
     const std::function<void(std::string& text, std::size_t begin, std::size_t end)>& append,
     const std::function<void(std::size_t end)>& report = {});

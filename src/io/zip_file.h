@@ -13,13 +13,12 @@
 #include <vector>
 
 #include "io/atomic_file.h"
-#include "rondel/export.h"
 
 namespace rondel::io {
 
 // Equal members give equal bytes, since the date is always January 1, 1980. Members and archives of
 // 4 GiB and more use the zip64 fields.
-class RONDEL_API ZipWriter {
+class ZipWriter {
  public:
   explicit ZipWriter(AtomicFile& file) : file_(file) {}
 

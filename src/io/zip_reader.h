@@ -10,16 +10,14 @@
 #include <string>
 #include <string_view>
 
-#include "rondel/export.h"
-
 namespace rondel::io {
 
 // Returns the content of a member of the archive in `bytes`. Throws BadValue if there is none, the
 // archive is damaged, or a checksum is wrong; no memory is allocated for a size that the archive's
 // bytes cannot have.
-RONDEL_API std::string zip_member(std::string_view bytes, std::string_view name);
+std::string zip_member(std::string_view bytes, std::string_view name);
 
 // True if the archive has such a member.
-RONDEL_API bool has_zip_member(std::string_view bytes, std::string_view name);
+bool has_zip_member(std::string_view bytes, std::string_view name);
 
 }  // namespace rondel::io

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "exact/vector.h"
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -37,7 +36,7 @@ inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + 
 
 // Returns the longitude and latitude of a unit vector that is not a pole. A point on the
 // antimeridian has two longitudes: it gets 180 if `east` is true, and -180 otherwise.
-RONDEL_API LonLat lonlat_of(const Point& p, bool east);
+LonLat lonlat_of(const Point& p, bool east);
 
 // Returns the unit vector of a position.
 Point point_at(const LonLat& position);

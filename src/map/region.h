@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -58,13 +57,11 @@ std::vector<std::vector<LonLat>> region_loops(std::span<const UnitVectors> rings
 // Returns the polygons of a region that shares its border with no other drawn region, as
 // valid_regions() does. Parts that are no wider than rounding are dropped. `tolerance` is in
 // radians.
-RONDEL_API std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
-                                                         double tolerance);
+std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings, double tolerance);
 
 // Returns the parts of a line that is cut at the antimeridian and at the poles; each part has at
 // least two positions. A closed line (of three or more points) that meets neither is one part whose
 // last position is the first one. `tolerance` is in radians.
-RONDEL_API std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed,
-                                                       double tolerance);
+std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, double tolerance);
 
 }  // namespace rondel::map

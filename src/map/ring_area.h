@@ -10,7 +10,6 @@
 #include <span>
 
 #include "exact/eft.h"
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -19,7 +18,7 @@ namespace rondel::map {
 // Oosterom, Strackee 1983). For a small ring the triangles are at its first point, and the sign is
 // right however thin the ring is. For a large ring they are at its center of mass, or at another
 // point whose antipode is no corner.
-RONDEL_API double area_on_left(std::span<const Point> ring);
+double area_on_left(std::span<const Point> ring);
 
 // Returns the sum of area_on_left() of all rings of a region, which is its area but for a multiple of 4 pi. It is taken in
 // twice the precision, as rings may cancel each other.
@@ -31,10 +30,10 @@ template <class Rings>
 }
 
 // True if area_on_left() is less than 0. If all triangles turn the same way, no angle is computed.
-RONDEL_API bool is_clockwise(std::span<const Point> ring);
+bool is_clockwise(std::span<const Point> ring);
 
 // True only if the size of area_on_left() is at least `area`. The test computes no angle and needs
 // triangles that all turn the same way; false says nothing.
-RONDEL_API bool is_surely_larger(std::span<const Point> ring, double area);
+bool is_surely_larger(std::span<const Point> ring, double area);
 
 }  // namespace rondel::map

@@ -26,7 +26,6 @@
 
 #include "map/planar_loops.h"
 #include "map/region.h"
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -44,7 +43,7 @@ using PolygonsOfRegion = std::vector<PolygonWithHoles>;
 //
 // A region that is no wider than rounding gets no polygons. `may_overlap` says that regions may
 // overlap although their lines do not cross, because draw_region() did not know the border of one.
-RONDEL_API std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions,
-                                                       unsigned threads, bool may_overlap = false);
+std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads,
+                                            bool may_overlap = false);
 
 }  // namespace rondel::map

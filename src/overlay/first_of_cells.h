@@ -7,7 +7,6 @@
 #include <span>
 
 #include "rondel/cell_rings.h"
-#include "rondel/export.h"
 #include "rondel/regions.h"
 #include "rondel/types.h"
 
@@ -15,7 +14,7 @@ namespace rondel::overlay {
 
 // Returns the cells and one more: the complement of their union. Precondition: no two cells
 // overlap.
-RONDEL_API CellRings with_outside(CellRings cells, const Execution& execution);
+CellRings with_outside(CellRings cells, const Execution& execution);
 
 // Assigns each place to the first cell that has it, and returns the cells. `overlaps` are the
 // overlapping_cells() of `cells`. Precondition: no cell overlaps itself.

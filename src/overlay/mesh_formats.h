@@ -18,7 +18,6 @@
 
 #include "io/cf_reader.h"
 #include "io/netcdf_reader.h"
-#include "rondel/export.h"
 #include "rondel/mesh_files.h"
 #include "rondel/partition.h"
 #include "rondel/types.h"
@@ -53,8 +52,8 @@ struct MeshContent {
 
 // Returns what read_cells() returns for a file, or for the grid that the variable `part` is on.
 // `file_name` is for messages. Throws BadValue.
-RONDEL_API CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
-                              const std::string& part);
+CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
+                   const std::string& part);
 
 // Each reader returns nothing if the file does not follow its convention, or if `name` is not empty
 // and that variable is not on cells of this convention. Throws BadValue for a file that follows the

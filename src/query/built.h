@@ -21,7 +21,7 @@
 
 namespace rondel::query {
 
-// RONDEL_API, here and in engine.h: what rondel::remap uses.
+// RONDEL_API, here and in engine.h: what rondel::geo uses.
 class RONDEL_API Built {
  public:
   // Vertices whose keys are equal are in the order of the input, or as this puts them (ties.h).

@@ -26,7 +26,7 @@
 
 namespace rondel::system {
 
-// RONDEL_API marks what rondel::io uses; it is promised to nobody else.
+// RONDEL_API marks what rondel::geo and rondel::distributed use; it is promised to nobody else.
 
 // How many threads a bound stands for: itself, but no more than 1024; for 0 the number of cores;
 // 1 without threads.

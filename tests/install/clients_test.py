@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|c|components|distributed|globe|mesh|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
+    clients_test.py pkg_config|c|components|distributed|geo|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
 
-Each compiles client.cpp, that in C examples/c_interface.c, those of other libraries theirs, as globe/globe.cpp, and
-compares what it prints. The libraries are those of rondel, rondel::io, rondel::distributed, rondel::remap and
-rondel::mesh.
+Each compiles client.cpp, that in C examples/c_interface.c, those of other libraries theirs, as geo/geo.cpp, and
+compares what it prints. The libraries are those of rondel, rondel::geo and rondel::distributed.
 """
 
 import os
@@ -20,11 +19,14 @@ import tempfile
 from commands import run
 
 
-# What rondel::distributed, rondel::remap and rondel::mesh use of the core and of rondel::io.
+# What rondel::geo uses of the core, and rondel::distributed of both.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|require_delaunay|validate|validate_queries)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
     r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(AtomicFile|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|has_zip_member|remark_on_units|require_o(ne_place|rder)|append_(csv_field|number)|column_names|columns_of_csv|csv_of|ending|find_(attribute|column)|full_name|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|require_different_names|shape_(of_grid|text)|table_text|throw_unknown_ending|trim|zip_member|replaced_by|temporary_name|write_in_parallel|ValueRules|coordinate_evidence|default_fill|degrees_of|has_netcdf_ending|header_of|headers_of|in_order|is_connectivity|is_known_name|is_netcdf|lower_case|meant_numbers|places_of|split_part|transposed|with_kind|without_blanks)|map::(area_on_left|is_clockwise|is_surely_larger|line_parts|lonlat_of|region_polygons|valid_regions)|overlay::(cells_in|with_outside)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
+
+# What the client of rondel::geo prints.
+FROM_GEO = "mean, an error\nmesh, an error\npage, an error\n"
 
 
 class Client:
@@ -43,7 +45,7 @@ class Client:
         """A source of this test."""
         return self.source / "tests/install" / name
 
-    def package_flags(self, package="rondel-io"):
+    def package_flags(self, package="rondel-geo"):
         """What pkg-config says of an installed package."""
         run([self.cmake, "--install", self.build, "--prefix", self.work / "prefix"])
         folders = {path.parent for path in (self.work / "prefix").rglob("rondel*.pc")}
@@ -71,27 +73,19 @@ class Client:
         self.expected = self.file("expected/c_interface.txt").read_text(encoding="utf-8")
         self.expect(run([self.work / "client"]))
 
-    def globe(self):
-        """A program that makes a page, by pkg-config and by CMake."""
-        self.of_library("globe", "a page, an error\n")
+    def geo(self):
+        """A program that applies weights and makes a mesh and a page, by pkg-config and by CMake."""
+        self.of_library("geo", FROM_GEO)
 
     def distributed(self):
         """A program that triangulates by way of files, by pkg-config and by CMake."""
         self.of_library("distributed", "8 faces, 1 error\n")
 
-    def remap(self):
-        """A program that carries values, by pkg-config and by CMake."""
-        self.of_library("remap", "a value, an error\n")
-
-    def mesh(self):
-        """A program that makes a mesh, by pkg-config and by CMake."""
-        self.of_library("mesh", "12 cells, an error\n")
-
     def components(self):
         """Components that the package has are found, and others named."""
         run([self.cmake, "--install", self.build, "--prefix", self.work / "prefix"])
-        for components, expected in (("rondel io remap mesh globe distributed", "found 1"),
-                                     ("io sphere remap torus", "no component sphere, torus; its components are rondel, io")):
+        for components, expected in (("rondel geo distributed c", "found 1"),
+                                     ("geo sphere torus", "no component sphere, torus; its components are rondel, geo")):
             folder = self.work / ("known" if expected.startswith("found") else "unknown")
             folder.mkdir()
             (folder / "CMakeLists.txt").write_text(
@@ -127,8 +121,7 @@ class Client:
     def shared(self):
         """The shared libraries: what they show, and a program that links them."""
         for source, expected in (("client.cpp", self.expected), ("distributed/distributed.cpp", "8 faces, 1 error\n"),
-                                 ("remap/remap.cpp", "a value, an error\n"),
-                                 ("mesh/mesh.cpp", "12 cells, an error\n")):
+                                 ("geo/geo.cpp", FROM_GEO)):
             paths = [f"-Wl,-rpath,{library.parent}" for library in self.libraries]
             run([*self.compile, self.file(source), "-o", self.work / "client",
                  f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
@@ -137,8 +130,7 @@ class Client:
         # These show what libraries above them use.
         layers = set((self.source / "src/LAYERS").read_text(encoding="utf-8").split()) - {"system", "exact"}
         private = re.compile(rf"\brondel::({'|'.join(sorted(layers))})::")
-        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(", "rondel::apply(",
-                  "rondel::mesh::arrays(")
+        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(")
         for library, known in zip(self.libraries, public, strict=True):
             names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])
             shown = [line for line in names.splitlines() if private.search(line.partition("(")[0])]

@@ -5,7 +5,7 @@ rondel_add_test(api_test
   api_arithmetic_test.cpp
   api_progress_test.cpp
   api_threads_test.cpp
-  LIBS rondel_io rondel_test_support)
+  LIBS rondel_geo rondel_test_support)
 
 # What -ffast-math leaves of the proofs is nothing, so that the library does not compile with it.
 add_test(NAME arithmetic.does_not_compile_without_ieee_rules

@@ -24,4 +24,4 @@ rondel_add_test(cells_test
   map_ring_area_test.cpp
   map_trace_test.cpp
   map_troubles_test.cpp
-  LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
+  LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)

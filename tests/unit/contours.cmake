@@ -5,4 +5,4 @@ rondel_add_test(contours_test
   contours_map_test.cpp
   contours_pieces_test.cpp
   contours_topology_test.cpp
-  LIBS rondel_remap rondel_test_support nlohmann_json::nlohmann_json)
+  LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)

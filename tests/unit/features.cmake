@@ -2,4 +2,4 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(features_test
   features_cells_test.cpp
-  LIBS rondel_remap)
+  LIBS rondel_geo)

@@ -4,4 +4,4 @@ rondel_add_test(graphs_test
   graphs_files_test.cpp
   graphs_kinds_test.cpp
   graphs_outlines_test.cpp
-  LIBS rondel_remap rondel_test_support)
+  LIBS rondel_geo rondel_test_support)

@@ -11,14 +11,14 @@ rondel_add_test(interpolation_test
   interpolation_rings_test.cpp
   interpolation_rules_test.cpp
   interpolation_weights_test.cpp
-  LIBS rondel_remap rondel_dual_support rondel_test_support)
+  LIBS rondel_geo rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_natural_test
   interpolation_natural_cell_test.cpp
   interpolation_natural_laws_test.cpp
   interpolation_natural_test.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/natural_oracle.cpp
-  LIBS rondel_remap rondel_dual_support rondel_test_support)
+  LIBS rondel_geo rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_slopes_test
   interpolation_cubic_test.cpp
@@ -26,6 +26,6 @@ rondel_add_test(interpolation_slopes_test
   interpolation_gradient_test.cpp
   interpolation_hermite_test.cpp
   interpolation_tracks_test.cpp
-  LIBS rondel_remap rondel_dual_support rondel_test_support)
+  LIBS rondel_geo rondel_dual_support rondel_test_support)
 
-rondel_add_test(weight_files_test field_names_test.cpp field_places_test.cpp field_slices_test.cpp weight_check_test.cpp weight_files_test.cpp LIBS rondel_remap)
+rondel_add_test(weight_files_test field_names_test.cpp field_places_test.cpp field_slices_test.cpp weight_check_test.cpp weight_files_test.cpp LIBS rondel_geo)

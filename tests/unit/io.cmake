@@ -29,16 +29,16 @@ rondel_add_test(io_test
   io_utf8_test.cpp
   io_wide_integers_test.cpp
   io_zip_test.cpp
-  LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)
 
 # A program of its own: what a sanitizer of threads needs.
-rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io rondel_test_support)
+rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_geo rondel_test_support)
 
 # What netCDF-C, which judges it, comes with is in scripts/tools/packages/test.txt.
 add_executable(netcdf_large netcdf_large.cpp)
 rondel_test_settings(netcdf_large)
 target_include_directories(netcdf_large PRIVATE ${PROJECT_SOURCE_DIR}/src)
-target_link_libraries(netcdf_large PRIVATE rondel_io)
+target_link_libraries(netcdf_large PRIVATE rondel_geo)
 add_test(NAME netcdf_writer.of_more_than_4_gib_is_read_by_netcdf_c
          COMMAND ${RONDEL_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/netcdf_large_test.py
                  $<TARGET_FILE:netcdf_large>)

@@ -7,4 +7,4 @@ rondel_add_test(mesh_test
   mesh_cull_test.cpp
   mesh_files_test.cpp
   mesh_quality_test.cpp
-  LIBS rondel_mesh rondel_test_support nlohmann_json::nlohmann_json)
+  LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)

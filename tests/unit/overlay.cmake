@@ -35,5 +35,5 @@ rondel_add_test(overlay_test
   overlay_valid_test.cpp
   overlay_whole_test.cpp
   overlay_written_test.cpp
-  LIBS rondel_remap rondel_test_support nlohmann_json::nlohmann_json)
+  LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)
 rondel_compile_alone(overlay_test overlay_plane_test.cpp overlay_valid_test.cpp)

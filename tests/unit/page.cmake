@@ -7,4 +7,4 @@ rondel_add_test(page_test
   page_coast_test.cpp
   page_globe_test.cpp
   page_packed_test.cpp
-  LIBS rondel_globe nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBS rondel_geo nlohmann_json::nlohmann_json ZLIB::ZLIB)

@@ -13,4 +13,4 @@ rondel_add_test(scvt_test
   scvt_repair_test.cpp
   scvt_steps_test.cpp
   scvt_test.cpp
-  LIBS rondel_mesh rondel_test_support)
+  LIBS rondel_geo rondel_test_support)
