@@ -14,6 +14,7 @@
 #include "process.h"
 #include "remap.h"
 #include "report.h"
+#include "rondel/delaunay.h"
 #include "rondel/mesh_files.h"
 #include "rondel/weight_files.h"
 

@@ -26,6 +26,10 @@ RONDEL_API Point unit_vector(const LonLat& position);
 ///         latitude is outside [-90, 90].
 RONDEL_API std::vector<Point> unit_vectors(std::span<const LonLat> positions);
 
+/// Returns the longitudes and latitudes of the rays from the origin through points, the same bits on
+/// every platform; longitude 0 at the poles, NaN for the origin and for points that are not finite.
+RONDEL_API std::vector<LonLat> lonlats(std::span<const Point> points);
+
 /// Returns the weighted site of a circle on the sphere around the origin: the pole of the circle's
 /// plane, q / cos r for the center q and the angular radius r.
 ///

@@ -72,8 +72,4 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
 ///         latitudes that are neither a place nor missing; these become NaN.
 RONDEL_API WeightFile read_weights(const FileName& file);
 
-/// Returns the longitudes and latitudes of the rays from the origin through points, the same bits on
-/// every platform; longitude 0 at the poles, NaN for the origin and for points that are not finite.
-RONDEL_API std::vector<LonLat> lonlats(std::span<const Point> points);
-
 }  // namespace rondel

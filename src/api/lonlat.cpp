@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "exact/degrees.h"
+#include "exact/longitude.h"
+#include "exact/vector.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
@@ -34,6 +37,24 @@ std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
       throw InvalidInput("site " + std::to_string(i) + ": " + what, i);
     }
     result[i] = unit_vector(p);
+  }
+  return result;
+}
+
+std::vector<LonLat> lonlats(std::span<const Point> points) {
+  const system::ArithmeticScope arithmetic;
+  std::vector<LonLat> result;
+  result.reserve(points.size());
+  for (const Point& point : points) {
+    const Point u = normalized(scaled(point));
+    if (!(norm(u) > 0)) {  // no ray goes through the origin, or a coordinate is not finite
+      constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+      result.push_back({no_place, no_place});
+    } else if (exact::is_pole(u)) {
+      result.push_back({0, std::copysign(90.0, u.z)});
+    } else {
+      result.push_back(exact::lonlat_of(u, true));
+    }
   }
   return result;
 }

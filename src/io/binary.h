@@ -93,6 +93,10 @@ struct NumbersOf {
   static_assert(std::is_arithmetic_v<Element>);
   using Number = Element;
 };
+template <typename T, std::size_t size>
+struct NumbersOf<std::array<T, size>> {
+  using Number = T;
+};
 template <>
 struct NumbersOf<Point> {
   using Number = double;

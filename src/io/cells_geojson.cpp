@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "io/cell_formats.h"
-#include "io/geojson_geometry.h"
-#include "io/geojson_properties.h"
+#include "io/geojson_writer.h"
 #include "io/number.h"
 #include "io/parallel_write.h"
 #include "map/cell_map.h"
@@ -51,10 +50,8 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
   while (first_cell < n && !cell_map.has_cell(first_cell)) ++first_cell;
 
   const auto append_feature = [&](std::string& text, std::size_t site, map::CellMap::Pen& pen) {
-    text += site == first_cell ? "\n" : ",\n";
-    text += R"({"type":"Feature",)";
-    append_id(text, cells.table.ids, site);
-    text += R"("properties":{"site":)";
+    begin_feature(text, site == first_cell, cells.table.ids, site);
+    text += R"("site":)";
     append_integer(text, site);
     text += R"(,"area":)";
     append_number(text, cells.diagram.areas[site]);
@@ -62,11 +59,11 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
       text += keys[k];
       append_value(text, columns[k], site);
     }
-    text += R"(},"geometry":)";
+    text += geometry_begin;
     append_geometry(text, cell_map.polygons(site, pen));
     text += '}';
   };
-  file.write(R"({"type":"FeatureCollection","features":[)");
+  file.write(features_begin);
   write_in_parallel(
       file, cells.execution.threads, n, grain,
       [&](std::string& text, std::size_t begin, std::size_t end) {

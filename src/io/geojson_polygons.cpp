@@ -24,7 +24,7 @@ constexpr std::array<PolygonFormat, 2> polygon_formats = {{{".geojson"}, {".json
 // Collects the rings and lines of features.
 class PolygonReader {
  public:
-  PolygonReader(std::string_view bytes, FeatureKinds kinds, PolygonFeatures& features)
+  PolygonReader(std::string_view bytes, FeatureKinds kinds, map::PolygonFeatures& features)
       : items_(bytes),
         kinds_(kinds),
         features_(features),
@@ -113,7 +113,7 @@ class PolygonReader {
   }
 
   // Returns a ring without its last position, which is the first one again.
-  static LonLatRing ring_of(const JsonTree& ring, bool is_hole) {
+  static map::LonLatRing ring_of(const JsonTree& ring, bool is_hole) {
     if (!ring.is_array()) throw BadValue("a ring that is no array");
     std::vector<LonLat> positions;
     positions.reserve(ring.items.size());
@@ -131,15 +131,15 @@ class PolygonReader {
 
   GeoJsonItems items_;
   FeatureKinds kinds_;
-  PolygonFeatures& features_;
+  map::PolygonFeatures& features_;
   PropertyColumns columns_;
 };
 
 }  // namespace
 
-PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds) {
+map::PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds) {
   FileBytes bytes(file.path);
-  PolygonFeatures features;
+  map::PolygonFeatures features;
   features.name = bytes.name();
   (void)require_format<PolygonFormat>(polygon_formats, file, "polygons are read from");
   if (bytes.head().empty()) throw FileError(features.name + ": the file is empty");

@@ -6,7 +6,7 @@
 // seen from behind, and cover only what other faces cover.
 #include <string>
 
-#include "io/geojson_geometry.h"
+#include "io/geojson_writer.h"
 #include "io/number.h"
 #include "io/triangle_formats.h"
 #include "map/face_map.h"
@@ -19,16 +19,16 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
   while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {
     ++first_solid;
   }
-  file.write(R"({"type":"FeatureCollection","features":[)");
+  file.write(features_begin);
   const auto append_feature = [&](std::string& text, Index face, map::FaceMap::Pen& pen) {
-    text += face == first_solid ? "\n" : ",\n";
-    text += R"({"type":"Feature","properties":{"sites":[)";
+    begin_feature(text, face == first_solid);
+    text += R"("sites":[)";
     for (const Index corner : mesh.triangulation.faces()[face]) {
       append_integer(text, corner);
       text += ',';
     }
     text.back() = ']';
-    text += R"(},"geometry":)";
+    text += geometry_begin;
     append_geometry(text, face_map.polygons(face, pen));
     text += '}';
   };
@@ -38,7 +38,7 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
       if (!mesh.triangulation.is_ghost(face)) append_feature(text, face, pen);
     }
   });
-  file.write("\n]}\n");
+  file.write(features_end);
 }
 
 }  // namespace rondel::io

@@ -38,13 +38,6 @@ double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) 
   return std::min(arc.most, std::max(arc.least, distance / 8));
 }
 
-// Replaces degrees nearer to zero than any rounding by zero: programs that read the numbers
-// multiply them, and products of tiny numbers underflow. Adding zero turns -0 into 0.
-double without_tiny(double degrees) {
-  constexpr double tiny = 0x1p-64;
-  return std::abs(degrees) < tiny ? 0 : degrees + 0.0;
-}
-
 // True if the straight line is within the tolerance of the arc, judged by the distance of three of
 // its points from the plane of the great circle. The circle has at most one inflection between p
 // and q in the plane of the map, so the distance vanishes at most once inside, and its maximum is
@@ -94,13 +87,6 @@ Point point_at(const LonLat& position) {
   const exact::SineCosine lon = exact::sine_cosine_of_degrees(position.lon_deg);
   const exact::SineCosine lat = exact::sine_cosine_of_degrees(position.lat_deg);
   return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
-}
-
-LonLat lonlat_of(const Point& p, bool east) {
-  double lon = exact::argument(p.y, p.x) * degrees_per_radian;
-  if (p.y == 0) lon = p.x > 0 ? 0 : (east ? 180 : -180);
-  const double lat = exact::argument(p.z, distance_from_axis(p)) * degrees_per_radian;
-  return {without_tiny(std::clamp(lon, -180.0, 180.0)), without_tiny(std::clamp(lat, -90.0, 90.0))};
 }
 
 bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance) {

@@ -8,16 +8,19 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "exact/longitude.h"
 #include "exact/vector.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
 
-inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
+using exact::degrees_per_radian;
+using exact::distance_from_axis;
+using exact::is_pole;
+using exact::lonlat_of;
 
 // Points of a map that are nearer to each other than this are one point, and a point that is this
 // near to a pole or to the antimeridian lies on it. The unit is radians, and the value 0.1
@@ -26,17 +29,8 @@ inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
 // they are rounded.
 inline constexpr double merge_distance = 0x1p-46;
 
-inline bool is_pole(const Point& p) { return p.x == 0 && p.y == 0; }
-
 // Returns the pole or the point of the antimeridian within merge_distance of p, or p itself.
 Point snapped(const Point& p);
-
-// Returns the distance from the line through the poles.
-inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
-
-// Returns the longitude and latitude of a unit vector that is not a pole. A point on the
-// antimeridian has two longitudes: it gets 180 if `east` is true, and -180 otherwise.
-LonLat lonlat_of(const Point& p, bool east);
 
 // Returns the unit vector of a position.
 Point point_at(const LonLat& position);

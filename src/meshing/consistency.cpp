@@ -4,13 +4,15 @@
 // Checks that the arrays of a mesh, which callers may have filled, have the right sizes and indices
 // in range.
 
+#include "meshing/consistency.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
 #include <string>
 
-#include "meshing/mesh_file.h"
+#include "exact/vector.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 #include "system/shortest_text.h"
@@ -102,6 +104,10 @@ void require_numbers(const char* name, unsigned threads, std::span<const double>
 }  // namespace
 
 // The names are those of MPAS, which users of MPAS files know.
+bool is_on_sphere(const Point& p, double radius) {
+  return std::abs(norm(exact::to_vector(p)) - radius) <= 1e-3 * radius;
+}
+
 void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads) {
   constexpr double turn = 2 * std::numbers::pi;
   const PossibleNumbers areas{0, 2 * turn * arrays.radius * arrays.radius, false};

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "meshing/mesh_file.h"
+#include "meshing/consistency.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
 #include "system/job.h"

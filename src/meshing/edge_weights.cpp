@@ -13,7 +13,7 @@
 
 #include <string>
 
-#include "meshing/mesh_file.h"
+#include "meshing/consistency.h"
 #include "rondel/error.h"
 #include "system/job.h"
 

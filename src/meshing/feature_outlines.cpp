@@ -16,10 +16,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <utility>
-
-#include "io/ending.h"
 
 namespace rondel::meshing {
 namespace {
@@ -234,11 +231,6 @@ std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
   PartJoin join(std::move(parts));
   join.append_all(lines);
   return lines;
-}
-
-bool is_geojson(const FileName& file) {
-  const std::string ending = io::ending(file);
-  return ending == ".geojson" || ending == ".json";
 }
 
 }  // namespace rondel::meshing

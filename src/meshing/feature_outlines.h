@@ -25,7 +25,4 @@ namespace rondel::meshing {
 // 2. A point is a line of one position.
 std::vector<std::vector<Point>> outlines_of(const FeatureTable& features);
 
-// True if the file has features, by its format or its ending; other files have sites.
-bool is_geojson(const FileName& file);
-
 }  // namespace rondel::meshing

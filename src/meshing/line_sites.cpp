@@ -17,11 +17,9 @@
 #include <string>
 
 #include "exact/vector.h"
-#include "meshing/feature_outlines.h"
 #include "meshing/fixed_sites.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/query.h"
 #include "system/job.h"
@@ -310,29 +308,6 @@ LineSites sites_on(std::span<const std::vector<Point>> lines, const SizeFunction
                                stations.spacings.end());
   }
   return sites_apart(candidates, execution);
-}
-
-std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOptions& options,
-                                           const Execution& execution) {
-  std::vector<std::vector<Point>> lines =
-      meshing::outlines_of(read_features(file, options, execution));
-  std::erase_if(lines, [](const std::vector<Point>& line) { return line.size() < 2; });
-  if (lines.empty()) throw FileError(file.path + ": it has no lines");
-  return lines;
-}
-
-std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonOptions& options,
-                                            const Execution& execution) {
-  std::vector<std::vector<Point>> lines;
-  if (meshing::is_geojson(file)) {
-    lines = meshing::outlines_of(read_features(file, options, execution));
-  } else {
-    const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table
-                                                 : read_sites(file, {}, execution);
-    for (const Point& site : table.sites) lines.push_back({site});
-  }
-  if (lines.empty()) throw FileError(file.path + ": it has no points and no lines");
-  return lines;
 }
 
 }  // namespace rondel::mesh

@@ -12,7 +12,7 @@
 #include "exact/argument.h"
 #include "exact/vector.h"
 #include "meshing/cell_shape.h"
-#include "meshing/mesh_file.h"
+#include "meshing/consistency.h"
 #include "rondel/mesh_quality.h"
 #include "system/job.h"
 #include "system/parallel.h"

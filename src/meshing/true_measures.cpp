@@ -12,8 +12,8 @@
 
 #include "exact/triangle_area.h"
 #include "exact/vector.h"
+#include "meshing/consistency.h"
 #include "meshing/face_measures.h"
-#include "meshing/mesh_file.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 #include "system/shortest_text.h"

@@ -9,7 +9,6 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"
-#include "rondel/weight_files.h"
 
 namespace rondel::overlay {
 
@@ -22,7 +21,7 @@ std::string text_of_place(const Point& place) {
   return text_of_place(lonlats(std::vector<Point>{place}).front());
 }
 
-std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring) {
+std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring) {
   std::size_t part = 0;
   std::size_t in_part = 0;
   for (std::size_t r = 1; r <= ring; ++r) {
@@ -32,7 +31,7 @@ std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring) {
   return "ring " + std::to_string(in_part) + " of part " + std::to_string(part);
 }
 
-void refuse_feature(const io::PolygonFeatures& features, std::size_t feature,
+void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
                     const std::string& what) {
   throw FileError(features.name + ": feature " + feature_name(features.columns, feature) + ": " +
                   what);

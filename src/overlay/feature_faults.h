@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/geojson_polygons.h"
+#include "map/polygon_features.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -19,10 +19,10 @@ std::string text_of_place(const Point& place);
 
 // Returns a name for a ring of a feature, such as "ring 0 of part 2" for the shell of the third
 // polygon.
-std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring);
+std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring);
 
 // Throws FileError with the name of the file, the feature and what is wrong with it.
-[[noreturn]] void refuse_feature(const io::PolygonFeatures& features, std::size_t feature,
+[[noreturn]] void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
                                  const std::string& what);
 
 }  // namespace rondel::overlay

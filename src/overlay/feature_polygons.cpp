@@ -34,7 +34,7 @@ namespace {
 constexpr std::size_t swept_per_block = 16;
 
 // Returns the message about a fault.
-std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
+std::string text_of_fault(const std::vector<map::LonLatRing>& rings, const PlaneFault& fault) {
   const std::string second = ring_name(rings, fault.second);
   const std::string first = fault.first == no_index ? "" : ring_name(rings, fault.first);
   const std::string at = " at " + text_of_place(fault.place);
@@ -57,7 +57,7 @@ std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneF
 
 // Returns advice for a ring around a pole that is not led to the pole, or an empty text for other
 // rings.
-std::string advice_on(const io::LonLatRing& ring) {
+std::string advice_on(const map::LonLatRing& ring) {
   const std::size_t n = ring.positions.size();
   for (std::size_t k = 0; k < n; ++k) {
     const LonLat& from = ring.positions[k];
@@ -74,10 +74,10 @@ std::string advice_on(const io::LonLatRing& ring) {
 
 // Marks a ring that has an area, but that corners of others on its sides have closed, and with a
 // shell its holes, as left out. Returns false for other rings.
-bool leave_out_thin_ring(std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
-  io::LonLatRing& ring = rings[fault.second];
+bool leave_out_thin_ring(std::vector<map::LonLatRing>& rings, const PlaneFault& fault) {
+  map::LonLatRing& ring = rings[fault.second];
   if (fault.kind != PlaneFaultKind::no_area || ring.thin_positions.empty()) return false;
-  const io::LonLatRing given{ring.thin_positions};
+  const map::LonLatRing given{ring.thin_positions};
   const PlaneRegion region = sweep_rings({&given, 1});
   if (region.fault && region.fault->kind == PlaneFaultKind::no_area) return false;
   ring.is_left_out = true;
@@ -91,7 +91,7 @@ bool leave_out_thin_ring(std::vector<io::LonLatRing>& rings, const PlaneFault& f
 // Converts all features with one set of options.
 class FeatureCells {
  public:
-  FeatureCells(io::PolygonFeatures& features, const PolygonOptions& options,
+  FeatureCells(map::PolygonFeatures& features, const PolygonOptions& options,
                const Execution& execution)
       : features_(features), options_(options), execution_(execution) {}
 
@@ -139,11 +139,11 @@ class FeatureCells {
     std::vector<std::size_t> vanished;
     std::vector<std::size_t> thinned;
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {
-      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      const std::vector<map::LonLatRing>& rings = features_.rings[f];
       const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
       if (!rings.empty() && !has_cell) {
         vanished.push_back(f);
-      } else if (std::ranges::any_of(rings, &io::LonLatRing::is_left_out)) {
+      } else if (std::ranges::any_of(rings, &map::LonLatRing::is_left_out)) {
         thinned.push_back(f);
       }
     }
@@ -198,7 +198,7 @@ class FeatureCells {
     for (Index f = 0; f < features_.rings.size(); ++f) {
       double west = std::numeric_limits<double>::infinity();
       double east = -west;
-      for (const io::LonLatRing& ring : features_.rings[f]) {
+      for (const map::LonLatRing& ring : features_.rings[f]) {
         for (const LonLat& p : ring.positions) {
           west = std::min(west, p.lon_deg);
           east = std::max(east, p.lon_deg);
@@ -247,7 +247,7 @@ class FeatureCells {
   // Throws FileError for a side that spans more than 180 degrees of longitude, with what to do
   // about it.
   [[noreturn]] void refuse_long_side(std::size_t feature, Index ring, std::size_t side) const {
-    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
     const std::vector<LonLat>& positions = rings[ring].positions;
     const LonLat& from = positions[side];
     const LonLat& to = positions[side + 1 < positions.size() ? side + 1 : 0];
@@ -262,7 +262,7 @@ class FeatureCells {
   // than ten turns of the globe away.
   void require_turns(std::size_t feature) const {
     constexpr double most_turns = 10;
-    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
     for (Index r = 0; r < rings.size(); ++r) {
       const std::vector<LonLat>& positions = rings[r].positions;
       if (rings[r].is_turn) {
@@ -297,7 +297,7 @@ class FeatureCells {
                            }
                          });
     for (std::size_t f = 0; f < regions.size(); ++f) {
-      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      const std::vector<map::LonLatRing>& rings = features_.rings[f];
       if (const auto& fault = regions[f].fault) {
         refuse(f, text_of_fault(rings, *fault) + advice_on(rings[fault->second]));
       }
@@ -313,7 +313,7 @@ class FeatureCells {
     }
   }
 
-  io::PolygonFeatures& features_;
+  map::PolygonFeatures& features_;
   const PolygonOptions& options_;
   const Execution& execution_;
   std::vector<std::string> remarks_;
@@ -321,7 +321,7 @@ class FeatureCells {
 
 }  // namespace
 
-CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
+CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
                             std::vector<std::string>& remarks, const Execution& execution) {
   FeatureCells make(features, options, execution);
   CellRings cells = make();

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/geojson_polygons.h"
+#include "map/polygon_features.h"
 #include "rondel/cell_rings.h"
 #include "rondel/polygon_files.h"
 
@@ -20,7 +20,7 @@ namespace rondel::overlay {
 // Returns the cells of all features, and adds a remark on features that rounding of their corners
 // has left without an area. Throws FileError for polygons that bound no region, with the feature,
 // the ring and a place.
-CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
+CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
                             std::vector<std::string>& remarks, const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -27,14 +27,14 @@ namespace {
 // Converts all features.
 class GeodesicCells {
  public:
-  GeodesicCells(const io::PolygonFeatures& features, const Execution& execution)
+  GeodesicCells(const map::PolygonFeatures& features, const Execution& execution)
       : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
 
   // Returns the cells of all features. Throws FileError.
   CellRings operator()() {
     CellRings given;
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {
-      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      const std::vector<map::LonLatRing>& rings = features_.rings[f];
       std::size_t part = arcs_.size();
       Index shell = 0;
       for (Index r = 0; r < rings.size(); ++r) {
@@ -71,7 +71,7 @@ class GeodesicCells {
   void require_area(std::size_t feature, Index ring, std::size_t first_arc) const {
     const std::span<const KeyedArc> arcs = std::span(arcs_).subspan(first_arc);
     if (!is_nothing(arcs) && !is_on_one_line(arcs)) return;
-    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
     refuse_feature(features_, feature,
                    ring_name(rings, ring) + " runs to and fro along a line at " +
                        text_of_place(rings[ring].positions.front()));
@@ -128,7 +128,7 @@ class GeodesicCells {
 
   // Appends the arcs of a ring, oriented with the inside of its polygon to the left.
   void append(std::size_t feature, Index ring) {
-    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
     std::vector<LonLat> positions = rings[ring].positions;
     const auto is_same = [](const LonLat& p, const LonLat& q) {
       return unit_vector(p) == unit_vector(q);
@@ -185,7 +185,7 @@ class GeodesicCells {
     return map::area_on_left(corners) < 0;
   }
 
-  const io::PolygonFeatures& features_;
+  const map::PolygonFeatures& features_;
   const Execution& execution_;
   std::vector<KeyedArc> arcs_;
   std::vector<double> areas_;  // of each feature: the sum over its rings, without holes
@@ -193,16 +193,16 @@ class GeodesicCells {
 
 }  // namespace
 
-CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution) {
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution) {
   return GeodesicCells(features, execution)();
 }
 
-void refuse_geodesic_holes(const io::PolygonFeatures& features, std::size_t feature,
+void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,
                            const Execution& execution) {
   // One feature for each ring, as if it was no hole.
-  io::PolygonFeatures alone;
-  const std::vector<io::LonLatRing>& rings = features.rings[feature];
-  for (io::LonLatRing ring : rings) {
+  map::PolygonFeatures alone;
+  const std::vector<map::LonLatRing>& rings = features.rings[feature];
+  for (map::LonLatRing ring : rings) {
     ring.is_hole = false;
     alone.rings.push_back({std::move(ring)});
   }

@@ -4,7 +4,7 @@
 // Converts the polygons of a file into cells whose sides are great circles.
 #pragma once
 
-#include "io/geojson_polygons.h"
+#include "map/polygon_features.h"
 #include "rondel/cell_rings.h"
 #include "rondel/types.h"
 
@@ -17,10 +17,10 @@ namespace rondel::overlay {
 //    cover the sphere is in `whole`.
 // 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
 //    polygon, for parts that overlap, and for sides of a feature that cross.
-CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution);
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
 
 // Throws FileError if a hole of the feature is outside of its polygon or in another hole.
-void refuse_geodesic_holes(const io::PolygonFeatures& features, std::size_t feature,
+void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,
                            const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -47,7 +47,7 @@ struct SweptSide {
 // Sweeps over the rings of one feature.
 class PlaneSweep {
  public:
-  explicit PlaneSweep(std::span<const io::LonLatRing> rings)
+  explicit PlaneSweep(std::span<const map::LonLatRing> rings)
       : rings_(rings),
         has_sides_(rings.size(), false),
         states_(1),
@@ -82,7 +82,7 @@ class PlaneSweep {
 
   // Numbers the different corners from west to east.
   void number_corners() {
-    for (const io::LonLatRing& ring : rings_) {
+    for (const map::LonLatRing& ring : rings_) {
       corners_.insert(corners_.end(), ring.positions.begin(), ring.positions.end());
     }
     std::ranges::sort(corners_, is_west_of);
@@ -302,7 +302,7 @@ class PlaneSweep {
     }
   }
 
-  std::span<const io::LonLatRing> rings_;
+  std::span<const map::LonLatRing> rings_;
   std::vector<Index> parts_;          // for each ring the number of its polygon
   std::vector<bool> has_sides_;       // true for each ring that has sides left
   std::vector<Index> first_ring_of_;  // for each polygon its shell
@@ -320,6 +320,6 @@ class PlaneSweep {
 
 }  // namespace
 
-PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings) { return PlaneSweep(rings)(); }
+PlaneRegion sweep_rings(std::span<const map::LonLatRing> rings) { return PlaneSweep(rings)(); }
 
 }  // namespace rondel::overlay

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "io/geojson_polygons.h"
+#include "map/polygon_features.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -58,6 +58,6 @@ struct PlaneRegion {
 // 2. Corners that lie on a side, exactly, divide it.
 // 3. Polygons may share sides, which cancel, but no area.
 // 4. Rings that are left out count in the numbers of rings alone.
-PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings);
+PlaneRegion sweep_rings(std::span<const map::LonLatRing> rings);
 
 }  // namespace rondel::overlay

@@ -88,10 +88,10 @@ bool is_thin(const std::vector<LonLat>& positions) {
 
 }  // namespace
 
-void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads) {
+void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads) {
   std::vector<PlaneCorners::OwnedCorner> all;
   for (std::size_t f = 0; f < features.size(); ++f) {
-    for (const io::LonLatRing& ring : features[f]) {
+    for (const map::LonLatRing& ring : features[f]) {
       for (const LonLat& p : ring.positions) all.push_back({p, static_cast<Index>(f)});
     }
   }
@@ -101,7 +101,7 @@ void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned 
         std::vector<LonLat> positions;
         for (std::size_t f = begin; f < end; ++f) {
           SideCorners corners_on(corners, static_cast<Index>(f));
-          for (io::LonLatRing& ring : features[f]) {
+          for (map::LonLatRing& ring : features[f]) {
             positions.clear();
             for (std::size_t k = 0; k < ring.positions.size(); ++k) {
               const LonLat& from = ring.positions[k];

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "io/geojson_polygons.h"
+#include "map/polygon_features.h"
 
 namespace rondel::overlay {
 
@@ -14,6 +14,6 @@ namespace rondel::overlay {
 // those of the same feature that lie there after a shift by 360 degrees. Sides are then straight
 // only up to rounding, and neighbors have the same corners. Rings that may run to and fro after
 // that keep the positions that they had as `thin_positions`.
-void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads);
+void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads);
 
 }  // namespace rondel::overlay

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "overlay/partition_data.h"
+#include "rondel/delaunay.h"
 #include "rondel/mesh_files.h"
 #include "system/arithmetic.h"
 

@@ -15,6 +15,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/io.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The names of fields in tables, where each is a column.
-#include "interpolation/field_names.h"
+#include "formats/field_names.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace rondel::test {
 namespace {
 
-using interpolation::places_on_axis;
+using formats::places_on_axis;
 using Names = std::vector<std::string>;
 
 FieldArray axis(std::string name, std::vector<double> values,

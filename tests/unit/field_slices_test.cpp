@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Fields of netCDF files whose dimensions are in any order, read in blocks of any size: each value says where it is.
-#include "interpolation/field_slices.h"
+#include "formats/field_slices.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@
 namespace rondel::test {
 namespace {
 
-using interpolation::FieldSlices;
+using formats::FieldSlices;
 using io::NetcdfType;
 using Doubles = std::vector<double>;
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/cf_names.h"
+#include "formats/cf_names.h"
 #include "io/netcdf_groups.h"
 #include "io/netcdf_header.h"
 #include "io_support.h"
@@ -17,7 +17,7 @@ namespace rondel::test::of_names {
 namespace {
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
-using io::CoordinateKind;
+using formats::CoordinateKind;
 
 VariableHeader variable_of(const std::string& name, const std::vector<std::string>& dimensions,
                            const Texts& texts = {}) {
@@ -69,9 +69,9 @@ TEST(cf_units, have_all_their_spellings) {
   for (const char* const text : {"", " ", "Rad", "MRAD", "degree_south", "degrees south", "S"}) {
     EXPECT_EQ(degrees_per_unit(text), std::nullopt) << text;
   }
-  EXPECT_EQ(io::lower_case("@AZ[`az{"), "@az[`az{");
-  EXPECT_EQ(io::without_blanks("\t a b\r\n"), "a b");
-  EXPECT_EQ(io::without_blanks(" \t"), "");
+  EXPECT_EQ(formats::lower_case("@AZ[`az{"), "@az[`az{");
+  EXPECT_EQ(formats::without_blanks("\t a b\r\n"), "a b");
+  EXPECT_EQ(formats::without_blanks(" \t"), "");
 }
 
 TEST(cf_names, of_longitudes_and_latitudes_come_in_pairs) {
@@ -92,61 +92,61 @@ TEST(cf_names, of_longitudes_and_latitudes_come_in_pairs) {
       {"lonCell", "latCell"},
       {"grid_center_lon", "grid_center_lat"}};
   for (const auto& [lon, lat] : pairs) {
-    EXPECT_TRUE(io::is_known_name(lon, CoordinateKind::lon)) << lon;
-    EXPECT_TRUE(io::is_known_name(lat, CoordinateKind::lat)) << lat;
-    EXPECT_FALSE(io::is_known_name(lon, CoordinateKind::lat)) << lon;
-    EXPECT_FALSE(io::is_known_name(lat, CoordinateKind::lon)) << lat;
-    EXPECT_TRUE(io::are_partners(lon, lat)) << lon;
-    EXPECT_FALSE(io::are_partners(lat, lon)) << lon;
+    EXPECT_TRUE(formats::is_known_name(lon, CoordinateKind::lon)) << lon;
+    EXPECT_TRUE(formats::is_known_name(lat, CoordinateKind::lat)) << lat;
+    EXPECT_FALSE(formats::is_known_name(lon, CoordinateKind::lat)) << lon;
+    EXPECT_FALSE(formats::is_known_name(lat, CoordinateKind::lon)) << lat;
+    EXPECT_TRUE(formats::are_partners(lon, lat)) << lon;
+    EXPECT_FALSE(formats::are_partners(lat, lon)) << lon;
   }
-  EXPECT_FALSE(io::is_known_name("lo", CoordinateKind::lon));
+  EXPECT_FALSE(formats::is_known_name("lo", CoordinateKind::lon));
   for (const auto& [lon, lat] : Texts{{"lonVertex", "latVertex"},
                                       {"lonEdge", "latEdge"},
                                       {"vlon", "vlat"},
                                       {"elon", "elat"}}) {
-    EXPECT_TRUE(io::is_name_of_part(lon, CoordinateKind::lon));
-    EXPECT_TRUE(io::is_name_of_part(lat, CoordinateKind::lat));
-    EXPECT_FALSE(io::is_name_of_part(lon, CoordinateKind::lat));
-    EXPECT_FALSE(io::is_name_of_part(lat, CoordinateKind::lon));
-    EXPECT_TRUE(io::is_in_radians(lon) && io::is_in_radians(lat));
+    EXPECT_TRUE(formats::is_name_of_part(lon, CoordinateKind::lon));
+    EXPECT_TRUE(formats::is_name_of_part(lat, CoordinateKind::lat));
+    EXPECT_FALSE(formats::is_name_of_part(lon, CoordinateKind::lat));
+    EXPECT_FALSE(formats::is_name_of_part(lat, CoordinateKind::lon));
+    EXPECT_TRUE(formats::is_in_radians(lon) && formats::is_in_radians(lat));
   }
   for (const char* const name : {"lonCell", "latCell", "clon", "clat"}) {
-    EXPECT_TRUE(io::is_in_radians(name));
+    EXPECT_TRUE(formats::is_in_radians(name));
   }
   for (const char* const name : {"lon", "lat", "loncell", "xlon"}) {
-    EXPECT_FALSE(io::is_in_radians(name));
+    EXPECT_FALSE(formats::is_in_radians(name));
   }
-  EXPECT_TRUE(io::are_partners("ULONG", "ULAT"));
-  EXPECT_TRUE(io::are_partners("glamu", "GPHIU"));
-  EXPECT_FALSE(io::are_partners("ULONG", "TLAT"));
-  EXPECT_FALSE(io::are_partners("a", "a"));
+  EXPECT_TRUE(formats::are_partners("ULONG", "ULAT"));
+  EXPECT_TRUE(formats::are_partners("glamu", "GPHIU"));
+  EXPECT_FALSE(formats::are_partners("ULONG", "TLAT"));
+  EXPECT_FALSE(formats::are_partners("a", "a"));
 }
 
 TEST(cf_names, say_what_variables_are) {
   for (const char* const name : {"cellsOnCell", "edgesOnVertex", "cellsOnEdge", "indexToCellID",
                                  "neighbor_of_cell", "edge_index"}) {
-    EXPECT_TRUE(io::is_connectivity(variable_of(name, {"n"}))) << name;
+    EXPECT_TRUE(formats::is_connectivity(variable_of(name, {"n"}))) << name;
   }
   for (const char* const name : {"OnCells", "index", "a_of_cells", "toIndexTo", "nOnFace"}) {
-    EXPECT_FALSE(io::is_connectivity(variable_of(name, {"n"}))) << name;
+    EXPECT_FALSE(formats::is_connectivity(variable_of(name, {"n"}))) << name;
   }
   EXPECT_TRUE(
-      io::is_connectivity(variable_of("a", {"n"}, {{"cf_role", "face_node_connectivity"}})));
-  EXPECT_FALSE(io::is_connectivity(variable_of("a", {"n"}, {{"cf_role", "mesh_topology"}})));
+      formats::is_connectivity(variable_of("a", {"n"}, {{"cf_role", "face_node_connectivity"}})));
+  EXPECT_FALSE(formats::is_connectivity(variable_of("a", {"n"}, {{"cf_role", "mesh_topology"}})));
   for (const char* const name : {"nCells", "ncells", "cell", "ncol", "n_face", "nMesh2_face",
                                  "grid_size", "elementCount", "cells"}) {
     EXPECT_TRUE(is_name_of_cells(name)) << name;
   }
   EXPECT_FALSE(is_name_of_cells("Cells") || is_name_of_cells("x"));
   for (const char* const end : {"_bnds", "_bounds", "_b", "_vertices", "_corners"}) {
-    EXPECT_TRUE(io::is_name_of_bounds(std::string("lon") + end, "lon"));
-    EXPECT_FALSE(io::is_name_of_bounds(std::string("lon") + end, "lat"));
-    EXPECT_FALSE(io::is_name_of_bounds(std::string("lon") + end + "s", "lon"));
+    EXPECT_TRUE(formats::is_name_of_bounds(std::string("lon") + end, "lon"));
+    EXPECT_FALSE(formats::is_name_of_bounds(std::string("lon") + end, "lat"));
+    EXPECT_FALSE(formats::is_name_of_bounds(std::string("lon") + end + "s", "lon"));
   }
-  EXPECT_TRUE(io::is_name_of_bounds("corner_lon", "lon"));
-  EXPECT_FALSE(io::is_name_of_bounds("corner_lon", "lat"));
-  EXPECT_FALSE(io::is_name_of_bounds("corner_lon", "corner_lon"));
-  EXPECT_FALSE(io::is_name_of_bounds("lon", "lon"));
+  EXPECT_TRUE(formats::is_name_of_bounds("corner_lon", "lon"));
+  EXPECT_FALSE(formats::is_name_of_bounds("corner_lon", "lat"));
+  EXPECT_FALSE(formats::is_name_of_bounds("corner_lon", "corner_lon"));
+  EXPECT_FALSE(formats::is_name_of_bounds("lon", "lon"));
   for (const char* const name :
        {"time", "T", "Times", "ntime", "time_counter", "ocean_time", "RECORD"}) {
     EXPECT_TRUE(is_name_of_time(name)) << name;
@@ -155,15 +155,16 @@ TEST(cf_names, say_what_variables_are) {
   for (const char* const name :
        {"grid_longitude", "grid_latitude", "projection_x_coordinate", "projection_y_coordinate",
         "projection_x_angular_coordinate", "projection_y_angular_coordinate"}) {
-    EXPECT_TRUE(io::is_rotated_or_projected(variable_of("x", {"x"}, {{"standard_name", name}})));
+    EXPECT_TRUE(
+        formats::is_rotated_or_projected(variable_of("x", {"x"}, {{"standard_name", name}})));
   }
   EXPECT_FALSE(
-      io::is_rotated_or_projected(variable_of("x", {"x"}, {{"standard_name", "longitude"}})));
+      formats::is_rotated_or_projected(variable_of("x", {"x"}, {{"standard_name", "longitude"}})));
 }
 
 TEST(cf_coordinates, have_evidence) {
   const auto evidence = [](const std::string& name, const Texts& texts, CoordinateKind kind) {
-    return io::coordinate_evidence(variable_of(name, {"n"}, texts), kind);
+    return formats::coordinate_evidence(variable_of(name, {"n"}, texts), kind);
   };
   const auto lon = CoordinateKind::lon;
   const auto lat = CoordinateKind::lat;
@@ -193,10 +194,10 @@ TEST(cf_coordinates, have_evidence) {
   EXPECT_EQ(evidence("lon", {{"standard_name", "x"}}, lon), 0);
   EXPECT_EQ(evidence("lon", {{"standard_name", "grid_longitude"}, {"units", "degrees_east"}}, lon),
             0);
-  EXPECT_EQ(io::coordinate_evidence(variable_of("lon", {}), lon), 0);
+  EXPECT_EQ(formats::coordinate_evidence(variable_of("lon", {}), lon), 0);
   VariableHeader text = variable_of("lon", {"n"});
   text.is_number = false;
-  EXPECT_EQ(io::coordinate_evidence(text, lon), 0);
+  EXPECT_EQ(formats::coordinate_evidence(text, lon), 0);
 }
 
 TEST(cf_coordinates, of_strange_units_are_told) {
@@ -207,7 +208,7 @@ TEST(cf_coordinates, of_strange_units_are_told) {
       variable_of("tlat", {"n"}),
       variable_of("a", {"n"}, {{"units", "m"}}),
       variable_of("rlon", {"n"}, {{"standard_name", "grid_longitude"}, {"units", "degrees"}})};
-  EXPECT_EQ(io::remark_on_units(variables),
+  EXPECT_EQ(formats::remark_on_units(variables),
             "; 'lon' has the units 'm', which are neither degrees nor radians"
             "; 'lat' has the units 'K', which are neither degrees nor radians"
             "; 'rlon' has the standard_name 'grid_longitude': coordinates of a rotated pole or a "

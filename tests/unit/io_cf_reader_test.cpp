@@ -9,9 +9,9 @@
 #include <numeric>
 #include <vector>
 
+#include "formats/cf_reader.h"
+#include "formats/mpas.h"
 #include "io/bad_value.h"
-#include "io/cf_reader.h"
-#include "io/mpas_places.h"
 #include "io_classic_file.h"
 #include "io_support.h"
 #include "support/random.h"
@@ -22,9 +22,9 @@ namespace {
 using Doubles = std::vector<double>;
 using Shape = std::vector<std::uint64_t>;
 using Sizes = std::vector<std::size_t>;
+using formats::UsualUnits;
 using io::NetcdfReader;
 using io::NetcdfType;
-using io::UsualUnits;
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
@@ -48,7 +48,7 @@ TEST(cf_reader, headers_have_names_and_texts) {
                     classic_variable("t", NetcdfType::text, {0}, {65, 66, 67})};
   file.variables[0].attributes.push_back({"n", NetcdfType::int32, {}, {4}});
   const OpenFile open(file);
-  const std::vector<VariableHeader> headers = io::headers_of(open.reader);
+  const std::vector<VariableHeader> headers = formats::headers_of(open.reader);
   ASSERT_EQ(headers.size(), 2U);
   EXPECT_EQ(headers[0].name, "v");
   EXPECT_TRUE(headers[0].is_number);
@@ -81,7 +81,7 @@ TEST(cf_reader, degrees_are_of_units_relatives_or_what_is_usual) {
   // The first value of the variable, which is 1 in its unit.
   const auto first = [&](const char* name, UsualUnits usual = UsualUnits::of_name,
                          std::initializer_list<const NetcdfReader::Variable*> relatives = {}) {
-    const Doubles values = io::degrees_of(open.reader, open.at(name), usual, relatives);
+    const Doubles values = formats::degrees_of(open.reader, open.at(name), usual, relatives);
     EXPECT_EQ(values.size(), 2U);
     EXPECT_EQ(values[1], -2 * values[0]);
     return values[0];
@@ -105,10 +105,10 @@ TEST(cf_reader, degrees_are_of_units_relatives_or_what_is_usual) {
   EXPECT_THROW(first("meters"), io::BadValue);
   EXPECT_THROW(first("rotated"), io::BadValue);
   EXPECT_THROW(first("rotated", UsualUnits::degrees), io::BadValue);
-  const Doubles packed = io::degrees_of(open.reader, open.at("packed"));
+  const Doubles packed = formats::degrees_of(open.reader, open.at("packed"));
   EXPECT_EQ(packed[0], 5);
   EXPECT_TRUE(std::isnan(packed[1]));
-  EXPECT_TRUE(std::isnan(io::meant_numbers(open.reader, open.at("packed"))[1]));
+  EXPECT_TRUE(std::isnan(formats::meant_numbers(open.reader, open.at("packed"))[1]));
 }
 
 TEST(cf_reader, meshes_in_the_plane_are_refused) {
@@ -120,8 +120,8 @@ TEST(cf_reader, meshes_in_the_plane_are_refused) {
     const OpenFile open(file);
     const std::string expected =
         answer[0] == 'N' ? "the mesh is in the plane: on_a_sphere is NO" : "";
-    EXPECT_EQ(refused([&] { io::require_sphere(open.reader); }), expected);
-    EXPECT_EQ(refused([&] { (void)io::degrees_of(open.reader, open.at("lon")); }), expected);
+    EXPECT_EQ(refused([&] { formats::require_sphere(open.reader); }), expected);
+    EXPECT_EQ(refused([&] { (void)formats::degrees_of(open.reader, open.at("lon")); }), expected);
   }
 }
 
@@ -134,7 +134,7 @@ TEST(cf_reader, arrays_are_transposed_in_every_order) {
     Sizes order(shape.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     do {
-      const Doubles found = io::transposed(shape, order, values);
+      const Doubles found = formats::transposed(shape, order, values);
       ASSERT_EQ(found.size(), size);
       NetcdfReader::Variable variable;
       variable.shape = shape;
@@ -143,7 +143,7 @@ TEST(cf_reader, arrays_are_transposed_in_every_order) {
         variable.dimensions.push_back(7 * d + 3);
         wanted.push_back(7 * order[d] + 3);
       }
-      EXPECT_EQ(io::in_order(variable, wanted, values), found);
+      EXPECT_EQ(formats::in_order(variable, wanted, values), found);
       for (std::size_t k = 0; k < size; ++k) {
         Sizes at(shape.size());
         std::size_t rest = k;
@@ -156,7 +156,7 @@ TEST(cf_reader, arrays_are_transposed_in_every_order) {
       }
     } while (std::ranges::next_permutation(order).found);
   }
-  EXPECT_TRUE(io::transposed(Shape{0, 2}, {1, 0}, {}).empty());
+  EXPECT_TRUE(formats::transposed(Shape{0, 2}, {1, 0}, {}).empty());
 }
 
 // Longitudes and latitudes along these dimensions, with these values.
@@ -167,17 +167,17 @@ struct Places {
   Doubles lon;
   Doubles lat;
 
-  [[nodiscard]] io::PlaceArrays read() const {
+  [[nodiscard]] formats::PlaceArrays read() const {
     ClassicFile file;
     file.dimensions = dimensions;
     file.variables = {classic_variable("lon", NetcdfType::float64, of_lon, lon),
                       classic_variable("lat", NetcdfType::float64, of_lat, lat)};
     const OpenFile open(file);
-    return io::places_of(open.reader, open.at("lon"), open.at("lat"));
+    return formats::places_of(open.reader, open.at("lon"), open.at("lat"));
   }
 };
 
-void expect_places(const io::PlaceArrays& found, const Sizes& dimensions, const Shape& shape,
+void expect_places(const formats::PlaceArrays& found, const Sizes& dimensions, const Shape& shape,
                    const Sizes& repeated, const Doubles& lon, const Doubles& lat) {
   EXPECT_EQ(found.dimensions, dimensions);
   EXPECT_EQ(found.shape, shape);
@@ -218,7 +218,7 @@ TEST(cf_reader, places_that_are_repeated_are_read_once) {
               "\"lon\" and \"lat\": longitudes and latitudes change along 'time'");
   }
   grid.lon[3] = grid.lon[7] = grid.lon[11] = std::numeric_limits<double>::quiet_NaN();
-  const io::PlaceArrays missing = grid.read();
+  const formats::PlaceArrays missing = grid.read();
   EXPECT_EQ(missing.shape, (Shape{2, 2}));
   EXPECT_TRUE(std::isnan(missing.lon[3]));
   // One time only.
@@ -267,7 +267,7 @@ std::string refusal_of_cell(const Doubles& values, const std::string& kind = "Ce
   }
   const OpenFile open(file);
   return refused(
-      [&] { (void)io::places_of(open.reader, open.at("lon" + kind), open.at("lat" + kind)); });
+      [&] { (void)formats::places_of(open.reader, open.at("lon" + kind), open.at("lat" + kind)); });
 }
 
 TEST(cf_reader, places_of_mpas_are_those_of_its_points) {

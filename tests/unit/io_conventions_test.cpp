@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "formats/cf_reader.h"
+#include "formats/cf_values.h"
 #include "io/bad_value.h"
-#include "io/cf_reader.h"
-#include "io/cf_values.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
 
@@ -200,7 +200,7 @@ using io::NetcdfAttribute;
 using io::NetcdfType;
 
 Doubles meant(NetcdfType type, std::vector<NetcdfAttribute> attributes, Doubles values) {
-  io::ValueRules({"v", type, {}, std::move(attributes)}).apply(values);
+  formats::ValueRules({"v", type, {}, std::move(attributes)}).apply(values);
   return values;
 }
 NetcdfAttribute numbers(const char* name, NetcdfType type, Doubles values) {
@@ -272,7 +272,7 @@ TEST(conventions, valid_ranges_are_of_packed_numbers) {
 
 TEST(conventions, odd_attributes_are_told) {
   const auto remark = [](NetcdfType type, std::vector<io::NetcdfAttribute> attributes) {
-    return io::ValueRules({"v", type, {}, std::move(attributes)}).remark();
+    return formats::ValueRules({"v", type, {}, std::move(attributes)}).remark();
   };
   EXPECT_EQ(remark(NetcdfType::float32, {numbers("valid_range", NetcdfType::float32, {0, 10})}),
             "");
@@ -322,10 +322,10 @@ TEST(conventions, unsigned_and_packed_numbers) {
               {12});
   const io::NetcdfVariable two{
       "v", NetcdfType::int16, {}, {numbers("scale_factor", NetcdfType::float64, {1, 2})}};
-  EXPECT_THROW(io::ValueRules{two}, io::BadValue);
+  EXPECT_THROW(formats::ValueRules{two}, io::BadValue);
   const io::NetcdfVariable word{
       "v", NetcdfType::int16, {}, {{"add_offset", NetcdfType::text, "none", {}}}};
-  EXPECT_THROW(io::ValueRules{word}, io::BadValue);
+  EXPECT_THROW(formats::ValueRules{word}, io::BadValue);
 }
 
 // Every type of integers, by the highest bit, which "_Unsigned" gives another meaning.
@@ -356,7 +356,7 @@ TEST(conventions, dimensions_in_another_order) {
   Doubles values;
   for (double value = 0; value < 24; ++value) values.push_back(value);
   const std::vector<std::uint64_t> shape = {2, 3, 4};
-  const Doubles found = io::transposed(shape, {2, 0, 1}, values);
+  const Doubles found = formats::transposed(shape, {2, 0, 1}, values);
   for (std::size_t k = 0; k < 24; ++k) {
     const std::size_t of_2 = k / 6;
     const std::size_t of_0 = k / 3 % 2;

@@ -15,7 +15,7 @@ namespace rondel::test {
 namespace {
 
 using io::FeatureKinds;
-using io::PolygonFeatures;
+using map::PolygonFeatures;
 using Ring = std::vector<LonLat>;
 using Lines = std::vector<std::vector<LonLat>>;
 

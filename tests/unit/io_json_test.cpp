@@ -7,7 +7,7 @@
 
 #include "io/bad_value.h"
 #include "io/geojson_items.h"
-#include "io/geojson_properties.h"
+#include "io/geojson_writer.h"
 #include "io/json_tree.h"
 #include "io_support.h"
 
@@ -248,7 +248,13 @@ TEST(geojson_properties, ids_are_those_of_their_rows) {
   const auto id_texts = [](const Properties& all, std::size_t count) {
     std::string text;
     for (std::size_t row = 0; row < count; ++row) {
-      io::append_id(text, all.ids, row);
+      // {"type":"Feature","id":ID,"properties":{
+      std::string feature;
+      io::begin_feature(feature, row == 0, all.ids, row);
+      const std::size_t begin = feature.find(R"("id":)");
+      if (begin != std::string::npos) {
+        text += feature.substr(begin, feature.find(R"("properties")") - begin);
+      }
       text += ';';
     }
     return text;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/cf_values.h"
+#include "formats/cf_values.h"
 #include "rondel/conventions.h"
 
 namespace rondel::test {
@@ -83,7 +83,7 @@ TEST(unpacked_numbers, bounds_are_those_of_the_file) {
           doubles.push_back(raw * factor);
           singles.push_back(single(raw, factor, 0));
         }
-        io::ValueRules(variable).apply(right);
+        formats::ValueRules(variable).apply(right);
         mark_missing(doubles, "i2", attributes);
         mark_missing(singles, "i2", attributes);
         for (std::size_t i = 0; i < right.size(); ++i) {
@@ -104,6 +104,28 @@ TEST(unpacked_numbers, numbers_between_integers_have_bounds) {
   mark_missing(values, "i2", attributes);
   const bool missing[] = {true, false, false, true, true, false, true, false};
   for (std::size_t i = 0; i < values.size(); ++i) EXPECT_EQ(std::isnan(values[i]), missing[i]) << i;
+}
+
+// Unpacking rounds, but a number that is a bound in the file is within it.
+TEST(unpacked_numbers, bounds_themselves_are_not_missing) {
+  const double scale = 0.01;
+  const double offset = 273.15;
+  for (int i = -50; i <= 50; ++i) {
+    const double low = i * 0.7;
+    const double high = low + 3;
+    const std::vector<ValueAttribute> attributes = {in_doubles("scale_factor", {scale}),
+                                                    in_doubles("add_offset", {offset}),
+                                                    in_doubles("valid_range", {low, high})};
+    std::vector<double> values;
+    for (const double raw : {low, high, low - 0.5, high + 0.5}) {
+      values.push_back(raw * scale + offset);
+    }
+    mark_missing(values, "f8", attributes);
+    const bool missing[] = {false, false, true, true};
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      EXPECT_EQ(std::isnan(values[k]), missing[k]) << low << ' ' << k;
+    }
+  }
 }
 
 }  // namespace

@@ -12,12 +12,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "meshing/mesh_file.h"
+#include "formats/mesh_file.h"
 
 namespace rondel::test::of_cell_corners {
 namespace {
 
-using meshing::CellCorners;
+using formats::CellCorners;
 using Corners = std::vector<Index>;
 
 // A ring of vertices in this order, with the lengths of the edges from each to the next one.
@@ -73,7 +73,7 @@ TEST(cell_corners, group_cells_into_blocks) {
   arrays.edge_points.resize(2);
   const CellCorners corners(arrays);
   EXPECT_EQ(corners_of(arrays, 2), (Corners{4, 6, 7}));
-  const meshing::CellBlocks blocks = meshing::blocks_of(arrays, corners);
+  const formats::CellBlocks blocks = formats::blocks_of(arrays, corners);
   EXPECT_EQ(blocks.cells, (std::vector<Index>{1, 2, 3, 0}));
   EXPECT_EQ(blocks.begins, (std::vector<std::size_t>{0, 3, 4}));
   EXPECT_EQ(blocks.corners, (std::vector<std::size_t>{3, 4}));

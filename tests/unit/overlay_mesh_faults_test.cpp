@@ -16,6 +16,7 @@
 #include "exact/vector.h"
 #include "mesh_writer.h"
 #include "overlay_support.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "rondel/weight_files.h"

@@ -16,7 +16,7 @@
 namespace rondel::test::of_sweep {
 namespace {
 
-using io::LonLatRing;
+using map::LonLatRing;
 using overlay::PlaneFaultKind;
 using overlay::PlaneRegion;
 using Positions = std::vector<LonLat>;

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "formats/cf_names.h"
+#include "formats/cf_reader.h"
+#include "formats/netcdf_cells.h"
+#include "formats/own_centers.h"
+#include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "io/file_part.h"
+#include "io/netcdf_groups.h"
+#include "io/number.h"
+#include "map/ring_area.h"
+#include "overlay/same_nodes.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "system/job.h"
+#include "system/shortest_text.h"
+
+namespace rondel {
+namespace {
+
+// Reads the cells by the first convention that the file follows.
+formats::MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name) {
+  const bool is_oasis = file.find(name + ".clo") != nullptr;
+  if (!name.empty() && !is_oasis) (void)file.require(name);
+  for (const auto read : {&formats::read_ugrid, &formats::read_scrip_grid, &formats::read_esmf_mesh,
+                          &formats::read_mpas, &formats::read_icon, &formats::read_oasis,
+                          &formats::read_exodus, &formats::read_cf_grid}) {
+    if (std::optional<formats::MeshContent> mesh = read(file, name)) return std::move(*mesh);
+  }
+  if (!name.empty()) {
+    throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
+  }
+  const std::string text =
+      "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, OASIS and Exodus, and "
+      "has no longitudes and latitudes of CF";
+  throw io::BadValue(text + formats::remark_on_units(formats::headers_of(file)));
+}
+
+// Nodes in double precision that are nearer to each other than this (radians) are one corner.
+constexpr double same_place = 1e-10;
+// The distance for nodes in single precision.
+constexpr double same_single_place = 1e-6;
+
+// Rings with the inside to the left, without corners that repeat the one before.
+// Makes rings with the inside to the left, without repeated corners. Nodes within a distance are
+// one corner.
+class RingsOfNodes {
+ public:
+  // Precondition: all nodes are places. `distance` is in radians.
+  RingsOfNodes(std::span<const LonLat> nodes, double distance) {
+    overlay::Distinct<LonLat> places = overlay::distinct(nodes);
+    made_.points = unit_vectors(places.values);
+    const std::vector<Index> same = overlay::same_nodes(made_.points, distance);
+    for (Index& number : places.numbers) number = same[number];
+    corner_of_ = std::move(places.numbers);
+  }
+
+  void reserve(std::size_t num_cells, std::size_t num_rings, std::size_t num_corners) {
+    made_.cells.reserve(num_cells + 1);
+    made_.rings.reserve(num_rings + 1);
+    made_.corners.reserve(num_corners);
+  }
+
+  // Adds a corner to the ring, unless it equals the corner before.
+  void add_corner(Index node) {
+    const Index corner = corner_of_[node];
+    if (ring_.empty() || corner != ring_.back()) ring_.push_back(corner);
+  }
+  // Ends a ring. A ring with fewer than three different corners is dropped.
+  void end_ring() {
+    while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
+    if (ring_.size() >= 3) {
+      points_.clear();
+      for (const Index corner : ring_) points_.push_back(made_.points[corner]);
+      if (map::is_clockwise(points_)) std::ranges::reverse(ring_);
+      made_.append_ring(ring_);
+    }
+    ring_.clear();
+  }
+  void end_cell() { made_.end_cell(); }
+  CellRings take() && { return std::move(made_); }
+
+ private:
+  CellRings made_;
+  std::vector<Index> corner_of_;  // the point of each node
+  std::vector<Index> ring_;
+  std::vector<Point> points_;
+};
+
+// Makes cells of a mesh, and adds remarks about cells that are empty.
+CellRings cells_of(formats::MeshContent& mesh) {
+  formats::leave_out_cells_without_corners(mesh);
+  RingsOfNodes maker(mesh.nodes, mesh.is_single ? same_single_place : same_place);
+  const CellRings& given = mesh.cells;
+  maker.reserve(given.num_cells(), given.rings.size() - 1, given.corners.size());
+  for (std::size_t i = 0; i < given.num_cells(); ++i) {
+    for (std::uint64_t r = given.cells[i]; r < given.cells[i + 1]; ++r) {
+      for (const Index node : given.corners_of(r)) maker.add_corner(node);
+      maker.end_ring();
+    }
+    maker.end_cell();
+  }
+  CellRings cells = std::move(maker).take();
+  std::size_t num_empty = 0;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
+    if (cells.cells[i] == cells.cells[i + 1] && !is_masked) ++num_empty;
+  }
+  if (num_empty > 0) {
+    mesh.remarks.push_back(std::to_string(num_empty) + " of " + std::to_string(cells.num_cells()) +
+                           " cells have less than three different corners and are empty");
+  }
+  return cells;
+}
+
+// Completes the centers: missing ones of masked cells become (0, 0). If centers of other cells are
+// missing, the mesh gets no centers.
+void require_centers(formats::MeshContent& mesh) {
+  for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
+    const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
+    LonLat& center = mesh.centers[i];
+    if (!formats::is_missing_place(center) && !is_masked) {
+      center = formats::require_position("the centers of cells", i, center);
+    } else if (is_masked) {
+      const bool is_place = std::isfinite(center.lon_deg) && std::abs(center.lat_deg) <= 90;
+      if (!is_place) center = {0, 0};
+    } else {
+      mesh.centers.clear();
+    }
+  }
+}
+
+// Compares the centers of CF with the cells, where files have zeros under land. If more than half
+// of the cells do not contain their center, the corners are those of other places: throws BadValue.
+// For other conventions require_own_centers() does this.
+void require_centers_in_cells(const formats::MeshContent& mesh, CellTable& table) {
+  if (table.convention != "CF" || table.grid || table.centers.empty()) return;
+  const CentersOutside outside = centers_outside(table.cells, table.centers, table.mask);
+  if (outside.number == 0) return;
+  const LonLat& center = table.centers[outside.first];
+  const std::string text = std::to_string(outside.number) + " of " + std::to_string(outside.of) +
+                           " cells with the corners " + mesh.names +
+                           " do not contain their centers, the first one cell " +
+                           std::to_string(outside.first) + " with the center " +
+                           system::shortest_text(center.lon_deg) + " " +
+                           system::shortest_text(center.lat_deg);
+  if (outside.are_most()) {
+    throw io::BadValue(text + ": corners and centers are of different places or orders");
+  }
+  table.remarks.push_back(text);
+}
+
+}  // namespace
+
+std::size_t CellTable::num_cells() const {
+  return grid ? (grid->lon_deg.size() - 1) * (grid->lat_deg.size() - 1) : cells.num_cells();
+}
+
+CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each) {
+  const system::ArithmeticScope arithmetic;
+  if (of_each == 0 || corners.size() % of_each != 0) {
+    throw InvalidInput(std::to_string(corners.size()) + " corners are none of cells with " +
+                           std::to_string(of_each) + " each",
+                       corners.size());
+  }
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto [lon, lat] = corners[k];
+    if (std::isfinite(lon) && std::abs(lat) <= 90) continue;
+    throw InvalidInput("cell " + std::to_string(k / of_each) + " has a corner at longitude " +
+                           system::shortest_text(lon) + " and latitude " +
+                           system::shortest_text(lat) + ", which is no place",
+                       k / of_each);
+  }
+  RingsOfNodes maker(corners, same_place);
+  maker.reserve(corners.size() / of_each, corners.size() / of_each, corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    maker.add_corner(static_cast<Index>(k));
+    if ((k + 1) % of_each == 0) {
+      maker.end_ring();
+      maker.end_cell();
+    }
+  }
+  return std::move(maker).take();
+}
+
+bool can_read_cells(const FileName& file) { return is_netcdf_file(io::split_part(file).first); }
+
+CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& file_name,
+                            const std::string& part) {
+  formats::MeshContent mesh = read_by_convention(file, io::full_name(file.variables(), part));
+  CellTable table;
+  table.name = file_name;
+  if (!mesh.grid) table.cells = cells_of(mesh);
+  require_centers(mesh);
+  if (!mesh.center_names.empty() && !mesh.centers.empty()) {
+    std::string remark = require_own_centers(mesh, table.cells);
+    if (!remark.empty()) mesh.remarks.push_back(std::move(remark));
+  }
+  table.convention = std::move(mesh.convention);
+  table.grid = std::move(mesh.grid);
+  table.centers = std::move(mesh.centers);
+  table.mask = std::move(mesh.mask);
+  table.shape = std::move(mesh.shape);
+  table.remarks = std::move(mesh.remarks);
+  require_centers_in_cells(mesh, table);
+  return table;
+}
+
+CellTable read_cells(const FileName& file) {
+  const system::ArithmeticScope arithmetic;
+  const std::pair<FileName, std::string> part = io::split_part(file);
+  io::FileBytes bytes(part.first.path, true);
+  if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(part.first)) {
+    io::throw_unknown_ending(part.first,
+                             "cells of models are read from netCDF:", io::netcdf_endings);
+  }
+  return io::in_file(bytes.name(), [&] {
+    return formats::cells_in(io::NetcdfReader(bytes), bytes.name(), part.second);
+  });
+}
+
+Partition partition_of(const CellTable& table, GridSides sides, const Execution& execution) {
+  try {
+    return table.grid ? Partition::lonlat_grid(*table.grid, sides, execution)
+                      : Partition(table.cells, execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(table.name + ": " + error.what());
+  }
+}
+
+}  // namespace rondel

@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads grids of the Climate and Forecast conventions (CF 1.11, sections 4.1, 4.2, 5.2, 7.1).
+// rondel/conventions.h decides which variables are coordinates and bounds; this file makes cells of
+// them.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "formats/cf_lines.h"
+#include "formats/cf_reader.h"
+#include "formats/netcdf_cells.h"
+#include "io/bad_value.h"
+#include "io/number.h"
+#include "rondel/conventions.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "system/arithmetic.h"
+#include "system/shortest_text.h"
+
+namespace rondel::formats {
+namespace {
+
+using io::BadValue;
+using io::NetcdfReader;
+
+constexpr std::size_t no_variable = CoordinatePair::none;
+
+// Finds the coordinates of the grid that is to be read. `remarks` gets what is noteworthy.
+class CfGrids {
+ public:
+  CfGrids(const NetcdfReader& file, const std::string& name, std::vector<std::string>& remarks)
+      : file_(file), headers_(headers_of(file)), remarks_(remarks) {
+    if (name.empty()) {
+      pairs_ = find_coordinates(headers_, {}, &remarks);
+      return;
+    }
+    // `name` may be that of a coordinate, or of a variable that has coordinates.
+    for (const CoordinatePair& pair : find_coordinates(headers_, {}, &remarks)) {
+      if (headers_[pair.lon].name == name || headers_[pair.lat].name == name)
+        pairs_.push_back(pair);
+    }
+    if (pairs_.empty()) pairs_ = find_coordinates(headers_, {{}, {}, name}, &remarks);
+    if (pairs_.empty()) {
+      throw BadValue("variable " + io::in_quotes(name) + " has no longitudes and latitudes");
+    }
+  }
+
+  // Returns the first pair of coordinates that has cells, preferring pairs along which variables
+  // lie, or null if the file has no pair. Throws BadValue if no pair has cells.
+  const CoordinatePair* best() {
+    if (pairs_.empty()) return nullptr;
+    // If some pairs have variables along them, a pair without any is no grid.
+    const bool has_used = std::ranges::any_of(pairs_, &CoordinatePair::is_used);
+    const auto found = std::ranges::find_if(pairs_, [&](const CoordinatePair& pair) {
+      return has_cells(pair) && (pair.is_used || !has_used);
+    });
+    if (found == pairs_.end()) {
+      throw BadValue("its longitudes and latitudes have no bounds, so no cells");
+    }
+    if (found != pairs_.begin()) require_same_places(pairs_.front(), *found);
+    tell_of_others(*found);
+    return &*found;
+  }
+
+  [[nodiscard]] const MeshVariable& variable(std::size_t index) const {
+    return file_.variables()[index];
+  }
+
+ private:
+  // True if cells can be made: the coordinates are axes, or both have bounds.
+  static bool has_cells(const CoordinatePair& pair) {
+    return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
+  }
+
+  // True if all names of `some` are among `all`.
+  static bool are_among(const std::vector<std::string>& some, const std::vector<std::string>& all) {
+    return std::ranges::all_of(
+        some, [&](const std::string& name) { return std::ranges::count(all, name) != 0; });
+  }
+
+  [[nodiscard]] std::vector<std::string> dimensions_of(const CoordinatePair& pair) const {
+    std::vector<std::string> names = headers_[pair.lat].dimensions;
+    for (const std::string& name : headers_[pair.lon].dimensions) {
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
+    }
+    return names;
+  }
+
+  // Throws BadValue if axes are used instead of `first`, which has no cells, but are other places:
+  // along the same dimensions there may be axes of the same places, or variables that only seem to
+  // be degrees.
+  void require_same_places(const CoordinatePair& first, const CoordinatePair& axes) const {
+    const std::vector<std::string> own = dimensions_of(first);
+    if (!axes.are_axes || !are_among(dimensions_of(axes), own) || first.are_axes) return;
+    const PlaceArrays places = places_of(file_, variable(first.lon), variable(first.lat));
+    const MeshVariable* const pair[] = {&variable(axes.lon), &variable(axes.lat)};
+    const std::vector<double> lon =
+        degrees_of(file_, *pair[0], UsualUnits::of_name, {nullptr, pair[1]});
+    const std::vector<double> lat =
+        degrees_of(file_, *pair[1], UsualUnits::of_name, {nullptr, pair[0]});
+    const bool is_lon_last = places.dimensions.back() == variable(axes.lon).dimensions[0];
+    constexpr double most_apart = 1e-3;  // degrees
+    for (std::size_t i = 0; i < places.lon.size(); ++i) {
+      const std::size_t along = is_lon_last ? i % lon.size() : i / lat.size();
+      const std::size_t across = is_lon_last ? i / lon.size() : i % lat.size();
+      if (places.lon.size() == lon.size() * lat.size() &&
+          std::abs(std::remainder(places.lon[i] - lon[along], 360)) <= most_apart &&
+          std::abs(places.lat[i] - lat[across]) <= most_apart) {
+        continue;
+      }
+      throw BadValue("its longitudes " + io::in_quotes(headers_[first.lon].name) +
+                     " and latitudes " + io::in_quotes(headers_[first.lat].name) +
+                     " have no bounds, so no cells, and the axes " +
+                     io::in_quotes(headers_[axes.lon].name) + " and " +
+                     io::in_quotes(headers_[axes.lat].name) + " are other places");
+    }
+  }
+
+  // Adds a remark that names the grids that are not read.
+  void tell_of_others(const CoordinatePair& taken) {
+    std::string others;
+    constexpr std::size_t most = 3;
+    std::size_t number = 0;
+    for (const CoordinatePair& pair : pairs_) {
+      const bool is_other = pair.lon != taken.lon || pair.lat != taken.lat;
+      if (!is_other || !has_cells(pair) || !pair.is_used) continue;
+      if (are_among(dimensions_of(pair), dimensions_of(taken))) continue;
+      if (++number <= most) {
+        others += (others.empty() ? "" : ", ") + headers_[pair.lon].name + " and " +
+                  headers_[pair.lat].name;
+      }
+    }
+    if (number == 0) return;
+    if (number > most) others += " and more";
+    remarks_.push_back("the file has several grids; that of " + headers_[taken.lon].name + " and " +
+                       headers_[taken.lat].name + " is read, not that of " + others +
+                       "; FILE.nc:NAME names one by a variable");
+  }
+
+  const NetcdfReader& file_;
+  std::vector<VariableHeader> headers_;
+  std::vector<std::string>& remarks_;
+  std::vector<CoordinatePair> pairs_;
+};
+
+// Returns the bounds of an axis in degrees, two for each cell or one more than cells, or none if it
+// has no bounds.
+std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable& axis,
+                                   const MeshVariable& other, const MeshVariable* bounds) {
+  if (bounds == nullptr) return {};
+  const bool are_lines = bounds->num_values == axis.num_values + 1;
+  if (bounds->num_values != 2 * axis.num_values && !are_lines) {
+    throw BadValue("variable " + io::in_quotes(bounds->name) + " has " +
+                   std::to_string(bounds->num_values) + " values instead of " +
+                   std::to_string(2 * axis.num_values));
+  }
+  std::vector<double> values = degrees_of(file, *bounds, UsualUnits::of_name, {&axis, &other});
+  if (bounds->dimensions.size() == 2 && bounds->dimensions[1] == axis.dimensions[0] &&
+      bounds->dimensions[0] != axis.dimensions[0]) {
+    values = in_order(*bounds, {bounds->dimensions[1], bounds->dimensions[0]}, std::move(values));
+  }
+  return values;
+}
+
+// Returns the lines between cells along an axis, in degrees.
+std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
+                             const MeshVariable& other, const MeshVariable* bounds,
+                             bool is_longitude) {
+  const std::vector<double> values = degrees_of(file, axis, UsualUnits::of_name, {bounds, &other});
+  const auto refuse = [](const MeshVariable& variable, const InvalidInput& error) {
+    throw BadValue("variable " + io::in_quotes(variable.name) + ": " + error.what());
+  };
+  try {
+    require_order(values, is_longitude, is_longitude ? "longitude" : "latitude");
+  } catch (const InvalidInput& error) {
+    refuse(axis, error);
+  }
+  try {
+    return axis_lines(values, bounds_of_axis(file, axis, other, bounds), is_longitude);
+  } catch (const InvalidInput& error) {
+    refuse(bounds == nullptr ? axis : *bounds, error);
+  }
+  return {};
+}
+
+// Adds a remark if coordinates are outside of their own cells, as with the bounds of others.
+void tell_of_outside(const MeshVariable& axis, const MeshVariable* bounds,
+                     std::span<const double> values, std::span<const double> lines,
+                     std::vector<std::string>& remarks) {
+  if (bounds == nullptr) return;
+  constexpr double rounding = 1e-4;  // degrees, of single precision
+  std::size_t first = values.size();
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double middle = (lines[i] + lines[i + 1]) / 2;
+    const double half = std::abs(lines[i + 1] - lines[i]) / 2;
+    if (std::abs(std::remainder(values[i] - middle, 360)) <= half + rounding) continue;
+    first = std::min(first, i);
+    ++number;
+  }
+  if (number == 0) return;
+  remarks.push_back(
+      std::to_string(number) + " of " + std::to_string(values.size()) + " coordinates of " +
+      io::in_quotes(axis.name) + " are outside of their cells in " + io::in_quotes(bounds->name) +
+      ", the first one " + system::shortest_text(values[first]) + " beside " +
+      system::shortest_text(lines[first]) + " to " + system::shortest_text(lines[first + 1]));
+}
+
+// Throws BadValue unless bounds are the same wherever the places are the same, as at all times: the
+// cells of a grid that moves are not those of its first time.
+void require_repeated(const MeshVariable& bounds, std::span<const double> values,
+                      std::size_t size) {
+  const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
+  for (std::size_t k = size; k < values.size(); ++k) {
+    if (is_same(values[k], values[k - size])) continue;
+    throw BadValue("the bounds " + io::in_quotes(bounds.name) + " are " +
+                   system::shortest_text(values[k - size]) + " and " +
+                   system::shortest_text(values[k]) +
+                   " for one place, as along a dimension that its coordinates do not have, or in "
+                   "which they repeat: cells that change are not read");
+  }
+}
+
+// The lengths of the last two dimensions.
+GridShape last_two_of(std::span<const std::uint64_t> lengths) {
+  return {lengths[lengths.size() - 2], lengths[lengths.size() - 1]};
+}
+
+// True if bounds are the nodes of a grid, (ny + 1, nx + 1), in either order.
+bool is_of_nodes(const MeshVariable& bounds, const PlaceArrays& places) {
+  const std::size_t rank = places.shape.size();
+  if (rank < 2 || bounds.shape.size() != rank ||
+      !std::equal(bounds.shape.begin(), bounds.shape.end() - 2, places.shape.begin())) {
+    return false;
+  }
+  const auto [rows, columns] = last_two_of(bounds.shape);
+  const auto [ny, nx] = last_two_of(places.shape);
+  return (rows == ny + 1 && columns == nx + 1) || (rows == nx + 1 && columns == ny + 1);
+}
+
+// Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
+// in `of_each`. The bounds have one more dimension than the coordinate, or they are the nodes of a
+// grid: then the nodes are returned, and `of_each` is 0.
+std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
+                                      const MeshVariable& other, const MeshVariable& bounds,
+                                      const PlaceArrays& places, std::size_t& of_each) {
+  std::vector<double> values = degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
+  const std::size_t num_cells = places.lon.size();
+  const auto is_of_bounds = [&](std::size_t dimension) {
+    return std::ranges::count(bounds.dimensions, dimension) == 1;
+  };
+  if (std::ranges::all_of(places.dimensions, is_of_bounds)) {
+    // Repeated dimensions such as time come first (only the first of their values is used), then
+    // the dimensions of the places, and at last the corners.
+    std::vector<std::size_t> order;
+    for (const std::size_t d : places.repeated) {
+      if (is_of_bounds(d)) order.push_back(d);
+    }
+    order.insert(order.end(), places.dimensions.begin(), places.dimensions.end());
+    of_each = 1;
+    for (std::size_t d = 0; d < bounds.dimensions.size(); ++d) {
+      if (std::ranges::count(order, bounds.dimensions[d]) != 0) continue;
+      order.push_back(bounds.dimensions[d]);
+      of_each *= bounds.shape[d];
+    }
+    if (std::ranges::is_permutation(order, bounds.dimensions)) {
+      values = in_order(bounds, order, std::move(values));
+      require_repeated(bounds, values, num_cells * of_each);
+      values.resize(num_cells * of_each);
+      return values;
+    }
+  }
+  if (is_of_nodes(bounds, places)) {
+    of_each = 0;
+    return values;
+  }
+  if (num_cells == 0 || values.size() % num_cells != 0) {
+    throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
+                   std::to_string(bounds.num_values) + " values for " + std::to_string(num_cells) +
+                   " cells");
+  }
+  of_each = values.size() / num_cells;
+  return values;
+}
+
+// Makes the cells of coordinates with bounds.
+MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
+                               const CoordinatePair& pair) {
+  MeshContent mesh;
+  const MeshVariable& lon = grids.variable(pair.lon);
+  const MeshVariable& lat = grids.variable(pair.lat);
+  const MeshVariable& lon_bounds = grids.variable(pair.lon_bounds);
+  const MeshVariable& lat_bounds = grids.variable(pair.lat_bounds);
+  const PlaceArrays places = places_of(file, lon, lat);
+  std::size_t of_each = 0;
+  std::size_t of_each_lat = 0;
+  const std::vector<double> lons = corners_of_bounds(file, lon, lat, lon_bounds, places, of_each);
+  std::vector<double> lats = corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
+  if (of_each_lat == 0 &&
+      std::ranges::is_permutation(lon_bounds.dimensions, lat_bounds.dimensions)) {
+    lats = in_order(lat_bounds, lon_bounds.dimensions, std::move(lats));
+  }
+  if (of_each != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
+    throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
+                   io::in_quotes(lat_bounds.name) + " have not as many corners");
+  }
+  for (std::size_t i = 0; i < lons.size(); ++i) mesh.nodes.push_back({lons[i], lats[i]});
+  mesh.names = io::in_quotes(lon_bounds.name) + " and " + io::in_quotes(lat_bounds.name);
+  mesh.is_single = lon_bounds.type == io::NetcdfType::float32;
+  for (std::size_t i = 0; i < places.lon.size(); ++i) {
+    mesh.centers.push_back({places.lon[i], places.lat[i]});
+  }
+  if (of_each == 0) {
+    of_each = 4;
+    mesh.nodes = corners_of_grid(mesh.nodes, last_two_of(lon_bounds.shape), mesh.centers,
+                                 last_two_of(places.shape));
+  }
+  end_cells_of_nodes(of_each, !has_rows(places.shape), mesh);
+  if (places.shape.size() > 1) mesh.shape = places.shape;
+  return mesh;
+}
+
+// Makes the cells of axes.
+MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
+                             const CoordinatePair& pair) {
+  MeshContent mesh;
+  const MeshVariable& lon = grids.variable(pair.lon);
+  const MeshVariable& lat = grids.variable(pair.lat);
+  const auto bounds = [&](std::size_t index) {
+    return index == no_variable ? nullptr : &grids.variable(index);
+  };
+  const MeshVariable* const lon_bounds = bounds(pair.lon_bounds);
+  const MeshVariable* const lat_bounds = bounds(pair.lat_bounds);
+  mesh.grid = LonLatGrid{lines_of(file, lon, lat, lon_bounds, true),
+                         lines_of(file, lat, lon, lat_bounds, false)};
+  mesh.shape = {lat.num_values, lon.num_values};
+  const std::vector<double> lons = degrees_of(file, lon, UsualUnits::of_name, {lon_bounds, &lat});
+  const std::vector<double> lats = degrees_of(file, lat, UsualUnits::of_name, {lat_bounds, &lon});
+  const std::string name = io::in_quotes(lat.name);
+  tell_of_outside(lon, lon_bounds, lons, mesh.grid->lon_deg, mesh.remarks);
+  tell_of_outside(lat, lat_bounds, lats, mesh.grid->lat_deg, mesh.remarks);
+  for (std::size_t j = 0; j < lats.size(); ++j) {
+    for (const double at : lons) mesh.centers.push_back(require_position(name, j, {at, lats[j]}));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::string& name) {
+  if (!name.empty() && file.find(name) == nullptr) return std::nullopt;
+  std::vector<std::string> remarks;
+  CfGrids grids(file, name, remarks);
+  const CoordinatePair* const pair = grids.best();
+  if (pair == nullptr) return std::nullopt;
+  MeshContent mesh = pair->are_axes ? cells_along_axes(file, grids, *pair)
+                                    : cells_with_corners(file, grids, *pair);
+  mesh.convention = "CF";
+  for (std::string& remark : remarks) {
+    if (remark.starts_with("there is no variable") && pair->are_axes) {
+      remark += ", so cells end half way between the coordinates";
+    }
+  }
+  mesh.remarks.insert(mesh.remarks.begin(), remarks.begin(), remarks.end());
+  return mesh;
+}
+
+}  // namespace rondel::formats
+
+namespace rondel {
+
+LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg) {
+  return {axis_lines(lon_deg, {}, true), axis_lines(lat_deg, {}, false)};
+}
+
+}  // namespace rondel

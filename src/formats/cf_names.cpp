@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "formats/cf_names.h"
+
+#include <algorithm>
+#include <array>
+
+namespace rondel::formats {
+namespace {
+
+// A pair of names that models give to longitudes and latitudes.
+struct KnownNames {
+  std::string_view lon;
+  std::string_view lat;
+};
+// Names in lower case: plain ones, and those of NEMO, ROMS, POP and CICE, MOM6, WRF and its
+// preprocessor, NEMO's mesh masks, ICON, MPAS, SCRIP.
+constexpr std::array known_names = {
+    KnownNames{"lon", "lat"},
+    KnownNames{"longitude", "latitude"},
+    KnownNames{"lons", "lats"},
+    KnownNames{"longitudes", "latitudes"},
+    KnownNames{"nav_lon", "nav_lat"},
+    KnownNames{"lon_rho", "lat_rho"},
+    KnownNames{"tlong", "tlat"},
+    KnownNames{"tlon", "tlat"},
+    KnownNames{"geolon", "geolat"},
+    KnownNames{"xlong", "xlat"},
+    KnownNames{"xlong_m", "xlat_m"},
+    KnownNames{"glamt", "gphit"},
+    KnownNames{"clon", "clat"},
+    KnownNames{"loncell", "latcell"},
+    KnownNames{"grid_center_lon", "grid_center_lat"},
+};
+
+// MPAS and ICON give their coordinates in radians, and not all of their files have units.
+constexpr std::array<std::string_view, 12> names_in_radians = {
+    "lonCell", "latCell", "lonVertex", "latVertex", "lonEdge", "latEdge",
+    "clon",    "clat",    "vlon",      "vlat",      "elon",    "elat"};
+
+// The usual names of bounds: "lon_bnds", or "corner_lon".
+constexpr std::array<std::string_view, 5> bounds_endings = {"_bnds", "_bounds", "_b", "_vertices",
+                                                            "_corners"};
+constexpr std::string_view bounds_beginning = "corner_";
+
+}  // namespace
+
+bool is_known_name(std::string_view name, CoordinateKind kind) {
+  const std::string lower = lower_case(name);
+  return std::ranges::any_of(known_names, [&](const KnownNames& names) {
+    return lower == (kind == CoordinateKind::lon ? names.lon : names.lat);
+  });
+}
+
+bool is_name_of_part(std::string_view name, CoordinateKind kind) {
+  constexpr std::array names = {KnownNames{"lonVertex", "latVertex"},
+                                KnownNames{"lonEdge", "latEdge"}, KnownNames{"vlon", "vlat"},
+                                KnownNames{"elon", "elat"}};
+  return std::ranges::any_of(names, [&](const KnownNames& pair) {
+    return name == (kind == CoordinateKind::lon ? pair.lon : pair.lat);
+  });
+}
+
+bool is_in_radians(std::string_view name) {
+  return std::ranges::find(names_in_radians, name) != names_in_radians.end();
+}
+
+bool is_rotated_or_projected(const VariableHeader& variable) {
+  constexpr std::array<std::string_view, 6> names = {"grid_longitude",
+                                                     "grid_latitude",
+                                                     "projection_x_coordinate",
+                                                     "projection_y_coordinate",
+                                                     "projection_x_angular_coordinate",
+                                                     "projection_y_angular_coordinate"};
+  return std::ranges::find(names, variable.text("standard_name")) != names.end();
+}
+
+std::string remark_on_rotation(const VariableHeader& variable) {
+  return "'" + variable.name + "' has the standard_name '" + variable.text("standard_name") +
+         "': coordinates of a rotated pole or a projection are no longitudes and latitudes";
+}
+
+bool are_partners(std::string_view lon, std::string_view lat) {
+  constexpr std::array<KnownNames, 4> words = {KnownNames{"longitude", "latitude"},
+                                               KnownNames{"glam", "gphi"},
+                                               KnownNames{"long", "lat"}, KnownNames{"lon", "lat"}};
+  const std::string of_lon = lower_case(lon);
+  for (const KnownNames& word : words) {
+    const std::size_t at = of_lon.find(word.lon);
+    if (at == std::string::npos) continue;
+    std::string other = of_lon;
+    return lower_case(lat) == other.replace(at, word.lon.size(), word.lat);
+  }
+  return false;
+}
+
+bool is_connectivity(const VariableHeader& variable) {
+  const std::string_view name = variable.name;
+  const bool is_of_mpas = name.ends_with("OnCell") || name.ends_with("OnVertex") ||
+                          name.ends_with("OnEdge") || name.starts_with("indexTo");
+  const bool is_of_icon = name.ends_with("_of_cell") || name.ends_with("_index");
+  return is_of_mpas || is_of_icon || variable.text("cf_role").ends_with("_connectivity");
+}
+
+bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
+  if (name.starts_with(bounds_beginning)) {
+    return name.substr(bounds_beginning.size()) == coordinate;
+  }
+  return name.starts_with(coordinate) &&
+         std::ranges::find(bounds_endings, name.substr(coordinate.size())) != bounds_endings.end();
+}
+
+}  // namespace rondel::formats
+
+namespace rondel {
+
+bool is_name_of_cells(std::string_view dimension) {
+  constexpr std::array<std::string_view, 9> names = {"nCells",    "ncells",       "cell",
+                                                     "ncol",      "n_face",       "nMesh2_face",
+                                                     "grid_size", "elementCount", "cells"};
+  return std::ranges::find(names, dimension) != names.end();
+}
+
+bool is_name_of_time(std::string_view dimension) {
+  const std::string lower = formats::lower_case(dimension);
+  return lower == "time" || lower == "t" || lower == "times" || lower == "ntime" ||
+         lower == "time_counter" || lower == "ocean_time" || lower == "record";
+}
+
+}  // namespace rondel

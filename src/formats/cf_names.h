@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The names by which CF and models know longitudes, latitudes and their bounds.
+//
+// in    names and attributes of variables and dimensions
+// out   what they mean
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "rondel/conventions.h"
+
+namespace rondel::formats {
+
+// Returns the text with ASCII letters in lower case; other characters are not changed.
+std::string lower_case(std::string_view text);
+// Returns the text without blanks at both ends.
+std::string_view without_blanks(std::string_view text);
+
+// The two kinds of coordinates on a sphere.
+enum class CoordinateKind { lon, lat };
+
+// True if models give this name to longitudes, or latitudes, of places. It decides if no attribute
+// does.
+bool is_known_name(std::string_view name, CoordinateKind kind);
+// True if MPAS or ICON give this name to longitudes, or latitudes, of vertices or edges.
+bool is_name_of_part(std::string_view name, CoordinateKind kind);
+// Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its
+// units, 3 its standard_name.
+int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
+// True if the standard_name says that these are coordinates of a rotated pole or of a map
+// projection, whatever their units are (CF 5.6).
+bool is_rotated_or_projected(const VariableHeader& variable);
+// Returns a sentence that says so, without a full stop.
+std::string remark_on_rotation(const VariableHeader& variable);
+// True if the names differ only in that one is of longitudes and the other one of latitudes: ULONG
+// and ULAT, glamu and gphiu.
+bool are_partners(std::string_view lon, std::string_view lat);
+// Returns a sentence for each variable that has a name of longitudes or latitudes and units that
+// are no degrees, and for each that is rotated or projected; each begins with "; ".
+std::string remark_on_units(std::span<const VariableHeader> variables);
+// True if MPAS or ICON, whose coordinates are radians, have a variable of this name.
+bool is_in_radians(std::string_view name);
+// True if the variable has the name of a list of neighbors or corners in MPAS or ICON, or a cf_role
+// of such a list in UGRID.
+bool is_connectivity(const VariableHeader& variable);
+// True if `name` is a usual name of the bounds of `coordinate`.
+bool is_name_of_bounds(std::string_view name, std::string_view coordinate);
+}  // namespace rondel::formats

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads variables of netCDF files by the rules of rondel/conventions.h and io/cf_values.h.
+//
+// in    an open netCDF file and its variables
+// out   numbers and coordinates in degrees, as the conventions mean them
+// index dimensions by their position in a variable
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
+
+namespace rondel::formats {
+
+// Return the headers of all variables of the file, in their order, and of one variable.
+std::vector<VariableHeader> headers_of(const io::NetcdfReader& file);
+VariableHeader header_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable);
+
+// Returns the values unpacked, with NaN for missing ones. Throws BadValue if they are no numbers.
+std::vector<double> meant_numbers(const io::NetcdfReader& file,
+                                  const io::NetcdfReader::Variable& variable);
+
+// Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing.
+// degrees_of() does so, too.
+void require_sphere(const io::NetcdfReader& file);
+
+// The units of a coordinate that has none and is related to no variable with units.
+enum class UsualUnits { of_name, degrees, radians };
+// Returns coordinates in degrees, with NaN for missing ones. A variable without units has those of
+// the first of its relatives that has some; a relative may be null. The first relative is of the
+// same kind: if the longitudes of corners are west of Greenwich, so are the centers', but latitudes
+// say nothing about that. Throws BadValue for units that are neither degrees nor radians.
+std::vector<double> degrees_of(
+    const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
+    UsualUnits usual = UsualUnits::of_name,
+    std::initializer_list<const io::NetcdfReader::Variable*> relatives = {});
+
+// Returns an array with its dimensions in another order: order[k] is the new position of dimension
+// k of `shape`.
+std::vector<double> transposed(std::span<const std::uint64_t> shape,
+                               const std::vector<std::size_t>& order, std::vector<double> values);
+// Returns the values with the dimensions in the wanted order; dimensions are given by their numbers
+// in the file, which differ.
+std::vector<double> in_order(const io::NetcdfReader::Variable& variable,
+                             const std::vector<std::size_t>& wanted, std::vector<double> values);
+
+// Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
+struct PlaceArrays {
+  std::vector<std::size_t> dimensions;  // dimensions of the longitudes along which places differ
+  // lengths of these dimensions
+  std::vector<std::uint64_t> shape;
+  std::vector<std::size_t> repeated;  // other dimensions, such as time, along which places are
+                                      // repeated
+  std::vector<double> lon;
+  std::vector<double> lat;
+};
+// Reads the places. Throws BadValue if the dimensions of `lon` and `lat` do not agree.
+PlaceArrays places_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& lon,
+                      const io::NetcdfReader::Variable& lat,
+                      UsualUnits usual = UsualUnits::of_name);
+
+}  // namespace rondel::formats

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Recognizes meshes and grids by the names of their variables: those of each convention that a file
+// of this folder reads, and NEMO's by the names of its files of coordinates (NEMO reference manual,
+// "domain configuration file").
+#include "rondel/conventions.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "formats/cf_names.h"
+#include "formats/netcdf_cells.h"
+
+namespace rondel {
+namespace {
+
+// A convention by a variable that all of its files have, and the names of its others.
+struct GridNames {
+  std::string_view mark;
+  std::array<std::string_view, 5> names;
+};
+constexpr std::array grid_names = {
+    GridNames{"elementConn",
+              {"nodeCoords", "elementConn", "numElementConn", "centerCoords", "elementMask"}},
+    GridNames{"grid_corner_lon",
+              {"grid_center_lon", "grid_center_lat", "grid_corner_lon", "grid_corner_lat", ""}},
+    GridNames{"grid_center_lon",
+              {"grid_center_lon", "grid_center_lat", "grid_imask", "grid_dims", ""}},
+    GridNames{"vertex_of_cell", {"clon", "clat", "vlon", "vlat", "edge_vertices"}},
+};
+
+// Knows which variables of a file describe its grid, and are no fields.
+class GridParts {
+ public:
+  explicit GridParts(std::span<const VariableHeader> variables) : variables_(variables) {
+    for (const VariableHeader& variable : variables) {
+      const bool is_topology = variable.text("cf_role") == "mesh_topology" ||
+                               variable.text("standard_name") == "mesh_topology";
+      if (!is_topology) continue;
+      for (const auto& [attribute, text] : variable.texts) {
+        if (!attribute.ends_with("_connectivity") && !attribute.ends_with("_coordinates")) continue;
+        std::istringstream words(text);
+        for (std::string word; words >> word;) named_.push_back(word);
+      }
+    }
+  }
+
+  [[nodiscard]] bool has(const VariableHeader& variable) const {
+    const std::string& name = variable.name;
+    return formats::is_connectivity(variable) || std::ranges::count(named_, name) != 0 ||
+           is_of_list(name) || is_of_mpas(name) || is_of_nemo(name) || is_of_oasis(name) ||
+           is_of_exodus(name);
+  }
+
+ private:
+  [[nodiscard]] bool is_there(std::string_view name) const {
+    return std::ranges::find(variables_, name, &VariableHeader::name) != variables_.end();
+  }
+
+  // True for a name of SCRIP, ESMF or ICON, in a file of that convention.
+  [[nodiscard]] bool is_of_list(std::string_view name) const {
+    return std::ranges::any_of(grid_names, [&](const GridNames& grid) {
+      return std::ranges::find(grid.names, name) != grid.names.end() && is_there(grid.mark);
+    });
+  }
+
+  // True for a coordinate of MPAS, such as xCell or latVertex.
+  [[nodiscard]] bool is_of_mpas(std::string_view name) const {
+    if (!is_there("verticesOnCell") && !is_there("indexToCellID")) return false;
+    for (const std::string_view coordinate : {"x", "y", "z", "lon", "lat"}) {
+      if (!name.starts_with(coordinate)) continue;
+      const std::string_view place = name.substr(coordinate.size());
+      if (place == "Cell" || place == "Edge" || place == "Vertex") return true;
+    }
+    return name == "boundaryVertex";
+  }
+
+  // True for a coordinate of NEMO, glamt or gphit, if the file has both.
+  [[nodiscard]] bool is_of_nemo(std::string_view name) const {
+    if (name.size() != 5 || std::string_view("tuvwf").find(name[4]) == std::string_view::npos)
+      return false;
+    const std::string_view other = name.starts_with("glam")   ? "gphi"
+                                   : name.starts_with("gphi") ? "glam"
+                                                              : "";
+    return !other.empty() && is_there(std::string(other) + name[4]);
+  }
+
+  // True for a part of a grid of OASIS, such as torc.clo, if the file has torc.lon and torc.lat.
+  [[nodiscard]] bool is_of_oasis(std::string_view name) const {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string_view::npos) return false;
+    const std::string grid(name.substr(0, dot));
+    const std::string_view part = name.substr(dot + 1);
+    const bool is_part = part == "lon" || part == "lat" || part == "clo" || part == "cla" ||
+                         part == "msk" || part == "ang";
+    return is_part && is_there(grid + ".lon") && is_there(grid + ".lat");
+  }
+
+  // True for a variable of Exodus II that describes elements.
+  [[nodiscard]] bool is_of_exodus(std::string_view name) const {
+    if (!is_there("connect1")) return false;
+    return std::ranges::any_of(
+        std::array<std::string_view, 6>{"connect", "coord", "global_id", "edge_type", "eb_",
+                                        "elem_num_map"},
+        [&](std::string_view beginning) { return name.starts_with(beginning); });
+  }
+
+  std::span<const VariableHeader> variables_;
+  std::vector<std::string> named_;  // by a topology of UGRID
+};
+
+}  // namespace
+
+std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables) {
+  const GridParts parts(variables);
+  std::vector<bool> result;
+  result.reserve(variables.size());
+  for (const VariableHeader& variable : variables) result.push_back(parts.has(variable));
+  return result;
+}
+
+bool formats::has_mesh(std::span<const VariableHeader> variables) {
+  constexpr std::array<std::string_view, 5> marks = {"verticesOnCell", "grid_corner_lon",
+                                                     "elementConn", "vertex_of_cell", "connect1"};
+  return std::ranges::any_of(variables, [&](const VariableHeader& variable) {
+    return std::ranges::find(marks, variable.name) != marks.end() ||
+           !variable.text("face_node_connectivity").empty();
+  });
+}
+
+bool is_planar(std::span<const std::pair<std::string, std::string>> texts) {
+  return std::ranges::any_of(texts, [](const auto& attribute) {
+    return attribute.first == "on_a_sphere" &&
+           formats::lower_case(formats::without_blanks(attribute.second)) == "no";
+  });
+}
+
+}  // namespace rondel

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Chooses the places that all fields of a file are at, and names them and others in messages.
+#include <algorithm>
+#include <cmath>
+
+#include "formats/field_layout.h"
+
+namespace rondel::formats {
+namespace {
+
+using VariableOfPlaces = io::NetcdfReader::Variable;
+
+bool is_nowhere(const LonLat& place) {
+  return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
+}
+
+// Places that are missing on one side fit.
+bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double most_apart_deg) {
+  const auto is_near = [&](const LonLat& x, const LonLat& y) {
+    if (x == y || is_nowhere(x) || is_nowhere(y)) return true;
+    const bool is_pole = std::min(std::abs(x.lat_deg), std::abs(y.lat_deg)) >= 90 - most_apart_deg;
+    return std::abs(x.lat_deg - y.lat_deg) <= most_apart_deg &&
+           (is_pole || std::abs(std::remainder(x.lon_deg - y.lon_deg, 360)) <= most_apart_deg);
+  };
+  return std::ranges::equal(a, b, is_near);
+}
+
+}  // namespace
+
+// Places in one file are the same if they are the same numbers, but for the rounding of single
+// precision.
+bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
+                                         std::span<const LonLat> a,
+                                         std::span<const LonLat> b) const {
+  const bool is_single = file_.variables()[lon_a].type == io::NetcdfType::float32 ||
+                         file_.variables()[lon_b].type == io::NetcdfType::float32;
+  return are_near(a, b, is_single ? 1e-4 : 1e-9);
+}
+
+bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
+  if (candidate.layout.places.size() != anchor_->places.size()) return false;
+  if (anchor_->lon == CoordinatePair::none) {
+    return are_near(candidate.layout.places, anchor_->places, wanted_.most_apart_deg);
+  }
+  return are_one_place(candidate.lon, anchor_->lon, candidate.layout.places, anchor_->places);
+}
+
+// True if the variable is at the places that are wanted; these are then the places of its
+// coordinates.
+bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
+  for (PossiblePlaces& candidate : candidates(variable)) {
+    if (!are_near(candidate.layout.places, wanted_.positions, wanted_.most_apart_deg)) continue;
+    anchor_ = {candidate.lon, candidate.lat, variable.name, std::move(candidate.layout.places)};
+    return true;
+  }
+  return false;
+}
+
+// The places are those that are wanted. Otherwise they are those of the first variable that has
+// only one answer.
+void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const> variables) {
+  const bool are_wanted = !wanted_.positions.empty();
+  for (const VariableOfPlaces* const variable : variables) {
+    if (variable->type == io::NetcdfType::text) continue;
+    try {
+      if (are_wanted) {
+        if (choose_wanted(*variable)) break;
+        continue;
+      }
+      std::vector<PossiblePlaces> found = candidates(*variable);
+      if (found.size() != 1) continue;
+      std::vector<LonLat>& places = found.front().layout.places;
+      const bool are_places = std::ranges::all_of(places, [](const LonLat& place) {
+        return std::abs(place.lat_deg) <= 90 && std::isfinite(place.lon_deg);
+      });
+      if (num_points_ == 0 && (places.empty() || !are_places)) continue;
+      anchor_ = {found.front().lon, found.front().lat, variable->name, std::move(places)};
+      if (num_points_ == 0) num_points_ = anchor_->places.size();
+      break;
+    } catch (const io::BadValue&) {
+      continue;  // told where the variable is read
+    }
+  }
+  other_pairs_.clear();
+  if (anchor_ || !are_wanted) return;
+  name_wanted_places();
+  other_pairs_.clear();
+  if (!anchor_) {
+    anchor_ = {CoordinatePair::none, CoordinatePair::none, std::string(),
+               std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end())};
+  }
+}
+
+// Another variable of the file may name these places in messages; a coordinate does where no field
+// has them.
+void FieldDimensionFinder::name_wanted_places() {
+  for (const bool is_coordinate : {false, true}) {
+    for (const VariableOfPlaces& variable : file_.variables()) {
+      const bool is_text = variable.type == io::NetcdfType::text;
+      if (is_text || is_auxiliary(variable) != is_coordinate) continue;
+      try {
+        if (choose_wanted(variable)) return;
+      } catch (const io::BadValue&) {
+        continue;
+      }
+    }
+  }
+}
+
+std::string FieldDimensionFinder::names_of(std::size_t lon, std::size_t lat) const {
+  return headers_[lon].name + " and " + headers_[lat].name;
+}
+
+std::string FieldDimensionFinder::names_of_places() const {
+  const bool has_names = anchor_ && anchor_->lon != CoordinatePair::none;
+  return has_names ? names_of(anchor_->lon, anchor_->lat) : std::string();
+}
+
+std::string FieldDimensionFinder::text_of_choice(const std::vector<PossiblePlaces>& found) const {
+  std::string text;
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < found.size() && k < most; ++k) {
+    text += (k == 0 ? "" : ", or at ") + names_of(found[k].lon, found[k].lat);
+  }
+  return found.size() > most ? text + " ..." : text;
+}
+
+std::string FieldDimensionFinder::remark_on_grids() const {
+  std::vector<std::string> others = other_pairs_;
+  std::ranges::sort(others);
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  if (others.empty() || names_of_places().empty()) return {};
+  std::string text;
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < others.size() && k < most; ++k) {
+    text += (k == 0 ? "" : ", ") + others[k];
+  }
+  if (others.size() > most) text += " and more";
+  return "the file has several grids; that of " + names_of_places() + " is read, not that of " +
+         text + "; FILE.nc:NAME names one by a variable";
+}
+
+}  // namespace rondel::formats

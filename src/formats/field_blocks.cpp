@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/field_blocks.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace rondel::formats {
+
+// Takes whole dimensions from the last leading one on, while they fit; the next one is divided.
+FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
+                         const FieldDimensions& layout, std::size_t most_values)
+    : shape_(variable.shape.begin(), variable.shape.end()), leading_(layout.leading) {
+  const std::vector<std::uint64_t> chunk = file.chunk_of(variable);
+  are_apart_ = std::ranges::is_sorted(layout.order()) &&
+               std::ranges::all_of(leading_, [&](std::size_t d) { return chunk[d] == 1; });
+  std::size_t num_points = 1;
+  for (const std::size_t d : layout.points) num_points *= shape_[d];
+  const std::size_t room =
+      std::max<std::size_t>(most_values / std::max<std::size_t>(num_points, 1), 1);
+  num_outer_ = leading_.size();
+  while (num_outer_ > 0) {
+    const std::size_t d = leading_[--num_outer_];
+    length_ = std::clamp<std::size_t>(room / of_place_, 1, std::max<std::size_t>(shape_[d], 1));
+    if (length_ < shape_[d]) {
+      if (length_ > chunk[d]) length_ -= length_ % chunk[d];
+      break;
+    }
+    if (num_outer_ > 0) of_place_ *= length_;
+  }
+}
+
+FieldBlock FieldBlocks::block_of(std::size_t field) const {
+  if (leading_.empty()) return {0, 1};
+  const std::size_t of_row = shape_[leading_[num_outer_]] * of_place_;
+  const std::size_t row = field - field % of_row;
+  const std::size_t size = length_ * of_place_;
+  const std::size_t first = row + field % of_row / size * size;
+  return {first, std::min(size, row + of_row - first)};
+}
+
+io::NetcdfBox FieldBlocks::box_of(const FieldBlock& block) const {
+  io::NetcdfBox box{std::vector<std::size_t>(shape_.size(), 0), shape_};
+  if (leading_.empty()) return box;
+  const std::size_t divided = leading_[num_outer_];
+  std::size_t place = block.first / of_place_;
+  box.start[divided] = place % shape_[divided];
+  box.count[divided] = block.count / of_place_;
+  place /= shape_[divided];
+  for (std::size_t k = num_outer_; k-- > 0;) {
+    box.start[leading_[k]] = place % shape_[leading_[k]];
+    box.count[leading_[k]] = 1;
+    place /= shape_[leading_[k]];
+  }
+  return box;
+}
+
+}  // namespace rondel::formats

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/field_columns.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "formats/weight_formats.h"
+#include "io/column_text.h"
+#include "io/number.h"
+
+namespace rondel::formats {
+
+using io::NetcdfType;
+
+// By the netCDF User's Guide, "NetCDF names", a name begins with a letter, a digit, an underscore
+// or a UTF-8 character, has no slash and no control characters, and does not end with a blank.
+std::string netcdf_name(std::string name) {
+  for (char& c : name) {
+    if (c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '_';
+  }
+  for (std::size_t k = name.size(); k > 0 && name[k - 1] == ' '; --k) name[k - 1] = '_';
+  const auto may_begin = [](char c) {
+    return ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
+  };
+  if (name.empty() || !may_begin(name.front())) name.insert(0, "column_");
+  return name;
+}
+
+namespace {
+
+// Returns a name that programs accept for a variable: without blanks and beginning with a letter.
+std::string name_of_variable(const Column& column) {
+  std::string name = netcdf_name(column.name);
+  std::ranges::replace(name, ' ', '_');
+  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  if (!is_letter(name.front())) name.insert(0, "column_");
+  return name;
+}
+
+}  // namespace
+
+std::string take_name(const std::string& name, std::set<std::string>& taken) {
+  return *taken.insert(free_names({name}, taken).front()).first;
+}
+
+void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken) {
+  for (const Column& column : columns_) {
+    const std::string name = take_name(name_of_variable(column), taken);
+    is_number_.push_back(column.is_numeric && !column.has_wide_integers());
+    std::size_t longest = 1;
+    for (std::size_t i = 0; i < column.ends.size(); ++i) {
+      longest = std::max(longest, column.cell(i).size());
+    }
+    lengths_.push_back(longest);
+    if (is_number_.back()) {
+      out.add_variable({name, NetcdfType::float64, {points}, {}});
+    } else {
+      const std::size_t length = out.add_dimension(take_name(name + "_length", taken), longest);
+      out.add_variable(
+          variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}}));
+    }
+  }
+}
+
+void ColumnsOut::write(io::NetcdfWriter& out) const {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Column& column = columns_[c];
+    const std::size_t size = column.ends.size();
+    if (is_number_[c]) {
+      out.write_values<double>(size, [&](std::size_t i) {
+        const std::string_view cell = column.cell(i);
+        return cell.empty() ? std::numeric_limits<double>::quiet_NaN()
+                            : io::parse_number(cell, column.name);
+      });
+    } else {
+      const std::size_t length = lengths_[c];
+      out.write_values<char>(size * length, [&](std::size_t k) {
+        const std::string_view cell = column.cell(k / length);
+        return k % length < cell.size() ? cell[k % length] : '\0';
+      });
+    }
+  }
+}
+
+}  // namespace rondel::formats

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes texts and numbers of points, such as the properties of polygons, as netCDF variables along
+// the dimension of the points.
+//
+// in    columns of text, one cell for each point
+// out   variables of netCDF: numbers as doubles, NaN for empty cells, and texts as UTF-8
+// index points, in their order
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/netcdf_writer.h"
+#include "rondel/io.h"
+
+namespace rondel::formats {
+
+// Returns a valid netCDF name: characters that netCDF does not accept become underscores.
+std::string netcdf_name(std::string name);
+
+// Returns a name of free_names(), which is then taken.
+std::string take_name(const std::string& name, std::set<std::string>& taken);
+
+// Columns on their way to a file. They must live until write().
+class ColumnsOut {
+ public:
+  explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
+
+  // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of
+  // the points, `taken` the names of other variables and dimensions.
+  void define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken);
+  // Writes the values, after NetcdfWriter::begin().
+  void write(io::NetcdfWriter& out) const;
+
+ private:
+  std::span<const Column> columns_;
+  std::vector<bool> is_number_;       // by column
+  std::vector<std::size_t> lengths_;  // by column: bytes of its longest text, at least 1
+};
+
+}  // namespace rondel::formats

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads and writes fields as files, whole and in slices, and picks the format.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "formats/field_formats.h"
+#include "formats/field_slices.h"
+#include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+
+namespace rondel {
+namespace {
+
+// A format that is read, by the ending of its files.
+struct FieldReader {
+  std::string_view ending;
+  // A null pointer stands for netCDF, which is read in slices.
+  FieldSet (*read)(std::string_view, const formats::FieldsToRead&);
+};
+constexpr FieldReader field_readers[] = {{".csv", &formats::read_fields_csv},
+                                         {".tsv", &formats::read_fields_tsv},
+                                         {".npy", &formats::read_fields_npy},
+                                         {".nc", nullptr},
+                                         {".nc4", nullptr},
+                                         {".cdf", nullptr},
+                                         {".ncf", nullptr}};
+
+// A format that is written, by the ending of its files.
+struct FieldBeginning {
+  std::string_view ending;
+  std::unique_ptr<formats::FieldSink> (*begin)(io::AtomicFile&, const formats::FieldsToWrite&);
+};
+constexpr FieldBeginning field_writers[] = {{".csv", &formats::begin_fields_csv},
+                                            {".tsv", &formats::begin_fields_tsv},
+                                            {".npy", &formats::begin_fields_npy},
+                                            {".nc", &formats::begin_fields_netcdf},
+                                            {".nc4", &formats::begin_fields_netcdf}};
+
+// The first bytes of a file say its format; otherwise its name does.
+bool is_netcdf_file(const FileName& file, const io::FileBytes& bytes) {
+  if (file.format.empty() && io::is_netcdf(bytes.head())) return true;
+  const FieldReader* const reader = io::find_format<FieldReader>(field_readers, file);
+  return reader != nullptr && reader->read == nullptr;
+}
+
+}  // namespace
+
+std::size_t FieldArray::num_fields() const {
+  std::size_t product = 1;
+  for (const std::uint64_t length : shape) product *= length;
+  return product;
+}
+
+struct FieldFile::OpenFields {
+  explicit OpenFields(const std::string& path) : bytes(path) {}
+
+  io::FileBytes bytes;
+  std::optional<io::NetcdfReader> netcdf;
+  std::optional<formats::FieldSlices> slices;  // for netCDF; for other formats `fields` and
+                                               // the values are read at once
+  FieldSet fields;                             // without values
+  std::vector<std::vector<double>> values;
+};
+
+FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
+                     std::uint64_t num_points, const ReadOptions& options,
+                     std::span<const std::uint64_t> shape, const WantedPlaces& places)
+    : content_(std::make_unique<OpenFields>(file.path)) {
+  OpenFields& content = *content_;
+  const formats::FieldsToRead wanted{names, num_points, options, shape, places};
+  if (is_netcdf_file(file, content.bytes)) {
+    io::in_file(content.bytes.name(), [&] {
+      content.netcdf.emplace(content.bytes);
+      content.slices.emplace(*content.netcdf, wanted);
+    });
+    return;
+  }
+  const FieldReader& reader =
+      io::require_format<FieldReader>(field_readers, file, "fields are read from");
+  content.fields =
+      io::in_file(content.bytes.name(), [&] { return reader.read(content.bytes.text(), wanted); });
+  for (FieldArray& array : content.fields.arrays) {
+    content.values.push_back(std::move(array.values));
+    array.values.clear();
+  }
+}
+
+FieldFile::~FieldFile() = default;
+
+const FieldSet& FieldFile::fields() const {
+  return content_->slices ? content_->slices->fields() : content_->fields;
+}
+
+void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out) const {
+  if (content_->slices) {
+    io::in_file(content_->bytes.name(), [&] { content_->slices->read(array, first, out); });
+    return;
+  }
+  const auto begin = content_->values[array].begin() +
+                     static_cast<std::ptrdiff_t>(first * content_->fields.num_points);
+  std::copy_n(begin, out.size(), out.begin());
+}
+
+FieldSet read_fields(const FileName& file, std::span<const std::string> names,
+                     std::uint64_t num_points, const ReadOptions& options,
+                     std::span<const std::uint64_t> shape) {
+  const FieldFile source(file, names, num_points, options, shape);
+  FieldSet fields = source.fields();
+  for (std::size_t a = 0; a < fields.arrays.size(); ++a) {
+    FieldArray& array = fields.arrays[a];
+    array.values.resize(array.num_fields() * fields.num_points);
+    source.read(a, 0, array.values);
+  }
+  return fields;
+}
+
+bool can_write_fields(const FileName& file) {
+  return io::find_format<FieldBeginning>(field_writers, file) != nullptr;
+}
+
+struct FieldWriter::BegunFields {
+  explicit BegunFields(const std::string& path) : file(path) {}
+
+  io::AtomicFile file;
+  std::unique_ptr<formats::FieldSink> sink;
+};
+
+FieldWriter::FieldWriter(const FileName& file, const FieldSet& fields, const WeightSide& points,
+                         const NetcdfOptions& netcdf) {
+  for (const Column& column : points.columns) {
+    if (column.ends.size() == fields.num_points) continue;
+    throw InvalidInput("column '" + column.name + "' has " + std::to_string(column.ends.size()) +
+                       " cells for values at " + std::to_string(fields.num_points));
+  }
+  if (!points.points.empty() && points.points.size() != fields.num_points) {
+    throw InvalidInput(std::to_string(points.points.size()) + " points for values at " +
+                       std::to_string(fields.num_points));
+  }
+  const FieldBeginning& writer =
+      io::require_format<FieldBeginning>(field_writers, file, "fields are written as");
+  output_ = std::make_unique<BegunFields>(file.path);
+  output_->sink = io::in_file(file.path, [&] {
+    return writer.begin(output_->file, {fields, points, io::with_kind(netcdf, file)});
+  });
+}
+
+FieldWriter::~FieldWriter() = default;
+
+void FieldWriter::write(std::span<const double> values) { output_->sink->write(values); }
+
+void FieldWriter::finish() {
+  output_->sink->finish();
+  output_->file.commit();
+}
+
+void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
+                  const NetcdfOptions& netcdf) {
+  for (const FieldArray& array : fields.arrays) {
+    if (array.values.size() == array.num_fields() * fields.num_points) continue;
+    throw InvalidInput("array '" + array.name + "' has " + std::to_string(array.values.size()) +
+                       " values");
+  }
+  FieldWriter writer(file, fields, points, netcdf);
+  for (const FieldArray& array : fields.arrays) writer.write(array.values);
+  writer.finish();
+}
+
+}  // namespace rondel

@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "formats/field_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "formats/cf_names.h"
+#include "formats/cf_reader.h"
+#include "formats/field_lengths.h"
+#include "io/number.h"
+
+namespace rondel::formats {
+namespace {
+
+using LayoutVariable = io::NetcdfReader::Variable;
+
+bool has_no_place(const LonLat& place) {
+  return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
+}
+
+}  // namespace
+
+std::vector<std::size_t> FieldDimensions::order() const {
+  std::vector<std::size_t> all = leading;
+  all.insert(all.end(), points.begin(), points.end());
+  return all;
+}
+
+FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                                           std::span<const LayoutVariable* const> variables)
+    : file_(file),
+      num_points_(wanted.num_points),
+      shape_(wanted.shape.begin(), wanted.shape.end()),
+      wanted_(wanted.places),
+      headers_(headers_of(file)),
+      parts_of_grids_(parts_of_grids(headers_)) {
+  if (wanted_.positions.size() != num_points_) wanted_.positions = {};
+  std::vector<const LayoutVariable*> fields(variables.begin(), variables.end());
+  if (wanted.names.empty()) {
+    std::erase_if(fields, [&](const LayoutVariable* field) { return is_auxiliary(*field); });
+  }
+  choose_places(fields);
+  choose_dimension_of_cells(fields);
+}
+
+const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
+    const CoordinatePair& pair) {
+  for (const KnownPlaces& known : known_) {
+    if (known.lon == pair.lon && known.lat == pair.lat) return known;
+  }
+  const LayoutVariable& lon = file_.variables()[pair.lon];
+  const LayoutVariable& lat = file_.variables()[pair.lat];
+  KnownPlaces known{pair.lon, pair.lat, {}, {}, {}, 0};
+  if (pair.are_axes) {
+    known.dimensions = {lat.dimensions[0], lon.dimensions[0]};
+    known.shape = {lat.shape[0], lon.shape[0]};
+    const std::vector<double> lons = degrees_of(file_, lon, UsualUnits::of_name, {nullptr, &lat});
+    for (const double y : degrees_of(file_, lat, UsualUnits::of_name, {nullptr, &lon})) {
+      for (const double x : lons) known.places.push_back({x, y});
+    }
+  } else {
+    const PlaceArrays arrays = places_of(file_, lon, lat);
+    known.dimensions = arrays.dimensions;
+    known.shape = arrays.shape;
+    for (std::size_t i = 0; i < arrays.lon.size(); ++i) {
+      known.places.push_back({arrays.lon[i], arrays.lat[i]});
+    }
+  }
+  known.num_known = known.places.size() -
+                    static_cast<std::size_t>(std::ranges::count_if(known.places, has_no_place));
+  known_.push_back(std::move(known));
+  return known_.back();
+}
+
+// Empty `points` if the lengths are not those of the grid.
+FieldDimensions FieldDimensionFinder::layout_along(const LayoutVariable& variable,
+                                                   const KnownPlaces& known) const {
+  FieldDimensions found;
+  for (const std::size_t dimension : known.dimensions) {
+    const auto at = std::ranges::find(variable.dimensions, dimension);
+    if (at == variable.dimensions.end()) return {};  // the places move, and the field has no time
+    found.points.push_back(static_cast<std::size_t>(at - variable.dimensions.begin()));
+  }
+  const std::vector<std::size_t> before = found.points;
+  if (!fit_lengths(shape_, variable, found.points)) return {};
+  found.places = known.places;
+  if (found.points != before) {
+    const std::size_t row = known.shape.back();
+    const std::size_t num_rows = known.places.size() / row;
+    // Only two dimensions can fit in reverse, but for others of length 1.
+    for (std::size_t i = 0; i < known.places.size(); ++i) {
+      found.places[i] = known.places[i % num_rows * row + i / num_rows];
+    }
+  }
+  leave_out_missing(known, found);
+  take_other_dimensions(variable, found);
+  return found;
+}
+
+void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
+                                             FieldDimensions& layout) const {
+  const bool has_all = known.num_known == known.places.size() || known.places.size() == num_points_;
+  if (has_all) return;
+  std::vector<LonLat> places;
+  for (std::size_t i = 0; i < layout.places.size(); ++i) {
+    if (has_no_place(layout.places[i])) continue;
+    places.push_back(layout.places[i]);
+    layout.kept.push_back(i);
+  }
+  layout.places = std::move(places);
+}
+
+std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidates(
+    const LayoutVariable& variable) {
+  std::vector<PossiblePlaces> found;
+  int rank = 0;
+  why_not_.clear();
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  for (const CoordinatePair& pair : coordinates_of(headers_, index)) {
+    if (!found.empty() && pair.rank < rank) break;
+    const LayoutVariable& lon = file_.variables()[pair.lon];
+    const std::uint64_t most =
+        pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
+    const KnownPlaces* const known = most < num_points_ ? nullptr : &places_of_pair(pair);
+    const bool fits = num_points_ == 0 ||
+                      (known != nullptr &&
+                       (known->places.size() == num_points_ || known->num_known == num_points_));
+    if (!fits) {
+      if (why_not_.empty() && pair.is_used) {
+        why_not_ = "is at " + names_of(pair.lon, pair.lat) + ", which are not " +
+                   std::to_string(num_points_) + " places";
+        other_pairs_.push_back(names_of(pair.lon, pair.lat));
+      }
+      continue;
+    }
+    FieldDimensions layout = layout_along(variable, *known);
+    if (layout.points.empty()) continue;
+    const bool is_known = std::ranges::any_of(found, [&](const PossiblePlaces& other) {
+      return other.layout.points == layout.points &&
+             are_one_place(other.lon, pair.lon, other.layout.places, layout.places);
+    });
+    if (!is_known) found.push_back({pair.lon, pair.lat, std::move(layout)});
+    rank = pair.rank;
+  }
+  if (!found.empty()) why_not_.clear();
+  return found;
+}
+
+std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
+    const LayoutVariable& variable) {
+  std::vector<PossiblePlaces> found = candidates(variable);
+  other_places_.clear();
+  if (found.empty()) return std::nullopt;
+  if (anchor_) {
+    for (PossiblePlaces& candidate : found) {
+      if (!is_at_anchor(candidate)) continue;
+      if (found.size() > 1) {
+        candidate.layout.remark = "variable " + io::in_quotes(variable.name) + " may be at " +
+                                  text_of_choice(found) + "; it is read at " +
+                                  names_of(candidate.lon, candidate.lat);
+      }
+      return std::move(candidate.layout);
+    }
+    other_places_ = names_of(found.front().lon, found.front().lat);
+    other_pairs_.push_back(other_places_);
+    why_not_ = "is at " + other_places_;
+    if (anchor_->lon == CoordinatePair::none) {
+      why_not_ += ", which are not the places that are wanted";
+    } else {
+      why_not_ += ", and not at " + names_of_places();
+      if (anchor_->variable != variable.name) {
+        why_not_ += " as " + io::in_quotes(anchor_->variable);
+      }
+    }
+    return std::nullopt;
+  }
+  if (found.size() == 1) return std::move(found.front().layout);
+  const bool have_one_layout = std::ranges::all_of(found, [&](const PossiblePlaces& other) {
+    return other.layout.points == found.front().layout.points;
+  });
+  if (num_points_ == 0 || !have_one_layout) {
+    throw io::BadValue("variable " + io::in_quotes(variable.name) + " may be at " +
+                       text_of_choice(found) + "; FILE.nc:" + headers_[found.back().lon].name +
+                       ", the name of a coordinate, says where");
+  }
+  // Only the order of the values is needed, which is known.
+  if (found.front().layout.kept.empty()) found.front().layout.places.clear();
+  return std::move(found.front().layout);
+}
+
+std::optional<FieldDimensions> FieldDimensionFinder::layout(const LayoutVariable& variable) {
+  why_not_.clear();
+  other_places_.clear();
+  if (variable.type == io::NetcdfType::text) return std::nullopt;
+  std::optional<FieldDimensions> found = by_coordinates(variable);
+  if (num_points_ == 0) {
+    if (!found || found->places.empty()) return std::nullopt;
+    num_points_ = found->places.size();
+  }
+  if (found || !why_not_.empty()) return found;
+  return by_lengths(variable);
+}
+
+bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  const VariableHeader& header = headers_[index];
+  if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
+  const std::string name = lower_case(header.name);
+  const bool is_called_so =
+      name.find("lon") != std::string::npos || name.find("lat") != std::string::npos;
+  if (is_called_so && degrees_per_unit(header.text("units"))) return true;
+  if (parts_of_grids_[index]) return true;
+  if (coordinate_evidence(header, CoordinateKind::lon) > 0 ||
+      coordinate_evidence(header, CoordinateKind::lat) > 0) {
+    return true;
+  }
+  return std::ranges::any_of(
+      headers_, [&](const VariableHeader& other) { return other.text("bounds") == header.name; });
+}
+
+bool FieldDimensionFinder::is_lost(const LayoutVariable& variable) const {
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  const VariableHeader& header = headers_[index];
+  if (!header.is_number || parts_of_grids_[index]) return false;
+  if (header.shape.empty()) {
+    // Mappings and topologies are numbers without a meaning.
+    return header.text("grid_mapping_name").empty() && header.text("cf_role").empty() &&
+           header.text("standard_name") != "mesh_topology";
+  }
+  return std::ranges::any_of(headers_, [&](const VariableHeader& other) {
+    return other.text("bounds") == header.name &&
+           coordinate_evidence(other, CoordinateKind::lon) == 0 &&
+           coordinate_evidence(other, CoordinateKind::lat) == 0;
+  });
+}
+
+}  // namespace rondel::formats

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Finds which dimensions of a netCDF variable are those of the points.
+//
+// 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude,
+//    longitude of axes, and else in that of the coordinates: a field stored as (time, lon, lat) is
+//    that of (time, lat, lon). A variable with an attribute `coordinates` has the places that this
+//    names, and no others.
+// 2. All fields are at the same places: those that are wanted, or else those of the first variable
+//    of which they are known for sure.
+// 3. Else it is the dimension with as many entries as there are points, wherever it stands, or
+//    dimensions that follow each other and multiply to that. Not so where the file has longitudes
+//    and latitudes of as many points: then the variable is no field at them. All fields have the
+//    same dimensions; where several fit, nothing says which, and that is an error.
+// 4. Where the lengths of the points' grid are known and those of the dimensions are the same in
+//    reverse, the order is reversed; where they are others, the variable is no field at the points.
+//    Where both lengths are equal, names of dimensions and single axes decide
+//    (field_orientation.cpp), and where these say nothing, that is told.
+//
+// in    a netCDF file, the number of points or their places, the shape of their grid
+// out   for each variable which of its dimensions are those of the points, and in which order
+// index positions of dimensions in the variable; variables and dimensions as the file numbers them
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/cf_names.h"
+#include "formats/field_formats.h"
+#include "io/bad_value.h"
+#include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
+#include "rondel/types.h"
+
+namespace rondel::formats {
+
+// The dimensions of one variable: those of its points, and the leading ones, such as times and
+// levels.
+struct FieldDimensions {
+  std::vector<std::size_t>
+      leading;  // positions of the dimensions that are not those of the points, in their order
+  std::vector<std::size_t> points;  // positions of the points' dimensions, the one that varies
+                                    // fastest last
+  std::vector<LonLat>
+      places;  // degrees, by point; empty if the file has none for the variable or more than one
+               // pair
+  std::vector<std::size_t>
+      kept;  // which of all have a place, if others are left out; `places` are theirs
+  bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
+  std::string remark;        // a sentence on a choice that was made; else empty
+
+  // Returns all dimensions in the order in which a FieldArray has its values.
+  [[nodiscard]] std::vector<std::size_t> order() const;
+};
+
+// Variables have their points along different dimensions, and nothing says which are meant.
+class SeveralReadings : public io::BadValue {
+ public:
+  using io::BadValue::BadValue;
+};
+
+class FieldDimensionFinder {
+ public:
+  using FileVariable = io::NetcdfReader::Variable;
+
+  // `wanted` has the number of points, or 0 for those of the first variable whose places the file
+  // says. `variables` are those that are read; they decide which places are meant.
+  FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                       std::span<const FileVariable* const> variables);
+
+  // Returns the dimensions of a variable, or nothing if it is no field at the points. Throws
+  // BadValue if it may be one in several ways.
+  [[nodiscard]] std::optional<FieldDimensions> layout(const FileVariable& variable);
+  // Returns where the variable is for which layout() returned nothing, if that is known: "at lon_u
+  // and lat, ...".
+  [[nodiscard]] const std::string& why_not() const { return why_not_; }
+  // Returns the coordinates of that variable, "lon_u and lat", if it has as many places as there
+  // are points; otherwise an empty text.
+  [[nodiscard]] const std::string& other_places() const { return other_places_; }
+  // Returns the coordinates of the points, "lon and lat"; an empty text if the file has none.
+  [[nodiscard]] std::string names_of_places() const;
+  // Returns a sentence on the other grids that variables have for which a layout was asked; an
+  // empty text if there are none.
+  [[nodiscard]] std::string remark_on_grids() const;
+  // True if the variable is a coordinate, bounds, or a part of a mesh or grid: it is no field,
+  // unless it is named.
+  [[nodiscard]] bool is_auxiliary(const FileVariable& variable) const;
+  // True if the variable is a number without dimensions, or the bounds of another axis than those
+  // of the points: these are not carried to other points.
+  [[nodiscard]] bool is_lost(const FileVariable& variable) const;
+
+ private:
+  // A pair of longitudes and latitudes that was read, in degrees.
+  struct KnownPlaces {
+    std::size_t lon;
+    std::size_t lat;
+    std::vector<std::size_t> dimensions;
+    std::vector<std::uint64_t> shape;
+    std::vector<LonLat> places;
+    std::size_t num_known;  // number of places with both coordinates present
+  };
+  // Places at which a variable may be, with the dimensions that follow from them.
+  struct PossiblePlaces {
+    std::size_t lon;
+    std::size_t lat;
+    FieldDimensions layout;
+  };
+  // The places of all fields.
+  struct Anchor {
+    std::size_t lon = CoordinatePair::none;  // none: the file has no such coordinates
+    std::size_t lat = CoordinatePair::none;
+    std::string variable;  // that has them
+    std::vector<LonLat> places;
+  };
+  using DimensionSet = std::set<std::size_t>;
+  struct SetsOfPlaces {
+    std::vector<DimensionSet>
+        same;  // dimensions of longitudes and latitudes that are those of the points
+    std::vector<DimensionSet> other;  // of as many others
+  };
+
+  // Returns the places of two coordinates; each pair is read once.
+  const KnownPlaces& places_of_pair(const CoordinatePair& pair);
+  // Leaves out places without coordinates, if the wanted points are the others.
+  void leave_out_missing(const KnownPlaces& known, FieldDimensions& layout) const;
+  [[nodiscard]] FieldDimensions layout_along(const FileVariable& variable,
+                                             const KnownPlaces& known) const;
+  // Returns the places that the variable's coordinates give, if these are as many as there are
+  // points. Several results are different places of the same rank.
+  [[nodiscard]] std::vector<PossiblePlaces> candidates(const FileVariable& variable);
+  [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, std::span<const LonLat> a,
+                                   std::span<const LonLat> b) const;
+  [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
+  void choose_places(std::span<const FileVariable* const> variables);
+  void name_wanted_places();
+  bool choose_wanted(const FileVariable& variable);
+  void choose_dimension_of_cells(std::span<const FileVariable* const> variables);
+  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const FileVariable& variable);
+  [[nodiscard]] std::optional<FieldDimensions> by_lengths(const FileVariable& variable);
+  [[nodiscard]] std::string names_of(std::size_t lon, std::size_t lat) const;
+  [[nodiscard]] std::string text_of_choice(const std::vector<PossiblePlaces>& found) const;
+  const SetsOfPlaces& sets_of_places();
+  [[nodiscard]] bool may_be_of_places(const FileVariable& variable,
+                                      std::span<const std::size_t> points);
+  [[nodiscard]] bool has_same_dimensions(const FileVariable& variable,
+                                         std::span<const std::size_t> points);
+  [[nodiscard]] std::vector<std::size_t> run_of_points(const FileVariable& variable) const;
+  [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
+
+  // A dimension has the coordinate `kind`, if that is known, and the axis, if the file has one.
+  struct NamedDirection {
+    std::optional<CoordinateKind> kind;
+    const FileVariable* axis = nullptr;
+  };
+  struct PlacesAlong;
+  [[nodiscard]] bool changes_along(const PlacesAlong& line, CoordinateKind kind) const;
+  [[nodiscard]] std::optional<CoordinateKind> kind_of_rows(std::size_t rows,
+                                                           std::size_t columns) const;
+  [[nodiscard]] NamedDirection direction_of(std::size_t dimension) const;
+  [[nodiscard]] bool fits_line(const NamedDirection& direction, const PlacesAlong& line) const;
+  // Puts the dimensions of a grid into the order of the points where names or axes say it. False if
+  // an axis of the file has other coordinates than the points.
+  [[nodiscard]] bool orient(const FileVariable& variable, FieldDimensions& layout);
+
+  const io::NetcdfReader& file_;
+  std::uint64_t num_points_;
+  std::vector<std::uint64_t> shape_;
+  WantedPlaces wanted_;
+  std::vector<VariableHeader> headers_;
+  std::vector<bool> parts_of_grids_;
+  std::deque<KnownPlaces> known_;
+  std::optional<SetsOfPlaces> sets_of_places_;
+  std::optional<Anchor> anchor_;
+  std::vector<std::string> other_pairs_;  // that variables have which are not at the anchor
+  // Dimensions that are longer than 1, of the first variable whose points were found by lengths,
+  // and that variable.
+  std::optional<DimensionSet> dimensions_of_points_;
+  std::string first_by_lengths_;
+  bool are_along_cells_ = false;  // that dimension is called so
+  std::string why_not_;
+  std::string other_places_;
+};
+
+}  // namespace rondel::formats

@@ -1,0 +1,323 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads a FieldSet from netCDF by the CF conventions.
+#include "formats/field_slices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "formats/cf_names.h"
+#include "formats/cf_reader.h"
+#include "formats/field_choice.h"
+#include "io/bad_value.h"
+#include "io/netcdf_groups.h"
+#include "io/number.h"
+#include "rondel/delaunay.h"
+#include "system/shortest_text.h"
+
+namespace rondel::formats {
+namespace {
+
+using SlicedNetcdf = io::NetcdfReader::Variable;
+
+// Returns the attributes that still hold for values at other points.
+std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNetcdf& variable) {
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (const io::NetcdfAttribute& attribute : variable.attributes) {
+    for (const char* name :
+         {"units", "long_name", "standard_name", "calendar", "positive", "axis"}) {
+      if (attribute.name == name && !attribute.text.empty()) {
+        kept.emplace_back(name, attribute.text);
+      }
+    }
+  }
+  return kept;
+}
+
+// Returns a name that a file can have: the name of a variable of a group has a slash.
+std::string written_name(std::string name) {
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+// Returns the array without values; its dimensions are the leading ones.
+FieldArray array_of(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+                    const std::vector<std::size_t>& leading) {
+  FieldArray array;
+  array.name = written_name(variable.name);
+  for (const std::size_t d : leading) {
+    array.dimensions.push_back(written_name(file.dimensions()[variable.dimensions[d]].name));
+    array.shape.push_back(variable.shape[d]);
+  }
+  array.attributes = kept_attributes(variable);
+  return array;
+}
+
+bool is_place(const LonLat& place) {
+  return std::abs(place.lon_deg) <= 1e6 && std::abs(place.lat_deg) <= 90;
+}
+
+void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places) {
+  const auto bad = std::ranges::find_if_not(places, is_place);
+  if (bad == places.end()) return;
+  throw io::BadValue("place " + std::to_string(bad - places.begin()) + " of variable " +
+                     io::in_quotes(variable.name) + " is at longitude " +
+                     system::shortest_text(bad->lon_deg) + " and latitude " +
+                     system::shortest_text(bad->lat_deg) + ", which is no place");
+}
+
+[[noreturn]] void refuse_shape(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+                               const FieldsToRead& wanted, std::size_t num_points) {
+  std::string lengths;
+  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+    lengths += (d == 0 ? "" : ", ") + file.dimensions()[variable.dimensions[d]].name + " " +
+               std::to_string(variable.shape[d]);
+  }
+  std::string grid;
+  for (const std::uint64_t length : wanted.shape) {
+    grid += (grid.empty() ? " on a grid of " : " x ") + std::to_string(length);
+  }
+  throw io::BadValue("no dimensions of variable " + io::in_quotes(variable.name) + " (" + lengths +
+                     ") have the " + std::to_string(num_points) + " points" + grid);
+}
+
+}  // namespace
+
+FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                         std::size_t most_of_block)
+    : file_(file),
+      most_of_block_(most_of_block),
+      layouts_(file, wanted, variables_to_read(file, wanted.names)) {
+  fields_.num_points = wanted.num_points;
+  for (const std::string& given : wanted.names) {
+    const std::string name = io::full_name(file.variables(), given);
+    const SlicedNetcdf* const variable = file.find(name);
+    if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
+    const SlicedNetcdf& named = file.require(name);
+    if (!layouts_.why_not().empty()) {
+      throw io::BadValue("variable " + io::in_quotes(name) + " " + layouts_.why_not());
+    }
+    if (fields_.num_points != 0) refuse_shape(file, named, wanted, fields_.num_points);
+    throw io::BadValue("no longitudes and latitudes of variable " + io::in_quotes(named.name) +
+                       remark_on_units(headers_of(file)));
+  }
+  if (wanted.names.empty()) add_all();
+  if (fields_.arrays.empty()) {
+    std::string why;
+    if (fields_.num_points == 0) why = remark_on_units(headers_of(file));
+    for (const std::string& remark : fields_.remarks) why += "; " + remark;
+    throw io::BadValue("no variable has " +
+                       (fields_.num_points == 0 ? std::string("longitudes and latitudes")
+                                                : std::to_string(fields_.num_points) + " points") +
+                       why);
+  }
+  const bool are_chosen = !wanted.names.empty() || !wanted.places.positions.empty();
+  if (!are_chosen) fields_.remark_on_grids = layouts_.remark_on_grids();
+}
+
+bool FieldSlices::add(const SlicedNetcdf& variable) {
+  std::optional<FieldDimensions> layout = layouts_.layout(variable);
+  if (!layout) return false;
+  add_with_layout(variable, std::move(*layout));
+  add_axes(variable, sources_.back().layout, fields_.axes);
+  return true;
+}
+
+// Adds one field of several: "tas[3]" is field 3 of variable tas, "tas_2001-07-15" the field that
+// has this name as a column of a table.
+bool FieldSlices::add_one_of_several(const std::string& name) {
+  for (const SlicedNetcdf* const variable : meant_variables(file_, name)) {
+    std::optional<FieldDimensions> layout = layouts_.layout(*variable);
+    if (!layout || layout->leading.empty()) continue;
+    std::vector<FieldArray> axes;
+    add_axes(*variable, *layout, axes);
+    FieldArray several = array_of(file_, *variable, layout->leading);
+    several.name = variable->name;
+    const std::vector<std::string> names = names_of_fields(several, axes);
+    const std::string rest = name.substr(variable->name.size());
+    const std::size_t number =
+        rest.starts_with('[')
+            ? number_of_field(several, rest)
+            : static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (number == names.size()) continue;
+    add_with_layout(*variable, std::move(*layout));
+    sources_.back().first = number;
+    FieldArray& array = fields_.arrays.back();
+    array.name = written_name(names[number]);
+    array.dimensions.clear();
+    array.shape.clear();
+    return true;
+  }
+  return false;
+}
+
+void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions layout) {
+  file_.require_room(variable);
+  ValueRules rules(variable);
+  if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
+  if (!layout.remark.empty()) fields_.remarks.push_back(layout.remark);
+  if (layout.is_reversed) {
+    fields_.remarks.push_back("variable " + io::in_quotes(variable.name) +
+                              " has the lengths of the grid in reverse, and is taken so");
+  }
+  std::size_t num_points = 1;
+  for (const std::size_t d : layout.points) num_points *= variable.shape[d];
+  if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
+  fields_.arrays.push_back(array_of(file_, variable, layout.leading));
+  if (fields_.points.empty() && std::ranges::all_of(layout.places, is_place)) {
+    fields_.points = unit_vectors(layout.places);
+    fields_.positions = std::move(layout.places);
+    if (layout.kept.empty()) {
+      for (const std::size_t d : layout.points) fields_.shape.push_back(variable.shape[d]);
+    } else {
+      fields_.num_without_place = num_points - layout.kept.size();
+    }
+  }
+  if (fields_.num_points == 0) fields_.num_points = fields_.points.size();
+  layout.places.clear();
+  FieldBlocks blocks(file_, variable, layout, most_of_block_);
+  sources_.push_back(
+      {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
+}
+
+// Adds all variables that are fields, and reports the others unless they are coordinates.
+void FieldSlices::add_all() {
+  NameList without_points;
+  NameList elsewhere;
+  std::vector<std::string> refused;
+  for (const SlicedNetcdf& variable : file_.variables()) {
+    if (layouts_.is_lost(variable)) without_points.add(variable.name);
+    if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
+    try {
+      if (add(variable)) continue;
+    } catch (const SeveralReadings&) {
+      throw;
+    } catch (const io::BadValue& bad) {
+      if (std::ranges::count(refused, bad.what()) == 0) refused.emplace_back(bad.what());
+      continue;
+    }
+    if (layouts_.other_places().empty()) {
+      without_points.add(variable.name);
+    } else {
+      elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
+    }
+  }
+  for (const std::string& why : refused) {
+    fields_.remarks.push_back(why + (fields_.arrays.empty() ? "" : "; it is left out"));
+  }
+  if (!file_.passed_over().empty()) {
+    NameList unread;
+    for (const std::string& name : file_.passed_over()) unread.add(name);
+    fields_.remarks.push_back("left out, as their types are those that the file defines itself: " +
+                              unread.text());
+  }
+  if (!without_points.text().empty()) {
+    fields_.remarks.push_back("left out, as they have no values at the points: " +
+                              without_points.text());
+  }
+  if (elsewhere.text().empty()) return;
+  const std::string names = layouts_.names_of_places();
+  fields_.remarks.push_back("left out, as they are at other places than " +
+                            (names.empty() ? "those that are wanted" : names) + ": " +
+                            elsewhere.text());
+}
+
+// Adds the coordinates along the leading dimensions, unless they are known already.
+void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& layout,
+                           std::vector<FieldArray>& axes) {
+  for (const std::size_t d : layout.leading) {
+    const std::string& name = file_.dimensions()[variable.dimensions[d]].name;
+    const SlicedNetcdf* const axis = file_.find(name);
+    const bool is_known = std::ranges::count(axes, written_name(name), &FieldArray::name) != 0;
+    if (is_known || axis == nullptr || axis->type == io::NetcdfType::text ||
+        axis->shape.size() != 1) {
+      continue;
+    }
+    const ValueRules rules(*axis);
+    if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
+    axes.push_back(array_of(file_, *axis, {0}));
+    bool is_rounded = false;
+    axes.back().values = file_.rounded_numbers(*axis, is_rounded);
+    if (is_rounded) {
+      fields_.remarks.push_back("variable " + io::in_quotes(axis->name) +
+                                " has integers that are no doubles, which are rounded");
+    }
+    rules.apply(axes.back().values);
+  }
+}
+
+// Fields are read one by one if points are left out, and otherwise several at once.
+void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out) const {
+  const SlicedVariable& source = sources_[array];
+  const std::vector<std::size_t>& kept = source.layout.kept;
+  if (kept.empty()) {
+    read_all_points(source, first + source.first, out);
+    return;
+  }
+  std::vector<double> all(source.num_points);
+  for (; !out.empty(); out = out.subspan(kept.size())) {
+    read_all_points(source, source.first + first++, all);
+    for (std::size_t i = 0; i < kept.size(); ++i) out[i] = all[kept[i]];
+  }
+}
+
+// Fields that are contiguous in the file are read directly; others in blocks, of which the last one
+// is kept.
+void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
+                                  std::span<double> out) const {
+  const std::size_t n = source.num_points;
+  if (source.blocks.are_apart()) {
+    file_.read_numbers(*source.variable, first * n, out);
+    mean(source, out);
+    return;
+  }
+  while (!out.empty()) {
+    const FieldBlock block = source.blocks.block_of(first);
+    const std::size_t wanted = std::min(out.size() / n, block.first + block.count - first);
+    const std::span<double> part = out.first(wanted * n);
+    if (wanted == block.count) {
+      read_block(source, block, part);
+    } else {
+      keep_block(source, block);
+      const auto begin = static_cast<std::ptrdiff_t>((first - block.first) * n);
+      std::copy_n(block_.begin() + begin, part.size(), part.begin());
+    }
+    out = out.subspan(part.size());
+    first += wanted;
+  }
+}
+
+void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& block,
+                             std::span<double> out) const {
+  io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
+                    out);
+  mean(source, out);
+}
+
+// Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
+// as in tables.
+void FieldSlices::mean(const SlicedVariable& source, std::span<double> values) {
+  source.rules.apply(values);
+  const auto infinite =
+      std::ranges::find_if(values, [](double value) { return std::isinf(value); });
+  if (infinite == values.end()) return;
+  throw io::BadValue(
+      "variable " + io::in_quotes(source.variable->name) + ": value " +
+      (*infinite > 0 ? "inf" : "-inf") + " at point " +
+      std::to_string(static_cast<std::size_t>(infinite - values.begin()) % source.num_points) +
+      " is not finite");
+}
+
+void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {
+  if (source_of_block_ == &source && first_of_block_ == block.first) return;
+  source_of_block_ = nullptr;
+  block_.resize(block.count * source.num_points);
+  read_block(source, block, block_);
+  source_of_block_ = &source;
+  first_of_block_ = block.first;
+}
+
+}  // namespace rondel::formats

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads the fields of a netCDF file slice by slice, in an amount of memory that does not depend on
+// the size of the file.
+//
+// in    an open file, the names of the wanted fields (or all), the points
+// out   names, dimensions and attributes; then the values of any range of fields
+// index arrays in the order of fields().arrays; fields of an array, the last leading dimension
+//       fastest
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/cf_values.h"
+#include "formats/field_blocks.h"
+#include "formats/field_formats.h"
+#include "formats/field_layout.h"
+#include "io/netcdf_reader.h"
+#include "rondel/fields.h"
+
+namespace rondel::formats {
+
+// The fields of a netCDF file. The file must live as long as this object.
+class FieldSlices {
+ public:
+  // Throws BadValue if a named variable is missing or is no field at the points.
+  FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
+              std::size_t most_of_block = usual_block);
+
+  // Returns the arrays without their values; only coordinates along axes have values here.
+  [[nodiscard]] const FieldSet& fields() const { return fields_; }
+  // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
+  void read(std::size_t array, std::size_t first, std::span<double> out) const;
+
+ private:
+  // A variable with what is needed to read its fields.
+  struct SlicedVariable {
+    const io::NetcdfReader::Variable* variable;
+    std::size_t num_points;  // with the points that are left out
+    FieldDimensions layout;
+    FieldBlocks blocks;
+    ValueRules rules;
+    std::size_t first;  // first field: the only one, if one of several is chosen by its indices
+  };
+
+  // Adds a variable; returns false if it is no field at the points.
+  bool add(const io::NetcdfReader::Variable& variable);
+  bool add_one_of_several(const std::string& name);
+  void add_with_layout(const io::NetcdfReader::Variable& variable, FieldDimensions layout);
+  void add_all();
+  void add_axes(const io::NetcdfReader::Variable& variable, const FieldDimensions& layout,
+                std::vector<FieldArray>& axes);
+  void read_all_points(const SlicedVariable& source, std::size_t first,
+                       std::span<double> out) const;
+  void read_block(const SlicedVariable& source, const FieldBlock& block,
+                  std::span<double> out) const;
+  // Makes the numbers of the file the values that they mean: missing, scaled, offset.
+  static void mean(const SlicedVariable& source, std::span<double> values);
+  // Reads a block into block_, unless it is there.
+  void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
+
+  const io::NetcdfReader& file_;
+  std::size_t most_of_block_;
+  FieldDimensionFinder layouts_;
+  FieldSet fields_;
+  std::vector<SlicedVariable> sources_;  // by array
+  // The values of the last block of which a part was read.
+  mutable std::vector<double> block_;
+  mutable const SlicedVariable* source_of_block_ = nullptr;
+  mutable std::size_t first_of_block_ = 0;
+};
+
+}  // namespace rondel::formats

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes a FieldSet as netCDF by the CF conventions.
+#include <set>
+
+#include "formats/field_columns.h"
+#include "formats/field_formats.h"
+#include "formats/weight_formats.h"
+#include "io/netcdf_writer.h"
+
+namespace rondel::formats {
+namespace {
+
+using io::NetcdfType;
+
+std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
+  std::vector<io::NetcdfAttribute> attributes;
+  for (const auto& [name, text] : array.attributes) {
+    attributes.push_back({name, NetcdfType::text, text, {}});
+  }
+  return attributes;
+}
+
+// Writes the points of a side, as a longitude-latitude grid or as a list.
+class PointsOut {
+ public:
+  PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
+    const std::vector<LonLat>& points = side.points;
+    is_grid_ = side.shape.size() == 2 && !points.empty();
+    const std::size_t row = is_grid_ ? side.shape[1] : 1;
+    for (std::size_t i = 0; is_grid_ && i < points.size(); ++i) {
+      is_grid_ = points[i].lon_deg == points[i % row].lon_deg &&
+                 points[i].lat_deg == points[i - i % row].lat_deg;
+    }
+    num_lon_ = is_grid_ ? row : num_points;
+    num_points_ = num_points;
+  }
+
+  // Returns the names that its dimensions and coordinates take.
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> names;
+    if (is_grid_ || !side_.points.empty()) names = {"lat", "lon"};
+    if (is_grid_) return names;
+    for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert("axis_" + std::to_string(d));
+    if (side_.shape.size() <= 1) names.insert("point");
+    return names;
+  }
+  // Defines dimensions and coordinates.
+  void define(io::NetcdfWriter& out) {
+    if (is_grid_) {
+      dimensions_ = {out.add_dimension("lat", side_.shape[0]), out.add_dimension("lon", num_lon_)};
+    } else if (side_.shape.size() > 1) {
+      for (std::size_t d = 0; d < side_.shape.size(); ++d) {
+        dimensions_.push_back(out.add_dimension("axis_" + std::to_string(d), side_.shape[d]));
+      }
+    } else {
+      dimensions_ = {out.add_dimension("point", num_points_)};
+    }
+    if (side_.points.empty()) return;
+    const auto of = [&](std::size_t d) {
+      return is_grid_ ? std::vector<std::size_t>{dimensions_[d]} : dimensions_;
+    };
+    out.add_variable(variable("lat", NetcdfType::float64, of(0),
+                              {{"units", "degrees_north"}, {"standard_name", "latitude"}}));
+    out.add_variable(variable("lon", NetcdfType::float64, of(1),
+                              {{"units", "degrees_east"}, {"standard_name", "longitude"}}));
+  }
+  void write(io::NetcdfWriter& out) const {
+    if (side_.points.empty()) return;
+    const std::size_t step = is_grid_ ? num_lon_ : 1;
+    out.write_values<double>(is_grid_ ? side_.shape[0] : num_points_,
+                             [&](std::size_t i) { return side_.points[i * step].lat_deg; });
+    out.write_values<double>(num_lon_, [&](std::size_t i) { return side_.points[i].lon_deg; });
+  }
+  [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return dimensions_; }
+  // True if the points are a list, not a grid.
+  [[nodiscard]] bool is_one_dimension() const { return !is_grid_ && side_.shape.size() <= 1; }
+  [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
+
+ private:
+  const WeightSide& side_;
+  bool is_grid_ = false;
+  std::size_t num_lon_ = 0;
+  std::size_t num_points_ = 0;
+  std::vector<std::size_t> dimensions_;
+};
+
+// Writes the header and the coordinates at once, and the values as they come.
+class NetcdfSink : public FieldSink {
+ public:
+  NetcdfSink(io::AtomicFile& file, const FieldsToWrite& job)
+      : out_(file),
+        points_(job.side, job.fields.num_points),
+        columns_(points_.is_one_dimension() ? std::span(job.side.columns)
+                                            : std::span<const Column>()) {
+    define(job);
+    out_.begin(job.netcdf);
+    for (const FieldArray& axis : job.fields.axes) {
+      out_.write(std::span<const double>(axis.values));
+    }
+    points_.write(out_);
+    columns_.write(out_);
+  }
+  void write(std::span<const double> values) override { out_.write(values); }
+  void finish() override { out_.finish(); }
+
+ private:
+  void define(const FieldsToWrite& job) {
+    const FieldSet& fields = job.fields;
+    out_.add_attribute("Conventions", "CF-1.8");
+    taken_ = points_.names();
+    std::vector<std::vector<std::size_t>> leading;
+    for (const FieldArray& array : fields.arrays) {
+      leading.emplace_back();
+      for (std::size_t d = 0; d < array.shape.size(); ++d) {
+        leading.back().push_back(dimension(array.dimensions[d], array.shape[d]).number);
+      }
+    }
+    for (const FieldArray& axis : fields.axes) {
+      const LeadingDimension& along = dimension(axis.dimensions[0], axis.shape[0]);
+      out_.add_variable(
+          {along.own_name, NetcdfType::float64, {along.number}, with_attributes(axis)});
+    }
+    points_.define(out_);
+    std::vector<std::string> names;
+    for (const FieldArray& array : fields.arrays)
+      names.push_back(take_name(netcdf_name(array.name), taken_));
+    columns_.define(out_, points_.dimensions().front(), taken_);
+    for (std::size_t a = 0; a < leading.size(); ++a) {
+      const FieldArray& array = fields.arrays[a];
+      std::vector<std::size_t> dimensions = leading[a];
+      dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
+      std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
+      if (fields.is_fill_marked) {
+        attributes.push_back({"_FillValue", NetcdfType::float64, {}, {fields.fill}});
+      }
+      if (points_.needs_coordinates()) {
+        attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
+      }
+      out_.add_variable({names[a], NetcdfType::float64, std::move(dimensions), attributes});
+    }
+  }
+
+  // A dimension of the file that is not one of the points.
+  struct LeadingDimension {
+    std::string name;
+    std::uint64_t length;
+    std::string own_name;  // differs from `name` where that is taken
+    std::size_t number;
+  };
+
+  // Returns the dimension of this name and length; two arrays may have dimensions of one name and
+  // different lengths.
+  const LeadingDimension& dimension(const std::string& name, std::uint64_t length) {
+    for (const LeadingDimension& known : known_) {
+      if (known.name == name && known.length == length) return known;
+    }
+    const std::string own_name = take_name(netcdf_name(name), taken_);
+    known_.push_back({name, length, own_name, out_.add_dimension(own_name, length)});
+    return known_.back();
+  }
+
+  io::NetcdfWriter out_;
+  PointsOut points_;
+  ColumnsOut columns_;
+  std::set<std::string> taken_;
+  std::vector<LeadingDimension> known_;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldSink> begin_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
+  return std::make_unique<NetcdfSink>(file, job);
+}
+
+}  // namespace rondel::formats

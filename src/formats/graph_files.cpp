@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes graphs, outlines and empty circles as files.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/unit_vector.h"
+#include "io/atomic_file.h"
+#include "io/binary.h"
+#include "io/ending.h"
+#include "io/flat_arrays.h"
+#include "io/geojson_writer.h"
+#include "io/npy_header.h"
+#include "io/number.h"
+#include "map/arc.h"
+#include "map/region.h"
+#include "rondel/error.h"
+#include "rondel/graphs.h"
+#include "rondel/outlines.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+// The input of a writer of graphs.
+struct GraphToWrite {
+  const Triangulation& triangulation;
+  const SiteGraph& graph;
+  double tolerance;  // radians
+};
+
+// The input of a writer of outlines.
+struct OutlineToWrite {
+  const Triangulation& triangulation;
+  const Outline& outline;
+  double tolerance;  // radians
+};
+
+using Circles = std::span<const EmptyCircle>;
+
+// Converts a tolerance to radians. Throws InvalidInput unless it is positive.
+double tolerance_of(double degrees) {
+  if (!(degrees > 0)) throw InvalidInput("the tolerance is not positive");
+  return degrees / map::degrees_per_radian;
+}
+
+// Returns the unit vector from the center to a site.
+Point unit_of(const Triangulation& triangulation, Index site) {
+  return exact::unit_vector(triangulation.sites()[site], triangulation.sphere().center).hi;
+}
+
+void write_graph_geojson(io::AtomicFile& file, const GraphToWrite& job) {
+  file.write(io::features_begin);
+  std::string text;
+  for (std::size_t i = 0; i < job.graph.edges.size(); ++i) {
+    const auto [a, b] = job.graph.edges[i];
+    text.clear();
+    io::begin_feature(text, i == 0);
+    text += R"("source":)" + std::to_string(a) + R"(,"target":)" + std::to_string(b) +
+            R"(,"length_deg":)";
+    io::append_number(text, job.graph.lengths[i] * map::degrees_per_radian);
+    text += io::geometry_begin;
+    const std::array<Point, 2> ends = {unit_of(job.triangulation, a),
+                                       unit_of(job.triangulation, b)};
+    // Between opposite ends every half of a great circle is as short as the others.
+    const bool are_opposite = ends[0] == Point{-ends[1].x, -ends[1].y, -ends[1].z};
+    std::string lines;
+    if (!are_opposite) {
+      for (const std::vector<LonLat>& part : map::line_parts(ends, false, job.tolerance)) {
+        if (!lines.empty()) lines += ',';
+        io::append_positions(lines, part);
+      }
+    }
+    io::append_multi_line(text, lines);
+    file.write(text + '}');
+  }
+  file.write(io::features_end);
+}
+
+void write_graph_csv(io::AtomicFile& file, const GraphToWrite& job) {
+  std::string text = "source,target,length_deg\n";
+  for (std::size_t i = 0; i < job.graph.edges.size(); ++i) {
+    const auto [a, b] = job.graph.edges[i];
+    text += std::to_string(a) + ',' + std::to_string(b) + ',';
+    io::append_number(text, job.graph.lengths[i] * map::degrees_per_radian);
+    text += '\n';
+  }
+  file.write(text);
+}
+
+void write_graph_npy(io::AtomicFile& file, const GraphToWrite& job) {
+  const std::array<std::uint64_t, 2> shape = {job.graph.edges.size(), 2};
+  file.write(io::make_npy_header("<u4", shape));
+  file.write(io::NumberBytes(job.graph.edges));
+}
+
+void write_outline_geojson(io::AtomicFile& file, const OutlineToWrite& job) {
+  const Outline& outline = job.outline;
+  file.write(io::features_begin);
+  std::vector<Point> units(outline.sites.size());
+  std::ranges::transform(outline.sites, units.begin(),
+                         [&](Index site) { return unit_of(job.triangulation, site); });
+  for (std::size_t i = 0; i < outline.num_polygons(); ++i) {
+    const auto first = outline.polygon_offsets[i];
+    const auto last = outline.polygon_offsets[i + 1];
+    std::vector<map::UnitVectors> rings;
+    for (auto r = first; r < last; ++r) {
+      rings.push_back(std::span<const Point>(units).subspan(
+          outline.ring_offsets[r], outline.ring_offsets[r + 1] - outline.ring_offsets[r]));
+    }
+    std::string text;
+    io::begin_feature(text, i == 0);
+    text += R"("sites":)" +
+            std::to_string(outline.ring_offsets[last] - outline.ring_offsets[first]) +
+            io::geometry_begin;
+    io::append_multi_polygon(text, map::region_polygons(rings, job.tolerance));
+    file.write(text + '}');
+  }
+  file.write(io::features_end);
+}
+
+void write_circles_csv(io::AtomicFile& file, const Circles& circles) {
+  std::string text = "lon,lat,radius_deg,a,b,c\n";
+  for (const EmptyCircle& circle : circles) {
+    const LonLat center = map::lonlat_of(circle.center, false);
+    for (const double number : {center.lon_deg, center.lat_deg}) {
+      io::append_number(text, number);
+      text += ',';
+    }
+    io::append_number(text, circle.radius * map::degrees_per_radian);
+    for (const Index site : circle.sites) text += ',' + std::to_string(site);
+    text += '\n';
+  }
+  file.write(text);
+}
+
+void write_circles_geojson(io::AtomicFile& file, const Circles& circles) {
+  std::string text = io::features_begin;
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    io::begin_feature(text, i == 0);
+    text += R"("radius_deg":)";
+    io::append_number(text, circles[i].radius * map::degrees_per_radian);
+    for (std::size_t k = 0; k < 3; ++k) {
+      text += std::string(R"(,")") + "abc"[k] + R"(":)" + std::to_string(circles[i].sites[k]);
+    }
+    text += io::geometry_begin;
+    io::append_point(text, map::lonlat_of(circles[i].center, false));
+    text += '}';
+  }
+  file.write(text + io::features_end);
+}
+
+using GraphWriter = io::Writer<GraphToWrite>;
+using OutlineWriter = io::Writer<OutlineToWrite>;
+using CircleWriter = io::Writer<Circles>;
+constexpr std::array<GraphWriter, 3> graph_writers = {
+    {{".geojson", &write_graph_geojson}, {".csv", &write_graph_csv}, {".npy", &write_graph_npy}}};
+constexpr std::array<OutlineWriter, 1> outline_writers = {{{".geojson", &write_outline_geojson}}};
+constexpr std::array<CircleWriter, 2> circle_writers = {
+    {{".geojson", &write_circles_geojson}, {".csv", &write_circles_csv}}};
+
+}  // namespace
+
+void write_graph(const FileName& file, const Triangulation& triangulation, const SiteGraph& graph,
+                 double tolerance_deg, const Execution& execution) {
+  const system::Call call(execution);
+  const auto is_site = [&](Index site) { return site < triangulation.num_sites(); };
+  if (graph.lengths.size() != graph.edges.size()) {
+    throw InvalidInput("an edge has no length", std::min(graph.edges.size(), graph.lengths.size()));
+  }
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (!std::ranges::all_of(graph.edges[i], is_site) || !std::isfinite(graph.lengths[i])) {
+      throw InvalidInput("an edge is not one between sites", i);
+    }
+  }
+  const double tolerance = tolerance_of(tolerance_deg);
+  io::write_whole<GraphToWrite>(graph_writers, file, "graphs are written as",
+                                {triangulation, graph, tolerance});
+}
+
+void write_outline(const FileName& file, const Triangulation& triangulation, const Outline& outline,
+                   double tolerance_deg, const Execution& execution) {
+  const system::Call call(execution);
+  const auto is_site = [&](Index site) { return site < triangulation.num_sites(); };
+  if (!io::are_offsets(outline.ring_offsets, outline.sites.size()) ||
+      !io::are_offsets(outline.polygon_offsets, outline.ring_offsets.size() - 1) ||
+      !std::ranges::all_of(outline.sites, is_site)) {
+    throw InvalidInput("the arrays of the outline do not fit together");
+  }
+  const double tolerance = tolerance_of(tolerance_deg);
+  io::write_whole<OutlineToWrite>(outline_writers, file, "outlines are written as",
+                                  {triangulation, outline, tolerance});
+}
+
+void write_circles(const FileName& file, std::span<const EmptyCircle> circles) {
+  const system::ArithmeticScope arithmetic;
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    const Point& c = circles[i].center;
+    if (!std::isfinite(circles[i].radius) ||
+        !(std::abs(c.x * c.x + c.y * c.y + c.z * c.z - 1) < 1e-6)) {
+      throw InvalidInput("a circle has no center or radius", i);
+    }
+  }
+  io::write_whole<Circles>(circle_writers, file, "circles are written as", circles);
+}
+
+}  // namespace rondel

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Grid files of the ICON grid generator.
+#include <string>
+#include <utility>
+
+#include "formats/netcdf_cells.h"
+
+namespace rondel::formats {
+namespace {
+
+using io::NetcdfReader;
+
+}  // namespace
+
+std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string& name) {
+  const MeshVariable* const vertices = file.find("vertex_of_cell");
+  const MeshVariable* const lon = file.find("vlon");
+  const MeshVariable* const lat = file.find("vlat");
+  if (vertices == nullptr || lon == nullptr || lat == nullptr || !is_meant(file, name, *vertices)) {
+    return std::nullopt;
+  }
+  MeshContent mesh;
+  mesh.convention = "ICON";
+  const MeshCoordinates centers = {file.find("clon"), file.find("clat")};
+  take_nodes(file, {lon, lat}, centers, UsualUnits::radians, mesh);
+  require_rank(*vertices, 2);
+  take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
+                    mesh);
+  take_centers(file, centers, {lon, lat}, UsualUnits::radians, mesh);
+  return mesh;
+}
+
+}  // namespace rondel::formats

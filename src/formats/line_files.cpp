@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads lines and points that a mesh follows.
+#include <string>
+#include <vector>
+
+#include "io/ending.h"
+#include "meshing/feature_outlines.h"
+#include "rondel/error.h"
+#include "rondel/feature_cells.h"
+#include "rondel/io.h"
+#include "rondel/mesh_files.h"
+#include "rondel/mesh_lines.h"
+
+namespace rondel::mesh {
+namespace {
+
+// True if the file has features, by its format or its ending; other files have sites.
+bool is_geojson(const FileName& file) {
+  const std::string ending = io::ending(file);
+  return ending == ".geojson" || ending == ".json";
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOptions& options,
+                                           const Execution& execution) {
+  std::vector<std::vector<Point>> lines =
+      meshing::outlines_of(read_features(file, options, execution));
+  std::erase_if(lines, [](const std::vector<Point>& line) { return line.size() < 2; });
+  if (lines.empty()) throw FileError(file.path + ": it has no lines");
+  return lines;
+}
+
+std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonOptions& options,
+                                            const Execution& execution) {
+  std::vector<std::vector<Point>> lines;
+  if (is_geojson(file)) {
+    lines = meshing::outlines_of(read_features(file, options, execution));
+  } else {
+    const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table
+                                                 : read_sites(file, {}, execution);
+    for (const Point& site : table.sites) lines.push_back({site});
+  }
+  if (lines.empty()) throw FileError(file.path + ": it has no points and no lines");
+  return lines;
+}
+
+}  // namespace rondel::mesh

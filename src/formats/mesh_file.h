@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes a netCDF file of a mesh: first all variables are defined, each with a function that
+// computes its rows, then all values are written.
+//
+// in    the arrays of a mesh
+// out   a netCDF file in one of the mesh conventions
+// index rows of a variable: cells, edges or vertices, counted from 0 here
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/netcdf_writer.h"
+#include "rondel/mesh.h"
+#include "rondel/mesh_io.h"
+
+namespace rondel::formats {
+
+class MeshFile {
+ public:
+  using Texts = std::initializer_list<std::pair<const char*, const char*>>;
+
+  MeshFile(io::AtomicFile& file, const mesh::MeshArrays& arrays, const Execution& execution)
+      : arrays_(arrays), execution_(execution), out_(file) {}
+
+  [[nodiscard]] const mesh::MeshArrays& arrays() const { return arrays_; }
+  io::NetcdfWriter& netcdf() { return out_; }
+  std::size_t dimension(const char* name, std::uint64_t size) {
+    return out_.add_dimension(name, size);
+  }
+
+  // Defines a variable of `rows` rows of `of_each` values; fill(row, values) sets the values of a
+  // row, which are 0 before. It is called when the file is written.
+  template <typename T, typename Fill>
+  void add(io::NetcdfVariable variable, std::size_t rows, std::size_t of_each, Fill fill) {
+    out_.add_variable(std::move(variable));
+    writes_.push_back([this, rows, of_each, fill] {
+      out_.write_rows<T>(execution_.threads, rows, of_each,
+                         [&](std::size_t begin, std::size_t end, T* values) {
+                           for (std::size_t i = begin; i < end; ++i, values += of_each) {
+                             fill(i, values);
+                           }
+                         });
+    });
+  }
+  // Defines a variable of doubles with fill(row, values).
+  template <typename Fill>
+  void numbers(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
+               std::size_t of_each, Fill fill) {
+    add<double>(variable(name, io::NetcdfType::float64, std::move(dimensions), texts), rows,
+                of_each, fill);
+  }
+  // Defines a variable of doubles with one value a row, value(row).
+  template <typename Value>
+  void numbers(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
+               Value value) {
+    numbers(name, std::vector{dimension}, texts, rows, 1,
+            [value](std::size_t i, double* out) { *out = value(i); });
+  }
+  // Defines a variable of 32-bit integers with fill(row, values).
+  template <typename Fill>
+  void indices(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
+               std::size_t of_each, Fill fill) {
+    add<std::int32_t>(variable(name, io::NetcdfType::int32, std::move(dimensions), texts), rows,
+                      of_each, fill);
+  }
+  // Defines a variable of 32-bit integers with one value a row, value(row).
+  template <typename Value>
+  void indices(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
+               Value value) {
+    indices(
+        name, std::vector{dimension}, texts, rows, 1,
+        [value](std::size_t i, std::int32_t* out) { *out = static_cast<std::int32_t>(value(i)); });
+  }
+
+  // Returns a variable with attributes that are texts.
+  static io::NetcdfVariable variable(const char* name, io::NetcdfType type,
+                                     std::vector<std::size_t> dimensions, Texts texts);
+  // Adds an attribute that is a number.
+  static void set(io::NetcdfVariable& variable, const char* name, double number);
+
+  // Writes header and values. Throws BadValue if the mesh is too large for the netCDF format.
+  void write(const NetcdfOptions& options);
+
+ private:
+  const mesh::MeshArrays& arrays_;
+  const Execution& execution_;
+  io::NetcdfWriter out_;
+  std::vector<std::function<void()>> writes_;
+};
+
+// Return the longitude, from 0 to less than a full circle, and the latitude of a point, in radians
+// or degrees.
+double longitude_of(const Point& p);
+double latitude_of(const Point& p);
+double longitude_deg_of(const Point& p);
+double latitude_deg_of(const Point& p);
+// The corners of cells: the vertices, where vertices that are joined by an edge of length 0 count
+// as one.
+class CellCorners {
+ public:
+  explicit CellCorners(const mesh::MeshArrays& arrays);
+
+  // Calls visit(vertex) for the corners of a cell, counterclockwise.
+  template <typename Visit>
+  void visit(std::size_t cell, const Visit& visit) const {
+    const std::uint64_t begin = arrays_.offsets[cell];
+    const std::uint64_t end = arrays_.offsets[cell + 1];
+    Index last = corner(arrays_.vertices_on_cell[end - 1]);
+    for (std::uint64_t at = begin; at < end; ++at) {
+      const Index next = corner(arrays_.vertices_on_cell[at]);
+      if (next == last) continue;
+      visit(next);
+      last = next;
+    }
+  }
+  // Returns the number of corners of a cell.
+  [[nodiscard]] std::size_t count(std::size_t cell) const {
+    std::size_t found = 0;
+    visit(cell, [&](Index /*corner*/) { ++found; });
+    return found;
+  }
+
+ private:
+  [[nodiscard]] Index corner(Index vertex) const {
+    return joined_.empty() ? vertex : joined_[vertex];
+  }
+
+  const mesh::MeshArrays& arrays_;
+  std::vector<Index> joined_;  // by vertex: the corner; empty if every vertex is a corner
+};
+
+constexpr MeshFile::Texts texts_of_degrees = {{"units", "degrees"}};
+constexpr MeshFile::Texts texts_of_areas = {{"units", "radians^2"}};
+
+// Returns the area of a cell on the unit sphere.
+inline double area_at_one(const mesh::MeshArrays& arrays, std::size_t cell) {
+  return arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
+}
+
+// Each of these defines the variables of one convention.
+void define_mpas(MeshFile& file);
+void define_ugrid(MeshFile& file, const CellCorners& corners);
+void define_scrip(MeshFile& file, const CellCorners& corners);
+void define_esmf(MeshFile& file, const CellCorners& corners);
+// The cells of an Exodus file, grouped into blocks by their number of corners. They must live until
+// the file is written.
+struct CellBlocks {
+  std::vector<Index> cells;         // sorted by number of corners, then by index
+  std::vector<std::size_t> begins;  // begin of each block in `cells`, and the end
+  // by block: the number of corners of its cells
+  std::vector<std::size_t> corners;
+};
+// Returns the cells in blocks.
+CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
+void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
+
+}  // namespace rondel::formats

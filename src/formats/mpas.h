@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Compares the two ways in which MPAS gives the places of cells, edges and vertices.
+//
+// in    a file with longitudes and latitudes in radians, and x, y and z in units of length
+// out   an exception that names the first place where both differ
+// index cells, edges or vertices, from 0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "io/netcdf_reader.h"
+
+namespace rondel::formats {
+
+// Says whether longitudes and latitudes may be no places, as those of cells that are left out.
+enum class PlacesMay : std::uint8_t { be_missing, not_be_missing };
+
+// Throws BadValue with the first place, if lonCell and latCell are not the directions of xCell,
+// yCell and zCell, or, as `may` says, no place; `kind` is "Cell", "Edge" or "Vertex". Does nothing
+// if the file lacks one of them.
+void require_one_place(const io::NetcdfReader& file, const std::string& kind, PlacesMay may);
+
+}  // namespace rondel::formats

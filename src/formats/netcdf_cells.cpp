@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Functions that the readers of all conventions share.
+#include "formats/netcdf_cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "formats/cf_values.h"
+#include "io/bad_value.h"
+#include "io/number.h"
+#include "system/shortest_text.h"
+
+namespace rondel::formats {
+namespace {
+
+using io::BadValue;
+
+// Returns, for example, "3 of 17 cells".
+std::string cells_in_words(std::size_t count, std::size_t of_all) {
+  return std::to_string(count) + " of " + std::to_string(of_all) + " cells";
+}
+
+// True if the numbers are a place, up to rounding of single precision.
+bool is_nearly_place(const LonLat& place) {
+  // A latitude of pi / 2 in single precision is 90.0000025 degrees.
+  constexpr double rounding = 1e-5;
+  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
+}
+
+// Reads the rows of a connectivity, cell by cell.
+class ConnectivityReader {
+ public:
+  ConnectivityReader(const io::NetcdfReader& file, const Connectivity& connectivity,
+                     const std::vector<double>& counts, MeshContent& mesh)
+      : of_(connectivity),
+        counts_(counts),
+        mesh_(mesh),
+        entries_(file.numbers(connectivity.variable)),
+        meant_(entries_) {
+    ValueRules(of_.variable).apply(meant_);
+  }
+
+  void read() {
+    if (!is_ragged()) require_values(of_.variable, of_.num_cells * of_.of_each);
+    std::uint64_t begin = 0;  // where the row of the cell begins
+    for (std::uint64_t i = 0; i < of_.num_cells; ++i) {
+      const Row row = {i, begin, length_of(i, begin)};
+      take_row(row);
+      begin += is_ragged() ? row.length : of_.of_each;
+    }
+    if (is_ragged()) require_values(of_.variable, begin);
+    tell();
+  }
+
+ private:
+  struct Row {
+    std::uint64_t cell;
+    std::uint64_t begin;
+    std::uint64_t length;  // number of entries in use
+  };
+
+  [[nodiscard]] bool is_ragged() const { return of_.of_each == 0; }
+  [[nodiscard]] std::uint64_t place_of(const Row& row, std::uint64_t k) const {
+    return of_.is_transposed ? k * of_.num_cells + row.cell : row.begin + k;
+  }
+  [[nodiscard]] std::string name() const { return io::in_quotes(of_.variable.name); }
+
+  [[nodiscard]] std::uint64_t length_of(std::uint64_t cell, std::uint64_t begin) const {
+    if (counts_.empty()) return of_.of_each;
+    const std::uint64_t most = is_ragged() ? entries_.size() - begin : of_.of_each;
+    const double given = counts_[cell];
+    if (given >= 0 && given <= static_cast<double>(most) && given == std::floor(given)) {
+      return static_cast<std::uint64_t>(given);
+    }
+    throw BadValue("cell " + std::to_string(cell) + " has " + system::shortest_text(given) +
+                   " corners of " + std::to_string(most));
+  }
+
+  [[nodiscard]] bool is_break(std::uint64_t at) const {
+    return of_.break_value < of_.first && entries_[at] == of_.break_value;
+  }
+  // True if an entry stands for no corner: a missing value, or a number less than the first one.
+  [[nodiscard]] bool is_none(std::uint64_t at) const {
+    return std::isnan(meant_[at]) || entries_[at] < of_.first;
+  }
+  [[nodiscard]] bool is_node(std::uint64_t at) const {
+    const double node = entries_[at] - of_.first;
+    return !is_none(at) && node < static_cast<double>(mesh_.nodes.size()) &&
+           node == std::floor(node);
+  }
+  [[nodiscard]] Index node_at(std::uint64_t at) const {
+    return static_cast<Index>(entries_[at] - of_.first);
+  }
+
+  // Entries that are no corners may only follow all corners of a row that has no length of its own,
+  // or fill a row: elsewhere a corner would be lost. Corners of masked cells may be anything.
+  void take_row(const Row& row) {
+    const bool is_masked = !mesh_.mask.empty() && mesh_.mask[row.cell] == 0;
+    const std::size_t before = mesh_.cells.corners.size();
+    std::uint64_t num_none = 0;
+    std::uint64_t first_none = 0;
+    for (std::uint64_t k = 0; k < row.length; ++k) {
+      const std::uint64_t at = place_of(row, k);
+      if (is_break(at)) {
+        mesh_.cells.end_ring();
+      } else if (is_none(at)) {
+        if (num_none++ == 0) first_none = k;
+        if (!is_masked && !std::isnan(meant_[at])) ++num_undeclared_;
+      } else if (is_node(at)) {
+        if (num_none > 0 && !is_masked) refuse_none(row, first_none);
+        mesh_.cells.corners.push_back(node_at(at));
+      } else if (!is_masked) {
+        refuse_node(row.cell, at);
+      }
+    }
+    const bool has_corners = mesh_.cells.corners.size() > before;
+    if (num_none > 0 && has_corners && !counts_.empty() && !is_masked) refuse_none(row, first_none);
+    if (!counts_.empty() && !is_ragged() && !is_masked) find_further_corners(row, before);
+    mesh_.cells.end_ring();
+    mesh_.cells.end_cell();
+  }
+
+  // Notes a cell that has other corners behind those that its number of corners counts. Programs
+  // fill up rows with numbers that are no nodes, or by repeating corners.
+  void find_further_corners(const Row& row, std::size_t before) {
+    const std::span<const Index> corners = std::span(mesh_.cells.corners).subspan(before);
+    for (std::uint64_t k = row.length; k < of_.of_each; ++k) {
+      const std::uint64_t at = place_of(row, k);
+      if (!is_node(at) || std::ranges::count(corners, node_at(at)) != 0) continue;
+      if (num_longer_++ == 0) first_longer_ = row.cell;
+      return;
+    }
+  }
+
+  [[noreturn]] void refuse_none(const Row& row, std::uint64_t k) const {
+    throw BadValue("cell " + std::to_string(row.cell) + " has the number " +
+                   system::shortest_text(entries_[place_of(row, k)]) +
+                   ", which is no node, as corner " + std::to_string(k) + " in " + name() +
+                   (counts_.empty()
+                        ? ", before other corners"
+                        : ", though it has " + std::to_string(row.length) + " corners"));
+  }
+
+  [[noreturn]] void refuse_node(std::uint64_t cell, std::uint64_t at) const {
+    const bool may_count_from_1 = of_.first == 0 &&
+                                  entries_[at] == static_cast<double>(mesh_.nodes.size()) &&
+                                  std::ranges::count(entries_, 0.0) == 0;
+    throw BadValue(
+        "cell " + std::to_string(cell) + " has a corner " + system::shortest_text(entries_[at]) +
+        " of " + std::to_string(mesh_.nodes.size()) + " nodes" +
+        (may_count_from_1
+             ? ", counted from 0; if they are counted from 1, the attribute start_index = 1 of " +
+                   name() + " must say so"
+             : std::string()));
+  }
+
+  void tell() const {
+    if (num_undeclared_ > 0) {
+      mesh_.remarks.push_back(std::to_string(num_undeclared_) + " numbers of " + name() +
+                              " are less than " + system::shortest_text(of_.first) +
+                              " and taken for no corners, though no _FillValue says so");
+    }
+    if (num_longer_ > 0) {
+      mesh_.remarks.push_back(cells_in_words(num_longer_, of_.num_cells) +
+                              " have further corners in " + name() +
+                              " behind the number of corners that they are said to have, the first "
+                              "one cell " +
+                              std::to_string(first_longer_));
+    }
+  }
+
+  const Connectivity& of_;
+  const std::vector<double>& counts_;
+  MeshContent& mesh_;
+  std::vector<double> entries_;
+  std::vector<double> meant_;  // missing ones are NaN
+  std::size_t num_undeclared_ = 0;
+  std::size_t num_longer_ = 0;
+  std::uint64_t first_longer_ = 0;
+};
+
+}  // namespace
+
+bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells) {
+  const MeshVariable* const variable = file.find(name);
+  return name.empty() ||
+         (variable != nullptr && std::ranges::any_of(variable->dimensions, [&](std::size_t d) {
+            return std::ranges::count(cells.dimensions, d) != 0;
+          }));
+}
+
+void require_values(const MeshVariable& variable, std::uint64_t wanted) {
+  if (variable.num_values == wanted) return;
+  throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
+                 std::to_string(variable.num_values) + " values instead of " +
+                 std::to_string(wanted));
+}
+
+const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank) {
+  if (variable.shape.size() == rank) return variable;
+  throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
+                 std::to_string(variable.shape.size()) + " dimensions instead of " +
+                 std::to_string(rank));
+}
+
+bool is_missing_place(const LonLat& place) {
+  return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
+}
+
+std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
+                                                   const MeshCoordinates& wanted,
+                                                   const MeshCoordinates& related,
+                                                   UsualUnits usual) {
+  return {degrees_of(file, *wanted.lon, usual, {related.lon, wanted.lat, related.lat}),
+          degrees_of(file, *wanted.lat, usual, {related.lat, wanted.lon, related.lon})};
+}
+
+std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
+                                 const MeshCoordinates& related, UsualUnits usual) {
+  const MeshVariable& lon = *wanted.lon;
+  const MeshVariable& lat = *wanted.lat;
+  require_values(lat, lon.num_values);
+  auto [lons, lats] = degrees_of_both(file, wanted, related, usual);
+  if (lon.dimensions != lat.dimensions &&
+      std::ranges::is_permutation(lon.dimensions, lat.dimensions)) {
+    lats = in_order(lat, lon.dimensions, std::move(lats));
+  }
+  std::vector<LonLat> positions(lons.size());
+  for (std::size_t i = 0; i < lons.size(); ++i) positions[i] = {lons[i], lats[i]};
+  return positions;
+}
+
+LonLat require_position(const std::string& names, std::size_t i, const LonLat& place) {
+  if (!is_nearly_place(place)) {
+    throw BadValue("value " + std::to_string(i) + " of " + names + ", " +
+                   system::shortest_text(place.lon_deg) + " and " +
+                   system::shortest_text(place.lat_deg) + " degrees, is no place");
+  }
+  return {place.lon_deg, std::clamp(place.lat_deg, -90.0, 90.0)};
+}
+
+void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
+                const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh) {
+  mesh.nodes = positions_of(file, nodes, centers, usual);
+  mesh.names = io::in_quotes(nodes.lon->name) + " and " + io::in_quotes(nodes.lat->name);
+  mesh.is_single = nodes.lon->type == io::NetcdfType::float32;
+}
+
+bool has_rows(std::span<const std::uint64_t> shape) {
+  return std::ranges::count_if(shape, [](std::uint64_t length) { return length > 1; }) > 1;
+}
+
+void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh) {
+  const std::size_t num_cells = mesh.nodes.size() / of_each;
+  CellRings& cells = mesh.cells;
+  cells.corners.reserve(mesh.nodes.size());
+  cells.rings.reserve(num_cells + 1);
+  cells.cells.reserve(num_cells + 1);
+  for (std::size_t i = 0; i < num_cells; ++i) {
+    std::size_t count = of_each;
+    while (may_be_fewer && count > 3 && is_missing_place(mesh.nodes[i * of_each + count - 1])) {
+      --count;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      cells.corners.push_back(static_cast<Index>(i * of_each + k));
+    }
+    cells.end_ring();
+    cells.end_cell();
+  }
+}
+
+void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
+                       const std::vector<double>& counts, MeshContent& mesh) {
+  ConnectivityReader(file, connectivity, counts, mesh).read();
+}
+
+void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
+               MaskedBy masked_by, MeshContent& mesh) {
+  const MeshVariable* const variable = file.find(name);
+  if (variable == nullptr) return;
+  require_values(*variable, num_cells);
+  for (const double value : meant_numbers(file, *variable)) {
+    const bool is_masked = std::isnan(value) || (value == 0) == (masked_by == MaskedBy::zero);
+    mesh.mask.push_back(is_masked ? 0 : 1);
+  }
+  const auto num_masked = static_cast<std::size_t>(std::ranges::count(mesh.mask, 0));
+  if (num_masked == 0) {
+    mesh.mask.clear();
+  } else {
+    mesh.remarks.push_back(cells_in_words(num_masked, mesh.mask.size()) + " are masked by " +
+                           io::in_quotes(std::string(name)));
+  }
+}
+
+void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
+                  const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh) {
+  if (centers.lon == nullptr || centers.lat == nullptr) return;
+  require_values(*centers.lon, mesh.cells.num_cells());
+  mesh.centers = positions_of(file, centers, nodes, usual);
+  mesh.center_names = io::in_quotes(centers.lon->name) + " and " + io::in_quotes(centers.lat->name);
+}
+
+void leave_out_cells_without_corners(MeshContent& mesh) {
+  const CellRings& cells = mesh.cells;
+  const std::size_t num_cells = cells.num_cells();
+  std::vector<std::int32_t> mask = mesh.mask;
+  if (mask.empty()) mask.assign(num_cells, 1);
+  CellRings kept;
+  std::size_t num_left_out = 0;
+  for (std::size_t i = 0; i < num_cells; ++i) {
+    bool is_whole = true;
+    for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
+      const Index node = cells.corners[k];
+      const bool may_be_no_place = mask[i] == 0 || is_missing_place(mesh.nodes[node]);
+      if (!may_be_no_place) {
+        (void)require_position(mesh.names, node, mesh.nodes[node]);
+      }
+      is_whole = is_whole && is_nearly_place(mesh.nodes[node]);
+    }
+    if (is_whole) {
+      kept.append_rings(cells, i);
+    } else {
+      if (mask[i] != 0) ++num_left_out;
+      mask[i] = 0;
+    }
+    kept.end_cell();
+  }
+  if (num_left_out > 0 && std::ranges::count(mask, 0) == std::ssize(mask)) {
+    throw BadValue("no cell has corners: values of " + mesh.names + " are missing");
+  }
+  for (LonLat& node : mesh.nodes) {
+    node = is_nearly_place(node) ? LonLat{node.lon_deg, std::clamp(node.lat_deg, -90.0, 90.0)}
+                                 : LonLat{0, 0};
+  }
+  mesh.cells = std::move(kept);
+  if (num_left_out == 0) return;
+  mesh.mask = std::move(mask);
+  mesh.remarks.push_back(cells_in_words(num_left_out, num_cells) +
+                         " have corners that are missing and are left out");
+}
+
+double number_or(const MeshVariable& variable, std::string_view name, double otherwise) {
+  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
+  return attribute == nullptr || attribute->numbers.empty() ? otherwise : attribute->numbers[0];
+}
+
+}  // namespace rondel::formats

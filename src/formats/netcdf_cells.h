@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the readers of cells share: each convention has a file of its own, ugrid.cpp and others, with
+// its reader beside its writer.
+//
+// in    an open netCDF file and the name of a variable, or an empty name
+// out   MeshContent: nodes, rings and attributes of cells
+// index cells, rings and nodes as in the file
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/cf_reader.h"
+#include "io/netcdf_reader.h"
+#include "rondel/cell_rings.h"
+#include "rondel/mesh_files.h"
+#include "rondel/partition.h"
+#include "rondel/types.h"
+
+namespace rondel::formats {
+
+// The cells as a file has them: corners may be repeated, and rings may have either direction.
+struct MeshContent {
+  std::string convention;
+  std::vector<LonLat> nodes;  // as in the file; both numbers of a missing node are NaN
+  std::string names;          // the quoted names of the variables of the nodes, for messages
+  bool is_single = false;     // true if the nodes have single precision
+  CellRings cells;            // its corners are indices of nodes, and it has no points
+  // Set if the cells are between meridians and parallels; then there are no nodes.
+  std::optional<LonLatGrid> grid;
+  // One for each cell, or none at all.
+  std::vector<LonLat> centers;
+  std::string center_names;  // the quoted names of the variables of the centers
+  // 0 for a masked cell; empty if no cell is masked
+  std::vector<std::int32_t> mask;
+  // The lengths nlat and nlon of a logically rectangular grid, or empty.
+  std::vector<std::uint64_t> shape;
+  std::vector<std::string> remarks;  // what the file contains that the cells cannot represent
+};
+
+// Returns what read_cells() returns for a file, or for the grid that the variable `part` is on.
+// `file_name` is for messages. Throws BadValue.
+CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
+                   const std::string& part);
+
+// True if variables are those of a mesh, in any convention but OASIS, whose cells a field need not
+// name.
+bool has_mesh(std::span<const VariableHeader> variables);
+
+// Each reader returns nothing if the file does not follow its convention, or if `name` is not empty
+// and that variable is not on cells of this convention. Throws BadValue for a file that follows the
+// convention and is wrong.
+std::optional<MeshContent> read_ugrid(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_mpas(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_icon(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_oasis(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_exodus(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std::string& name);
+
+using MeshVariable = io::NetcdfReader::Variable;
+
+// True if `name` is empty, or names a variable that shares a dimension with `cells`.
+bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells);
+
+// The variables of longitudes and latitudes; null if there is no such variable.
+struct MeshCoordinates {
+  const MeshVariable* lon = nullptr;
+  const MeshVariable* lat = nullptr;
+};
+// Returns longitudes, then latitudes in degrees. A variable without units gets the units of the
+// related one, or of another one of the four, or else the usual ones.
+std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
+                                                   const MeshCoordinates& wanted,
+                                                   const MeshCoordinates& related,
+                                                   UsualUnits usual);
+// Returns the same coordinates as positions. Throws BadValue if the two variables have different
+// numbers of values.
+std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
+                                 const MeshCoordinates& related, UsualUnits usual);
+// Reads the nodes of a mesh.
+void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
+                const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh);
+// True if a coordinate of a place is NaN.
+bool is_missing_place(const LonLat& place);
+// Returns a place, with a latitude that rounding has put beyond a pole moved to the pole. Throws
+// BadValue, with i and the names of the variables, if the numbers are no place.
+LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);
+// True if more than one of the lengths is above 1: the cells of (1, n) are a list.
+bool has_rows(std::span<const std::uint64_t> shape);
+// Makes cells that have corners of their own: the nodes, `of_each` for each cell. If
+// `may_be_fewer`, missing nodes at the end of a cell are no corners.
+void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh);
+// The nodes that are corners of cells. A row has `of_each` entries, of which the first are in use
+// if there are counts. If `of_each` is 0, the rows have different lengths, which are the counts.
+struct Connectivity {
+  const MeshVariable& variable;
+  std::uint64_t num_cells;
+  std::uint64_t of_each;
+  bool is_transposed;  // true if the cells are the last dimension
+  double first;        // the number that the file gives to the first node
+  // The entry that begins a further ring; not in use if it is `first` or more.
+  double break_value = 0;
+};
+// Reads the corners of all cells. `counts` are the lengths of rows, or empty. Throws BadValue for a
+// corner that is no node, unless its cell is masked: the mask has to be read before.
+void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
+                       const std::vector<double>& counts, MeshContent& mesh);
+// The numbers by which a file masks cells: 0, or all others.
+enum class MaskedBy : std::uint8_t { zero, others };
+// Reads a mask of cells from a variable; missing values mask as well. Does nothing if there is no
+// such variable.
+void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
+               MaskedBy masked_by, MeshContent& mesh);
+// Reads the centers of cells, if the file has them.
+void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
+                  const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);
+// Removes the rings of cells with a corner at a missing node, sets their mask to 0, and adds a
+// remark with their number. Throws BadValue for other nodes that are no places.
+void leave_out_cells_without_corners(MeshContent& mesh);
+// Returns the first number of an attribute, or `otherwise` if there is no such attribute.
+double number_or(const MeshVariable& variable, std::string_view name, double otherwise);
+// Throws BadValue unless the variable has this number of values.
+void require_values(const MeshVariable& variable, std::uint64_t wanted);
+// Throws BadValue unless the variable has this number of dimensions; returns the variable.
+const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank);
+
+}  // namespace rondel::formats

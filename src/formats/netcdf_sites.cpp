@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads sites from netCDF files: the centers of cells, or the places of values.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "formats/netcdf_cells.h"
+#include "io/bad_value.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_groups.h"
+#include "io/number.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/mesh_files.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+// Returns the variable that a name means: for "tas[3]" or "tas_2001-07-15" it is tas. Throws
+// BadValue.
+std::string variable_of(const io::NetcdfReader& reader, const std::string& name) {
+  if (name.empty() || reader.find(name) != nullptr) return name;
+  std::string longest;
+  for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+    const std::size_t length = variable.name.size();
+    const bool is_beginning = name.starts_with(variable.name) && length < name.size() &&
+                              (name[length] == '[' || name[length] == '_');
+    if (is_beginning && length > longest.size()) longest = variable.name;
+  }
+  return longest.empty() ? reader.require(name).name : longest;
+}
+
+// The variable of the first column that is asked for. `is_one_of_several` is true if the name picks
+// one field of the variable.
+struct NamedVariable {
+  std::string name;
+  bool is_one_of_several = false;
+};
+
+// Returns the variable of the first name, or an empty name if there are no names.
+NamedVariable named_variable(const FileName& file, std::span<const std::string> names) {
+  if (names.empty()) return {};
+  io::FileBytes bytes(file.path, true);
+  return io::in_file(bytes.name(), [&]() -> NamedVariable {
+    const io::NetcdfReader reader(bytes);
+    const std::string wanted = io::full_name(reader.variables(), names.front());
+    const std::string name = variable_of(reader, wanted);
+    return {name, name != wanted};
+  });
+}
+
+// Returns the centers of the cells that the variable is on, or nothing if the file has no cells
+// with centers.
+std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::string& variable) {
+  try {
+    io::FileBytes bytes(file.path, true);
+    CellTable cells = io::in_file(bytes.name(), [&] {
+      const io::NetcdfReader reader(bytes);
+      return formats::cells_in(reader, bytes.name(), variable);
+    });
+    if (cells.centers.empty() || cells.centers.size() != cells.num_cells()) return std::nullopt;
+    for (std::size_t i = 0; i < cells.mask.size(); ++i) {
+      // read_cells() puts missing centers to (0, 0).
+      if (cells.mask[i] == 0 && cells.centers[i] == LonLat{0, 0}) return std::nullopt;
+    }
+    NetcdfSites sites;
+    sites.remarks = std::move(cells.remarks);
+    sites.table.positions = std::move(cells.centers);
+    sites.shape = std::move(cells.shape);
+    // With other conventions the mask only marks cells with missing corners.
+    for (const std::string_view convention : {"SCRIP", "ESMF", "OASIS"}) {
+      if (cells.convention == convention) sites.mask = cells.mask;
+    }
+    return sites;
+  } catch (const FileError&) {
+    return std::nullopt;  // fields need no cells
+  }
+}
+
+// Returns an array with one value at each site as a column; missing values are empty cells.
+Column column_of(const FieldArray& array) {
+  Column column;
+  column.name = array.name;
+  column.is_numeric = true;
+  for (const double value : array.values) {
+    if (!std::isnan(value)) io::append_number(column.text, value);
+    column.ends.push_back(column.text.size());
+  }
+  return column;
+}
+
+// Returns a message that an array has several fields and is no column.
+std::string text_of_several(const FieldArray& array, const FieldSet& fields) {
+  std::string lengths;
+  for (std::size_t d = 0; d < array.shape.size(); ++d) {
+    lengths += (d == 0 ? "" : ", ") + array.dimensions[d] + " " + std::to_string(array.shape[d]);
+  }
+  std::string text =
+      io::in_quotes(array.name) + " has several fields (" + lengths + ") and is no column";
+  const std::vector<std::string> names = names_of_fields(array, fields.axes);
+  return names.empty() ? text : text + "; one of them is " + io::in_quotes(names.front());
+}
+
+// Adds the columns with these names, which are given as a user wrote them.
+void add_columns(const FieldFile& file, std::span<const std::string> names, NetcdfSites& sites) {
+  const FieldSet& fields = file.fields();
+  for (std::size_t a = 0; a < fields.arrays.size(); ++a) {
+    FieldArray array = fields.arrays[a];
+    if (array.num_fields() != 1) {
+      sites.remarks.push_back(text_of_several(array, fields));
+      continue;
+    }
+    array.values.resize(fields.num_points);
+    file.read(a, 0, array.values);
+    if (!names.empty()) array.name = names[a];
+    sites.table.columns.push_back(column_of(array));
+  }
+}
+
+}  // namespace
+
+NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
+                              bool keep_columns) {
+  const system::ArithmeticScope arithmetic;
+  NetcdfSites sites;
+  const NamedVariable named = named_variable(file, names);
+  if (std::optional<NetcdfSites> centers = centers_of_cells(file, named.name)) {
+    sites = std::move(*centers);
+  }
+  const std::size_t num_centers = sites.table.positions.size();
+  if (num_centers == 0 || keep_columns || named.is_one_of_several) {
+    try {
+      const FieldFile fields(file, names, num_centers, {}, {}, {sites.table.positions, 1e-9});
+      if (num_centers == 0) {
+        const std::string& remark = fields.fields().remark_on_grids;
+        if (!remark.empty()) sites.remarks.push_back(remark);
+        sites.table.positions = fields.fields().positions;
+        sites.shape = fields.fields().shape;
+        if (const std::size_t number = fields.fields().num_without_place; number > 0) {
+          sites.remarks.push_back(std::to_string(number) + " of " +
+                                  std::to_string(number + fields.fields().num_points) +
+                                  " places have no longitude or latitude and are left out");
+        }
+      }
+      if (keep_columns) add_columns(fields, names, sites);
+      if (keep_columns && names.empty()) {
+        const std::vector<std::string>& left_out = fields.fields().remarks;
+        sites.remarks.insert(sites.remarks.end(), left_out.begin(), left_out.end());
+      }
+    } catch (const FileError&) {
+      if (num_centers == 0 || !names.empty()) throw;  // a mesh may have no fields
+    }
+  }
+  sites.table.name = file.path;
+  sites.table.first_line = 0;
+  sites.table.sites = unit_vectors(sites.table.positions);
+  return sites;
+}
+
+}  // namespace rondel

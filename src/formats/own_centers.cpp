@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "formats/own_centers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "exact/vector.h"
+#include "io/bad_value.h"
+#include "rondel/delaunay.h"
+#include "system/shortest_text.h"
+
+namespace rondel::formats {
+namespace {
+
+// Distances are chords of the unit sphere; that of 60 degrees is 1.
+constexpr double most_radius = 1;
+// A center on the circle may be outside by rounding, in single precision 1e-7 of the sphere.
+constexpr double slack_of_circle = 1.05;
+constexpr double rounding_of_center = 1e-6;
+constexpr double most_radii = 3;
+// How far the distances from a circumcenter to the corners may differ, in radii.
+constexpr double slack_of_circumcenter = 0.01;
+
+struct CornerCircle {
+  Point middle;
+  double radius = 0;  // 0 for a cell that is not looked at
+};
+
+std::string place_text(const LonLat& place) {
+  return "longitude " + system::shortest_text(place.lon_deg) + " and latitude " +
+         system::shortest_text(place.lat_deg);
+}
+
+class CenterCheck {
+ public:
+  CenterCheck(const MeshContent& mesh, const CellRings& cells)
+      : mesh_(mesh), cells_(cells), centers_(unit_vectors(mesh.centers)) {}
+
+  std::string run() {
+    std::vector<double> radii;
+    std::vector<std::size_t> outside;
+    for (std::size_t i = 0; i < centers_.size(); ++i) {
+      const CornerCircle circle = circle_of(i);
+      if (circle.radius == 0) continue;
+      radii.push_back(circle.radius);
+      const double away = norm(centers_[i] - circle.middle);
+      const double allowed = slack_of_circle * circle.radius + rounding_of_center;
+      if (away > allowed && !is_circumcenter(i, circle.radius)) outside.push_back(i);
+    }
+    if (outside.empty()) return {};
+    if (2 * outside.size() > radii.size()) refuse(outside.front(), outside.size(), radii.size());
+    const auto median = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::ranges::nth_element(radii, median);
+    for (const std::size_t i : outside) {
+      const CornerCircle circle = circle_of(i);
+      const double away = norm(centers_[i] - circle.middle);
+      if (away > most_radii * std::max(circle.radius, *median)) {
+        refuse(i, outside.size(), radii.size());
+      }
+    }
+    return counted(outside.size(), radii.size()) + " are outside of their corners, the first one " +
+           what(outside.front());
+  }
+
+ private:
+  // Calls visit(point) for each corner of a cell.
+  template <class Visit>
+  void for_corners(std::size_t cell, const Visit& visit) const {
+    const std::uint64_t end = cells_.rings[cells_.cells[cell + 1]];
+    for (std::uint64_t k = cells_.rings[cells_.cells[cell]]; k < end; ++k) {
+      visit(cells_.points[cells_.corners[k]]);
+    }
+  }
+
+  [[nodiscard]] CornerCircle circle_of(std::size_t cell) const {
+    if (!mesh_.mask.empty() && mesh_.mask[cell] == 0) return {};
+    Point sum{0, 0, 0};
+    for_corners(cell, [&](const Point& corner) { sum = sum + corner; });
+    if (!(dot(sum, sum) > 0)) return {};
+    CornerCircle circle{normalized(sum)};
+    for_corners(cell, [&](const Point& corner) {
+      circle.radius = std::max(circle.radius, norm(corner - circle.middle));
+    });
+    return circle.radius < most_radius ? circle : CornerCircle{};
+  }
+
+  [[nodiscard]] bool is_circumcenter(std::size_t cell, double radius) const {
+    double least = 2;
+    double most = 0;
+    for_corners(cell, [&](const Point& corner) {
+      const double distance = norm(corner - centers_[cell]);
+      least = std::min(least, distance);
+      most = std::max(most, distance);
+    });
+    return most - least <= slack_of_circumcenter * radius;
+  }
+
+  [[nodiscard]] std::string counted(std::size_t count, std::size_t of_all) const {
+    return std::to_string(count) + " of " + std::to_string(of_all) + " centers of cells in " +
+           mesh_.center_names;
+  }
+
+  // Describes a cell by its center and its first corner.
+  [[nodiscard]] std::string what(std::size_t cell) const {
+    const LonLat& corner = mesh_.nodes[mesh_.cells.corners_of(mesh_.cells.cells[cell]).front()];
+    return "that of cell " + std::to_string(cell) + ", " + place_text(mesh_.centers[cell]) +
+           ", with a corner at " + place_text(corner);
+  }
+
+  [[noreturn]] void refuse(std::size_t cell, std::size_t count, std::size_t of_all) const {
+    throw io::BadValue("centers belong to other cells than the corners in " + mesh_.names + ": " +
+                       counted(count, of_all) + " are outside of their corners, such as " +
+                       what(cell));
+  }
+
+  const MeshContent& mesh_;
+  const CellRings& cells_;
+  std::vector<Point> centers_;
+};
+
+}  // namespace
+
+std::string require_own_centers(const MeshContent& mesh, const CellRings& cells) {
+  return CenterCheck(mesh, cells).run();
+}
+
+}  // namespace rondel::formats

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/polygon_files.h"
+
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/geojson_polygons.h"
+#include "overlay/feature_polygons.h"
+#include "overlay/plane_arcs.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/feature_cells.h"
+#include "rondel/types.h"
+#include "system/enum_names.h"
+#include "system/job.h"
+#include "system/shortest_text.h"
+
+namespace rondel {
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+// Reads the features of a file, and removes the geometry of those that options.is_taken() rejects.
+map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
+                                 const PolygonOptions& options) {
+  if (!(options.tolerance_deg > 0)) {
+    throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
+                       " is not positive");
+  }
+  map::PolygonFeatures features = io::read_polygon_features(file, kinds);
+  for (std::size_t f = 0; options.is_taken && f < features.rings.size(); ++f) {
+    if (options.is_taken(f, features.columns)) continue;
+    features.rings[f].clear();
+    features.lines[f].clear();
+  }
+  return features;
+}
+
+// Returns the lines of features as arcs of great circles. Lines that are straight in longitude and
+// latitude are divided within the tolerance.
+FeatureLines lines_of_features(const map::PolygonFeatures& features,
+                               const PolygonOptions& options) {
+  FeatureLines all;
+  std::vector<LonLat> positions;
+  for (const auto& lines : features.lines) {
+    for (const std::vector<LonLat>& line : lines) {
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        if (options.edges == PolygonEdges::geodesic) {
+          all.points.push_back(unit_vector(line[k]));
+        } else {
+          positions.clear();
+          overlay::append_divided(line[k], line[k + 1], options.tolerance_deg * radians_per_degree,
+                                  positions);
+          for (const LonLat& p : positions) all.points.push_back(unit_vector(p));
+        }
+      }
+      all.points.push_back(unit_vector(line.back()));
+      all.lines.push_back(all.points.size());
+    }
+    all.features.push_back(all.lines.size() - 1);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string_view name_of(PolygonEdges edges) noexcept {
+  return system::name_in({"lonlat", "geodesic"}, edges);
+}
+
+std::string_view name_of(PolygonOverlap overlap) noexcept {
+  return system::name_in({"keep", "error", "first"}, overlap);
+}
+
+PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
+                           const Execution& execution) {
+  const system::Call call(execution);
+  map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
+  std::vector<std::string> remarks;
+  CellRings cells = overlay::cells_of_features(features, options, remarks, execution);
+  return {std::move(features.name), std::move(cells), std::move(features.columns),
+          std::move(remarks)};
+}
+
+FeatureTable read_features(const FileName& file, const PolygonOptions& options,
+                           const Execution& execution) {
+  const system::Call call(execution);
+  map::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
+  std::vector<bool> is_located;
+  for (std::size_t f = 0; f < features.rings.size(); ++f) {
+    is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
+  }
+  FeatureLines lines = lines_of_features(features, options);
+  std::vector<std::string> remarks;
+  CellRings polygons = overlay::cells_of_features(features, options, remarks, execution);
+  return {std::move(features.name),    std::move(lines),        std::move(polygons),
+          std::move(features.columns), std::move(features.ids), std::move(is_located),
+          std::move(remarks)};
+}
+
+}  // namespace rondel

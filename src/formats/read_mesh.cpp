@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads meshes of formats that have only cells and corners: the mesh is computed from the centers
+// of the cells and compared with the cells' corners. If the cells do not cover the sphere, its
+// border follows from the corners.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/vector.h"
+#include "formats/cf_names.h"
+#include "formats/cf_reader.h"
+#include "formats/field_choice.h"
+#include "formats/mpas_arrays.h"
+#include "formats/netcdf_cells.h"
+#include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
+#include "meshing/bordered_mesh.h"
+#include "meshing/ring_surface.h"
+#include "rondel/conventions.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "rondel/mesh_io.h"
+#include "rondel/query.h"
+#include "system/job.h"
+
+namespace rondel::mesh {
+namespace {
+
+// True if a cell has a corner within that distance.
+bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
+                double square_distance) {
+  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
+    const Point away =
+        (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]] - corner;
+    if (dot(away, away) <= square_distance) return true;
+  }
+  return false;
+}
+
+// Throws BadValue for the first cell that is not a single ring.
+void require_rings(const CellTable& table) {
+  for (std::size_t i = 0; i < table.cells.num_cells(); ++i) {
+    if (table.cells.cells[i + 1] - table.cells.cells[i] == 1) continue;
+    throw io::BadValue("cell " + std::to_string(i) + " has not one ring of corners");
+  }
+}
+
+// True if the file has a corner of a cell within that distance.
+bool has_corner_in_file(const CellRings& cells, std::size_t cell, const Point& corner,
+                        double square_distance) {
+  for (std::uint64_t k = cells.rings[cell]; k < cells.rings[cell + 1]; ++k) {
+    const Point away = cells.points[cells.corners[k]] - corner;
+    if (dot(away, away) <= square_distance) return true;
+  }
+  return false;
+}
+
+// Throws BadValue for the first cell of the file whose corners are not those of the mesh, or lack
+// one of them.
+void require_cells(const MeshArrays& arrays, const CellTable& table) {
+  const CellRings& cells = table.cells;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const double distance =
+        meshing::corner_tolerance * spacing_of(arrays.cell_areas[i]) / arrays.radius;
+    for (std::uint64_t k = cells.rings[i]; k < cells.rings[i + 1]; ++k) {
+      if (!has_corner(arrays, i, cells.points[cells.corners[k]], distance * distance)) {
+        meshing::refuse_cell(i);
+      }
+    }
+    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+      const Point corner = (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]];
+      if (!has_corner_in_file(cells, i, corner, distance * distance)) meshing::refuse_cell(i);
+    }
+  }
+}
+
+// Returns the Voronoi mesh of the centers, without a border.
+MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation,
+                      const MeshOptions& options, const Execution& execution) {
+  MeshArrays result = arrays(triangulation, options, execution);
+  require_cells(result, table);
+  return result;
+}
+
+// Returns the mesh of cells with a border, or nothing if there is no border. A border may be found
+// only because cells state shared corners differently, by more than is taken for equal; then they
+// are a whole mesh all the same.
+std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulation& triangulation,
+                                       std::span<const Point> sites, const MeshOptions& options,
+                                       const Execution& execution) {
+  const meshing::RingSides sides(table.cells);
+  if (!sides.has_border()) return std::nullopt;
+  if (!triangulation.duplicates().empty()) {
+    const auto [cell, other] = triangulation.duplicates().front();
+    throw io::BadValue("cells " + std::to_string(other) + " and " + std::to_string(cell) +
+                       " have the same center");
+  }
+  const Locator locator(triangulation);
+  const meshing::RingsAndSites from{table.cells, sides, sites, locator};
+  meshing::require_rings_around_sites(from);
+  const auto differing = meshing::cells_that_differ(from, execution);
+  if (!differing) return meshing::bordered_mesh(from, options, execution);
+  const io::BadValue refusal("cells " + std::to_string(differing->first) + " and " +
+                             std::to_string(differing->second) +
+                             " meet, but not in the same corners");
+  try {
+    return whole_mesh(table, triangulation, options, execution);
+  } catch (const io::BadValue&) {
+    throw refusal;
+  } catch (const InvalidInput&) {
+    throw refusal;
+  }
+}
+
+// Areas, lengths and measures of quality that the writers of meshes compute again.
+constexpr std::array<std::string_view, 13> measures = {
+    "areaCell",       "meshDensity", "cellQuality",  "gridSpacing",     "dcEdge",
+    "dvEdge",         "angleEdge",   "areaTriangle", "triangleQuality", "triangleAngleQuality",
+    "obtuseTriangle", "grid_area",   "elementArea"};
+
+// Returns a sentence on the variables of a file that are no part of its mesh; empty if there are
+// none.
+std::string remark_on_fields(const io::NetcdfReader& file) {
+  const std::vector<VariableHeader> headers = formats::headers_of(file);
+  const std::vector<bool> parts = parts_of_grids(headers);
+  formats::NameList names;
+  for (std::size_t v = 0; v < headers.size(); ++v) {
+    const VariableHeader& header = headers[v];
+    const bool is_axis = header.dimensions.size() == 1 && header.dimensions[0] == header.name;
+    if (parts[v] || header.shape.empty() || !header.is_number || is_axis ||
+        std::ranges::count(measures, header.name) != 0 ||
+        formats::coordinate_evidence(header, formats::CoordinateKind::lon) > 0 ||
+        formats::coordinate_evidence(header, formats::CoordinateKind::lat) > 0) {
+      continue;
+    }
+    names.add(header.name);
+  }
+  return names.text().empty() ? "" : "left out, as they are no part of the mesh: " + names.text();
+}
+
+// Removes the cells that the file masks, and adds a remark with the number of the others.
+void leave_out_masked(CellTable& table) {
+  if (table.mask.empty() || table.grid || table.centers.size() != table.num_cells()) return;
+  CellRings kept;
+  kept.points = std::move(table.cells.points);
+  std::vector<LonLat> centers;
+  for (std::size_t i = 0; i < table.mask.size(); ++i) {
+    if (table.mask[i] == 0) continue;
+    kept.append_cell(table.cells, i);
+    centers.push_back(table.centers[i]);
+  }
+  table.cells = std::move(kept);
+  table.centers = std::move(centers);
+  if (table.centers.empty()) throw FileError(table.name + ": all cells are masked");
+  table.remarks.push_back("the mesh has the other " + std::to_string(table.centers.size()) +
+                          " cells, in their order");
+}
+
+// Returns the mesh of cells with centers: with a border, or of the whole sphere.
+MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
+                           const Execution& execution) {
+  if (table.grid) throw FileError(table.name + ": a grid of longitudes and latitudes is no mesh");
+  if (table.centers.size() != table.num_cells()) {
+    throw FileError(table.name + ": " + table.convention +
+                    " without centers of cells, of which the mesh is made");
+  }
+  try {
+    return io::in_file(table.name, [&] {
+      require_rings(table);
+      const std::vector<Point> sites = unit_vectors(table.centers);
+      const Triangulation triangulation = delaunay(sites, {}, execution);
+      std::optional<MeshArrays> part =
+          part_of_mesh(table, triangulation, sites, options, execution);
+      return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
+    });
+  } catch (const InvalidInput& error) {
+    throw FileError(table.name + ": cell " + std::to_string(error.index()) + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
+                     std::vector<std::string>* remarks) {
+  const system::Call call(execution);
+  CellTable table;
+  std::string remark;
+  {
+    io::FileBytes bytes(file.path, true);
+    if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
+      io::throw_unknown_ending(file, "meshes are read from netCDF:", io::netcdf_endings);
+    }
+    std::optional<MeshArrays> arrays;
+    io::in_file(bytes.name(), [&] {
+      const io::NetcdfReader reader(bytes);
+      remark = remark_on_fields(reader);
+      if (formats::has_mpas_arrays(reader)) {
+        arrays = formats::read_mpas_arrays(reader, execution);
+      } else {
+        table = formats::cells_in(reader, bytes.name(), {});
+      }
+    });
+    leave_out_masked(table);
+    if (!remark.empty()) table.remarks.push_back(std::move(remark));
+    if (remarks != nullptr) *remarks = table.remarks;
+    if (arrays) return std::move(*arrays);
+  }
+  return mesh_of_centers(table, options, execution);
+}
+
+}  // namespace rondel::mesh

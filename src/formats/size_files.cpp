@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads spacings and densities of files, at places in any order, as functions on the sphere.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "exact/vector.h"
+#include "formats/cf_names.h"
+#include "formats/cf_reader.h"
+#include "formats/netcdf_cells.h"
+#include "io/bad_value.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
+#include "io/number.h"
+#include "rondel/conventions.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/interpolate.h"
+#include "rondel/mesh_files.h"
+#include "rondel/mesh_lines.h"
+#include "rondel/mesh_size_files.h"
+#include "system/shortest_text.h"
+
+namespace rondel::mesh {
+namespace {
+
+// Spacings, or densities, at places.
+struct Spacings {
+  std::vector<Point> places;
+  std::vector<double> values;
+  std::vector<std::size_t> numbers;  // positions in the file
+  std::string units;                 // as the file says, or empty
+  SiteTable table;                   // says where places are in the file; without name for netCDF
+};
+
+// Returns where a value is: "sites.csv:7: density 0 of 'h'", and for netCDF "f.nc: density 0 at
+// place 5".
+std::string text_of_value(const FileName& file, const std::string& column, const Spacings& spacings,
+                          std::size_t i, const std::string& what) {
+  const std::string value = what + " " + system::shortest_text(spacings.values[i]);
+  const std::size_t place = spacings.numbers[i];
+  if (spacings.table.name.empty()) {
+    return file.path + ": " + value + " at place " + std::to_string(place);
+  }
+  return spacings.table.where(place) + ": " + value + " of " + io::in_quotes(column);
+}
+
+// Bounds far beyond those of any mesh, within which roots of quotients are finite.
+constexpr double least_density = 1e-100;
+constexpr double largest_density = 1e100;
+
+// Returns the places of the cells of a mesh: the centers that its file has, or else the directions
+// of the sums of their corners.
+std::vector<Point> places_of_cells(const CellTable& table) {
+  if (!table.centers.empty()) return unit_vectors(table.centers);
+  const CellRings& cells = table.cells;
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    exact::Vector3<double> sum = {0, 0, 0};
+    for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
+      sum = sum + exact::to_vector(cells.points[cells.corners[k]]);
+    }
+    if (!(norm(sum) > 0)) return {};
+    places.push_back(exact::to_point(normalized(sum)));
+  }
+  return places;
+}
+
+struct NetcdfFields {
+  std::vector<std::string> names;
+  bool is_mesh = false;  // cells whose coordinates no attribute of a field may name
+};
+
+// Finds the fields of that name, or all fields without one.
+NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
+  io::FileBytes bytes(file.path, true);
+  return io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    NetcdfFields found;
+    const std::vector<VariableHeader> headers = formats::headers_of(reader);
+    found.is_mesh = formats::has_mesh(headers);
+    if (!name.empty()) {
+      found.names.push_back(name);
+      return found;
+    }
+    const std::vector<bool> is_part = parts_of_grids(headers);
+    for (std::size_t v = 0; v < is_part.size(); ++v) {
+      const io::NetcdfReader::Variable& variable = reader.variables()[v];
+      const std::string units = io::netcdf_text(variable.attributes, "units");
+      const bool is_axis = variable.shape.size() == 1 &&
+                           reader.dimensions()[variable.dimensions[0]].name == variable.name;
+      const bool is_field = !variable.shape.empty() && variable.type != io::NetcdfType::text &&
+                            variable.num_values > 0;
+      const bool is_angle = units.starts_with("degree") || units.starts_with("rad");
+      if (is_field && !is_axis && !is_angle && !is_part[v]) found.names.push_back(variable.name);
+    }
+    return found;
+  });
+}
+
+// The field at places of this number; 0: those of its longitudes and latitudes. Empty values if it
+// is not one field at known places.
+FieldSet one_field(const FileName& file, const std::string& name, std::size_t num_points) {
+  FieldSet fields = read_fields(file, {&name, 1}, num_points);
+  if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) return {};
+  return fields;
+}
+
+// The places of the field, by its coordinates or as the cells of the mesh, and its values; none if
+// nothing says where.
+Spacings spacings_of_field(const FileName& file, const std::string& name,
+                           const std::vector<Point>& cells, bool is_named) {
+  FieldSet fields;
+  try {
+    fields = one_field(file, name, 0);
+  } catch (const FileError&) {
+    if (cells.empty() && is_named) throw;
+  }
+  if (fields.points.empty() && !cells.empty()) {
+    try {
+      fields = one_field(file, name, cells.size());
+    } catch (const FileError&) {
+      if (is_named) throw;
+    }
+    fields.points = cells;
+  }
+  Spacings result;
+  if (fields.arrays.empty() || fields.points.size() != fields.num_points) return result;
+  result.places = std::move(fields.points);
+  for (const auto& [attribute, text] : fields.arrays.front().attributes) {
+    if (attribute == "units") result.units = text;
+  }
+  result.values = std::move(fields.arrays.front().values);
+  return result;
+}
+
+// Reads spacings from a netCDF file: of a field with coordinates, or of the cells of a mesh.
+Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
+  const NetcdfFields known = netcdf_fields(file, name);
+  const std::vector<Point> cells =
+      known.is_mesh ? places_of_cells(read_cells(file)) : std::vector<Point>{};
+  std::vector<Spacings> found;
+  for (const std::string& field : known.names) {
+    Spacings one = spacings_of_field(file, field, cells, !name.empty());
+    if (!one.places.empty()) found.push_back(std::move(one));
+    if (found.size() > 1)
+      throw FileError(file.path + ": it has several fields of numbers: name one");
+  }
+  if (found.size() == 1) return std::move(found.front());
+  if (name.empty()) throw FileError(file.path + ": it has no field with longitudes and latitudes");
+  throw FileError(file.path + ": variable \"" + name +
+                  "\" is not one number at each of the places that the file has: longitudes and "
+                  "latitudes of points, of a grid, or the cells of a mesh");
+}
+
+// Reads spacings from netCDF or from a table of sites with a column of that name.
+Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
+  if (is_netcdf_file(file)) {
+    return spacings_of_netcdf(file, name);
+  }
+  SiteTable table = read_sites(file, {}, execution);
+  if (name.empty()) throw FileError(table.name + ": which column is meant is not said");
+  FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
+  Spacings result;
+  result.places = std::move(table.sites);
+  result.values = std::move(fields.arrays.front().values);
+  result.table = std::move(table);
+  return result;
+}
+
+// Adds "3 of 60 places are ...", for a number that is not 0.
+void remark_on(std::size_t number, std::size_t of_all, const char* one, const char* many,
+               const std::string& what, std::vector<std::string>* remarks) {
+  if (number == 0 || remarks == nullptr) return;
+  remarks->push_back(std::to_string(number) + " of " + std::to_string(of_all) +
+                     (of_all == 1 ? " place " : " places ") + (number == 1 ? one : many) + what);
+}
+
+// Leaves out missing values; `numbers` keeps the positions of those that are left.
+void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::string>* remarks) {
+  const std::size_t num_given = spacings.values.size();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < spacings.values.size(); ++i) {
+    if (std::isnan(spacings.values[i])) continue;
+    spacings.places[kept] = spacings.places[i];
+    spacings.values[kept++] = spacings.values[i];
+    spacings.numbers.push_back(i);
+  }
+  if (kept == 0) throw FileError(file.path + ": all of its values are missing");
+  remark_on(num_given - kept, num_given, "has", "have",
+            " no value: it is interpolated between the others", remarks);
+  spacings.places.resize(kept);
+  spacings.values.resize(kept);
+}
+
+// Returns the kilometers in one unit of length.
+double kilometers_of(const FileName& file, const std::string& units) {
+  const std::string_view text = formats::without_blanks(units);
+  for (const std::string_view name :
+       {"", "km", "kilometer", "kilometers", "kilometre", "kilometres"}) {
+    if (text == name) return 1;
+  }
+  for (const std::string_view name : {"m", "meter", "meters", "metre", "metres"}) {
+    if (text == name) return 1e-3;
+  }
+  throw FileError(file.path + ": the spacings have the units '" + units +
+                  "', which are neither kilometers nor meters");
+}
+
+// Returns the function that is linear on the triangulation of the places.
+SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
+                         std::vector<std::string>* remarks) {
+  const Triangulation triangulation = delaunay(Sites::view(spacings.places), {}, execution);
+  const auto num_other =
+      std::ranges::count_if(triangulation.duplicates(), [&](const Duplicate& duplicate) {
+        return spacings.values[duplicate.site] != spacings.values[duplicate.representative];
+      });
+  remark_on(static_cast<std::size_t>(num_other), spacings.values.size(), "is", "are",
+            " at the place of another one with another value: of each place the first value counts",
+            remarks);
+  const Interpolator interpolator(triangulation);
+  const InterpolationOptions options{.method = Method::linear, .outside = Outside::nearest};
+  return SizeFunction::from_function(
+      [&](std::span<const Point> places, std::span<double> out) {
+        const std::vector<double> values =
+            interpolator.values(spacings.values, places, options, execution);
+        std::ranges::copy(values, out.begin());
+      },
+      steps);
+}
+
+}  // namespace
+
+std::vector<Point> read_refinement(const FileName& file, double distance,
+                                   const PolygonOptions& options, const Execution& execution) {
+  std::vector<Point> points;
+  for (const std::vector<Point>& line : read_places(file, options, execution)) {
+    try {
+      const std::vector<Point> dense = densified(line, distance);
+      points.insert(points.end(), dense.begin(), dense.end());
+    } catch (const InvalidInput& error) {
+      if (error.index() == InvalidInput::no_index) throw;
+      throw FileError(file.path + ": " + error.what());
+    }
+  }
+  return points;
+}
+
+SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
+                           std::size_t steps, const Execution& execution,
+                           std::vector<std::string>* remarks) {
+  Spacings spacings = spacings_of(file, name, execution);
+  drop_missing(file, spacings, remarks);
+  unit *= kilometers_of(file, spacings.units);
+  for (std::size_t i = 0; i < spacings.values.size(); ++i) {
+    double& value = spacings.values[i];
+    if (!(value * unit > 0 && value * unit < 3)) {
+      throw FileError(text_of_value(file, name, spacings, i, "spacing") +
+                      " is not positive, or too large");
+    }
+    value *= unit;
+  }
+  return function_of(spacings, steps, execution, remarks);
+}
+
+SizeFunction read_density(const FileName& file, const std::string& name, std::size_t steps,
+                          const Execution& execution, std::vector<std::string>* remarks) {
+  Spacings densities = spacings_of(file, name, execution);
+  drop_missing(file, densities, remarks);
+  for (std::size_t i = 0; i < densities.values.size(); ++i) {
+    const double value = densities.values[i];
+    if (value >= least_density && value <= largest_density) continue;
+    throw FileError(text_of_value(file, name, densities, i, "density") +
+                    " is not positive, or of no size that a mesh can have");
+  }
+  const double least = *std::ranges::min_element(densities.values);
+  for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
+  return function_of(densities, steps, execution, remarks);
+}
+
+}  // namespace rondel::mesh

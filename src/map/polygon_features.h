@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Polygons and lines in longitude and latitude, as files have them.
+//
+// index features of a file, or its bare geometries
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rondel/io.h"
+#include "rondel/types.h"
+
+namespace rondel::map {
+
+// A ring as the file has it.
+struct LonLatRing {
+  std::vector<LonLat> positions;  // degrees; the first position is not repeated
+  bool is_hole = false;           // a ring that is not a hole begins a polygon
+  bool is_turn =
+      false;  // its last position is the first one a whole turn of the globe away, and left out
+  // The positions before corners of others were inserted, if the ring is so thin that these may
+  // have closed it (overlay/shared_corners.h).
+  std::vector<LonLat> thin_positions = {};
+  bool is_left_out = false;  // no wider than rounding
+};
+
+// Row i belongs to feature i of the file, or to bare geometry i.
+struct PolygonFeatures {
+  std::string name;  // name of the file for messages
+  std::vector<std::vector<LonLatRing>> rings;
+  std::vector<std::vector<std::vector<LonLat>>> lines;  // a point is a line of one position
+  std::vector<Column> columns;
+  Column ids;  // the members `id`, as JSON; without cells if there are none
+};
+
+}  // namespace rondel::map
