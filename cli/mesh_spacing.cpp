@@ -70,12 +70,8 @@ std::size_t raster_steps(const ScvtCommandOptions& options) {
 // Returns spacings for the number of cells that the mesh will have.
 mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_start) {
   const std::size_t n = num_start > 0 ? num_start : scvt.count;
-  if (!scvt.size) {
-    return mesh::SizeFunction::constant(
-        mesh::spacing_of(4 * std::numbers::pi / static_cast<double>(n)), 1);
-  }
-  if (n == 0) return *scvt.size;
-  return scvt.size->scaled(std::sqrt(scvt.size->count() / static_cast<double>(n)));
+  if (!scvt.size) return mesh::SizeFunction::of_count(n);
+  return n == 0 ? *scvt.size : scvt.size->for_count(n);
 }
 
 // Throws if two points of --fixed are in one place; places on lines and beside them are apart.

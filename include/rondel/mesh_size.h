@@ -37,6 +37,16 @@ class RONDEL_API SizeFunction {
   /// Makes a spacing that is the same everywhere.
   /// \throws InvalidInput if the spacing is not between 0 and pi.
   static SizeFunction constant(double spacing, std::size_t steps = usual_steps);
+  /// Makes the spacing of a mesh of `count` equal cells.
+  /// \throws InvalidInput for 0, or so few cells that the spacing is not less than pi.
+  static SizeFunction of_count(std::size_t count);
+  /// Returns the places of the nodes of a raster: unit vectors, in the order in which from_nodes()
+  /// takes their spacings.
+  /// \throws InvalidInput if the steps are no power of two from 1 to 4096.
+  static std::vector<Point> nodes(std::size_t steps = usual_steps);
+  /// Makes spacings of their values in radians at nodes(steps).
+  /// \throws InvalidInput as from_function(), and if there is not one spacing for each node.
+  static SizeFunction from_nodes(std::vector<double> spacings, std::size_t steps = usual_steps);
   /// Evaluates a function, which one thread calls at a time.
   /// \param steps  of the raster along a face of the cube
   /// \throws InvalidInput if the steps are no power of two from 1 to 4096; (number of the node) if
@@ -73,6 +83,9 @@ class RONDEL_API SizeFunction {
   [[nodiscard]] double count() const;
   /// Returns all spacings multiplied by a factor.
   [[nodiscard]] SizeFunction scaled(double factor) const;
+  /// Returns spacings in the same proportions such that count() is `number`, up to rounding.
+  /// \throws InvalidInput for 0, or if a spacing is then not less than pi.
+  [[nodiscard]] SizeFunction for_count(std::size_t number) const;
 
  private:
   struct Raster;

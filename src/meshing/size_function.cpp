@@ -13,6 +13,7 @@
 #include "meshing/size_raster.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/mesh.h"
 #include "rondel/mesh_size.h"
 #include "rondel/query.h"
 #include "system/arithmetic.h"
@@ -30,6 +31,10 @@ void require_steps(std::size_t steps) {
     throw InvalidInput("the steps of a raster are a power of two from 1 to 4096, not " +
                        std::to_string(steps));
   }
+}
+
+void require_count(std::size_t count) {
+  if (count == 0) throw InvalidInput("a mesh has at least one cell");
 }
 
 // Throws InvalidInput unless the slope is positive and finite.
@@ -111,17 +116,39 @@ SizeFunction SizeFunction::constant(double spacing, std::size_t steps) {
   return of(std::vector<double>(CubeRaster{steps}.num_nodes(), spacing), steps);
 }
 
-SizeFunction SizeFunction::from_function(const Block& spacings, std::size_t steps) {
+SizeFunction SizeFunction::of_count(std::size_t count) {
+  const system::ArithmeticScope arithmetic;
+  require_count(count);
+  return constant(spacing_of(4 * std::numbers::pi / static_cast<double>(count)), 1);
+}
+
+std::vector<Point> SizeFunction::nodes(std::size_t steps) {
+  const system::ArithmeticScope arithmetic;
   require_steps(steps);
-  const std::vector<Point> places = places_of_nodes({steps});
+  return places_of_nodes({steps});
+}
+
+SizeFunction SizeFunction::from_nodes(std::vector<double> spacings, std::size_t steps) {
+  const system::ArithmeticScope arithmetic;
+  require_steps(steps);
+  const std::size_t num_nodes = CubeRaster{steps}.num_nodes();
+  if (spacings.size() != num_nodes) {
+    throw InvalidInput("there are " + std::to_string(spacings.size()) + " spacings for " +
+                           std::to_string(num_nodes) + " nodes",
+                       std::min(spacings.size(), num_nodes));
+  }
+  return of(std::move(spacings), steps);
+}
+
+SizeFunction SizeFunction::from_function(const Block& spacings, std::size_t steps) {
+  const std::vector<Point> places = nodes(steps);
   std::vector<double> values(places.size());
   constexpr std::size_t block = 1 << 16;
   for (std::size_t begin = 0; begin < places.size(); begin += block) {
     const std::size_t size = std::min(block, places.size() - begin);
     spacings(std::span(places).subspan(begin, size), std::span(values).subspan(begin, size));
   }
-  const system::ArithmeticScope arithmetic;
-  return of(std::move(values), steps);
+  return from_nodes(std::move(values), steps);
 }
 
 SizeFunction SizeFunction::from_grid(std::span<const double> lon_deg,
@@ -244,6 +271,12 @@ double SizeFunction::count() const {
   }
   const double of_hexagon = 0.5 * std::numbers::sqrt3 * raster_->smallest * raster_->smallest;
   return 4 * std::numbers::pi * (sum / whole) / of_hexagon;
+}
+
+SizeFunction SizeFunction::for_count(std::size_t number) const {
+  const system::ArithmeticScope arithmetic;
+  require_count(number);
+  return scaled(std::sqrt(count() / static_cast<double>(number)));
 }
 
 SizeFunction SizeFunction::scaled(double factor) const {

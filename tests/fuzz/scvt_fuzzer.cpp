@@ -107,13 +107,18 @@ void test_sizes(ByteSource& source) {
     const mesh::SizeFunction limited =
         size.refined(mesh::densified(line, 0.1), 0.04, 0.01 * source.byte())
             .limited(0.01 * source.byte())
-            .scaled(1);
+            .scaled(1)
+            .for_count(12 + source.below(1000));
     require(limited.smallest() <= limited.largest() && limited.count() > 0, "a size");
     const Point place{0.3, -0.5, 0.2};
     require(limited.density(place) <= 1 && limited.spacing(place) > 0, "a spacing");
     (void)mesh::scvt({.count = 12 + source.below(20), .size = limited, .max_iterations = 10},
                      {.threads = 1});
     (void)mesh::SizeFunction::constant(source.finite_double(), 2);
+    std::vector<double> at_nodes(mesh::SizeFunction::nodes(2).size() - source.below(2), base);
+    at_nodes.back() = source.finite_double();
+    (void)mesh::SizeFunction::from_nodes(std::move(at_nodes), 2);
+    (void)mesh::SizeFunction::of_count(source.below(5));
   } catch (const InvalidInput&) {
   }
 }

@@ -187,6 +187,40 @@ TEST(mesh_size, places_are_among_nodes_of_their_face) {
   }
 }
 
+TEST(mesh_size, of_nodes_is_that_of_a_function) {
+  const std::vector<Point> nodes = SizeFunction::nodes(8);
+  std::vector<double> spacings;
+  for (const Point& p : nodes) spacings.push_back(0.1 + 0.05 * p.z);
+  const SizeFunction size = SizeFunction::from_nodes(spacings, 8);
+  const SizeFunction same = SizeFunction::from_function(
+      [](std::span<const Point> places, std::span<double> out) {
+        for (std::size_t i = 0; i < places.size(); ++i) out[i] = 0.1 + 0.05 * places[i].z;
+      },
+      8);
+  for (const Point& p : places()) EXPECT_EQ(size.spacing(p), same.spacing(p));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    EXPECT_NEAR(size.spacing(nodes[i]), spacings[i], 1e-6) << i;
+  }
+  EXPECT_THROW((void)SizeFunction::from_nodes({0.1, 0.2}, 8), InvalidInput);
+  EXPECT_THROW((void)SizeFunction::nodes(3), InvalidInput);
+}
+
+TEST(mesh_size, for_a_count_has_that_many_sites) {
+  const SizeFunction size = SizeFunction::from_function(
+      [](std::span<const Point> places, std::span<double> out) {
+        for (std::size_t i = 0; i < places.size(); ++i) out[i] = 0.1 + 0.05 * places[i].z;
+      },
+      8);
+  for (const std::size_t count : {100U, 12345U}) {
+    const SizeFunction scaled = size.for_count(count);
+    EXPECT_NEAR(scaled.count() / static_cast<double>(count), 1, 1e-12);
+    EXPECT_NEAR(scaled.largest() / scaled.smallest(), size.largest() / size.smallest(), 1e-12);
+    EXPECT_NEAR(SizeFunction::of_count(count).count() / static_cast<double>(count), 1, 1e-2);
+  }
+  EXPECT_THROW((void)size.for_count(0), InvalidInput);
+  EXPECT_THROW((void)SizeFunction::of_count(0), InvalidInput);
+}
+
 TEST(mesh_size, what_is_no_size_is_refused) {
   EXPECT_THROW(SizeFunction::constant(0), InvalidInput);
   EXPECT_THROW(SizeFunction::constant(std::nan("")), InvalidInput);

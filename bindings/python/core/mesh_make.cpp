@@ -31,17 +31,6 @@ using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int,
 using AreasOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int,
                             double, std::string>;
 
-ArrayOut<double> raster_places(std::size_t steps) {
-  std::vector<Point> all;
-  (void)SizeFunction::from_function(
-      [&](std::span<const Point> places, std::span<double> out) {
-        all.insert(all.end(), places.begin(), places.end());
-        std::ranges::fill(out, 1.0);
-      },
-      steps);
-  return points_out(std::move(all));
-}
-
 DefectsOut defects_out(const mesh::ScvtDefects& defects) {
   return {defects.odd_cells, defects.short_edges, defects.obtuse_triangles,
           defects.least_edge_ratio};
@@ -102,7 +91,9 @@ AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, dou
 }  // namespace
 
 void add_mesh_make(nb::module_& module) {
-  module.def("raster_places", &raster_places, nb::arg("steps"));
+  module.def(
+      "raster_places", [](std::size_t steps) { return points_out(SizeFunction::nodes(steps)); },
+      nb::arg("steps"));
   module.def("make_scvt", &make_scvt, nb::arg("count"), nb::arg("spacings").noconvert(),
              nb::arg("steps"), nb::arg("gradient"), nb::arg("mean_tolerance"),
              nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("repair"),
