@@ -189,7 +189,7 @@ class Netcdf4(unittest.TestCase):
             color = data.createEnumType(np.uint8, "color", {"red": 0, "blue": 1})
             data.createVariable("colors", color, ("lat",), fill_value=0)
             field = data.createVariable("t", "f4", ("lat", "lon"))
-            field.setncattr_string("long_name", "Température")
+            field.setncattr_string("long_name", ["Température", "de l'air"])
             field[:] = np.arange(72).reshape(6, 12)
             group = data.createGroup("model")
             inner = group.createVariable("t", "f4", ("lat", "lon"))
@@ -200,7 +200,7 @@ class Netcdf4(unittest.TestCase):
             self.values("out.nc", "t"), np.arange(72).reshape(6, 12), rtol=1e-12
         )
         with netCDF4.Dataset(self.folder / "out.nc") as data:
-            self.assertEqual(data["t"].long_name, "Température")
+            self.assertEqual(data["t"].long_name, "Température de l'air")
         self.run_tool(
             "apply", weights, "rich.nc", "-o", "group.nc", "--value", "model/t", "--quiet"
         )

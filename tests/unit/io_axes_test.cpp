@@ -236,6 +236,8 @@ TEST(axes, lines_of_longitudes) {
   EXPECT_EQ(lines({10, 0, 350}), (Doubles{15, 5, -5, -15}));
   EXPECT_EQ(lines({355, 5}), (Doubles{350, 360, 370}));
   EXPECT_EQ(lines({300, 290, 80}), (Doubles{305, 295, 185, -25}));
+  // Steps that are a little more than a turn, there and back.
+  EXPECT_EQ(lines({0, 360.5, 1, 721.5}), (Doubles{-0.25, 0.25, 0.75, 1.25, 1.75}));
   // Where both ends of the circle are there, each has half of the cell.
   EXPECT_EQ(lines({0, 120, 240, 360}), (Doubles{0, 60, 180, 300, 360}));
   EXPECT_EQ(lines({180, 60, -60, -180}), (Doubles{180, 120, 0, -120, -180}));
