@@ -3,7 +3,7 @@
 
 // overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: measures
 // conservative weights from the Voronoi cells of N sites of the kind to other cells. Prints one
-// JSON object: nanoseconds a cell for making the partitions from triangulations, and nanoseconds a
+// JSON object: nanoseconds a cell for preparing the sets of cells from triangulations, and nanoseconds a
 // piece and a cell for the overlay with its weights, of order 1 and 2, or only 1, since narrow
 // cells have many pieces, and order 2 many more weights than pieces. Every repetition has its own
 // sites, and medians are printed. PAIR says what the other cells are:
@@ -21,7 +21,7 @@
 //
 // For the last repetition of order 1 it also prints the greatest difference of a row's sum from the
 // covered share of its target, and the relative difference of the area of all pieces from that of
-// the smaller partition.
+// the smaller set of cells.
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@
 
 namespace {
 
-using rondel::Partition;
+using rondel::CellSet;
 using rondel::bench::seconds_of;
 
 constexpr std::uint64_t repetitions = 3;
@@ -82,9 +82,8 @@ std::vector<rondel::Point> turned(std::vector<rondel::Point> sites) {
 
 // Returns the cells for which is_in() is true.
 template <class IsIn>
-Partition some_of(const Partition& partition, const IsIn& is_in,
-                  const rondel::Execution& execution) {
-  const rondel::CellRings all = partition.rings();
+CellSet some_of(const CellSet& cells, const IsIn& is_in, const rondel::Execution& execution) {
+  const rondel::CellRings all = cells.rings();
   rondel::CellRings some;
   some.points = all.points;
   for (std::size_t i = 0; i < all.num_cells(); ++i) {
@@ -97,13 +96,13 @@ Partition some_of(const Partition& partition, const IsIn& is_in,
     }
     some.cells.push_back(some.rings.size() - 1);
   }
-  return Partition(some, execution);
+  return CellSet(some, execution);
 }
 
 constexpr std::size_t grid_rows = 500;
 constexpr std::size_t grid_columns = 1000;
 
-Partition make_grid(rondel::GridSides sides, const rondel::Execution& execution) {
+CellSet make_grid(rondel::GridSides sides, const rondel::Execution& execution) {
   rondel::LonLatGrid grid;
   for (std::size_t i = 0; i <= grid_columns; ++i) {
     grid.lon_deg.push_back(360.0 * static_cast<double>(i) / grid_columns);
@@ -111,7 +110,7 @@ Partition make_grid(rondel::GridSides sides, const rondel::Execution& execution)
   for (std::size_t i = 0; i <= grid_rows; ++i) {
     grid.lat_deg.push_back(180.0 * static_cast<double>(i) / grid_rows - 90);
   }
-  return Partition::lonlat_grid(grid, sides, execution);
+  return CellSet::lonlat_grid(grid, sides, execution);
 }
 
 // Sums exactly to rounding, so that losses can be seen.
@@ -157,51 +156,51 @@ std::vector<rondel::Point> sites_of_target(const What& what,
 }
 
 // Returns source and target.
-std::vector<Partition> make_partitions(const What& what, const rondel::Execution& execution,
-                                       double& seconds) {
-  std::vector<Partition> partitions;
+std::vector<CellSet> make_cell_sets(const What& what, const rondel::Execution& execution,
+                                    double& seconds) {
+  std::vector<CellSet> cell_sets;
   if (what.pair == "grids" || what.pair == "checkers") {
     const bool is_checkers = what.pair == "checkers";
     seconds = seconds_of([&] {
-      partitions.push_back(
+      cell_sets.push_back(
           make_grid(is_checkers ? rondel::GridSides::great_circles : rondel::GridSides::parallels,
                     execution));
-      partitions.push_back(partitions[0]);
+      cell_sets.push_back(cell_sets[0]);
     });
-    if (!is_checkers) return partitions;
+    if (!is_checkers) return cell_sets;
     const auto is_black = [](std::size_t i) {
       return (i / grid_columns + i % grid_columns) % 2 == 0;
     };
-    for (Partition& partition : partitions) partition = some_of(partition, is_black, execution);
-    return partitions;
+    for (CellSet& cells : cell_sets) cells = some_of(cells, is_black, execution);
+    return cell_sets;
   }
   const auto sites = sites_of_source(what);
   const auto source = rondel::delaunay(sites, {}, execution);
   const auto target = rondel::delaunay(sites_of_target(what, sites), {}, execution);
   seconds = seconds_of([&] {
-    partitions.push_back(Partition::voronoi(source, execution));
-    partitions.push_back(what.pair == "grid" ? make_grid(rondel::GridSides::parallels, execution)
-                                             : Partition::voronoi(target, execution));
+    cell_sets.push_back(CellSet::voronoi(source, execution));
+    cell_sets.push_back(what.pair == "grid" ? make_grid(rondel::GridSides::parallels, execution)
+                                            : CellSet::voronoi(target, execution));
   });
   if (what.pair == "half") {
-    partitions[0] = some_of(
-        partitions[1], [](std::size_t i) { return i % 2 == 0; }, execution);
+    cell_sets[0] = some_of(
+        cell_sets[1], [](std::size_t i) { return i % 2 == 0; }, execution);
   }
-  return partitions;
+  return cell_sets;
 }
 
 void repeat(std::uint64_t k, const What& what, const rondel::Execution& execution,
             Measured& measured) {
   double seconds = 0;
-  const std::vector<Partition> partitions = make_partitions(what, execution, seconds);
+  const std::vector<CellSet> cell_sets = make_cell_sets(what, execution, seconds);
   const auto remap = [&](unsigned order) {
     return seconds_of([&] {
-      measured.last = rondel::remap(partitions[0], partitions[1], {.order = order}, execution);
+      measured.last = rondel::remap(cell_sets[0], cell_sets[1], {.order = order}, execution);
     });
   };
   const double second = what.is_first_alone ? 0 : remap(2);
   const double first = remap(1);
-  const double smaller = std::min(sum_of(partitions[0].areas()), sum_of(partitions[1].areas()));
+  const double smaller = std::min(sum_of(cell_sets[0].areas()), sum_of(cell_sets[1].areas()));
   measured.sum_error = std::abs(sum_of(measured.last.areas) - smaller) / smaller;
   if (k == 0) return;  // it has waited for memory
   measured.partition_seconds.push_back(seconds);

@@ -23,7 +23,7 @@ namespace {
 
 // The cells of one side, and what the file of weights contains of them.
 struct CellSide {
-  Partition partition;
+  CellSet partition;
   WeightSide side;
 };
 
@@ -32,7 +32,7 @@ CellSide side_of_grid(const std::string& name, const RemapCommandOptions& option
   WeightSide side = grid_side(name);
   add_grid_cells(side);
   try {
-    return {Partition::lonlat_grid(lonlat_grid(name), options.sides, job.execution()),
+    return {CellSet::lonlat_grid(lonlat_grid(name), options.sides, job.execution()),
             std::move(side)};
   } catch (const InvalidInput& error) {
     throw UsageError(name + ": " + error.what());
@@ -43,7 +43,7 @@ CellSide side_of_grid(const std::string& name, const RemapCommandOptions& option
 CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, const Job& job) {
   const CellTable table = read_cells(file);
   tell(table.name, table.remarks);
-  Partition partition = partition_of(table, options.sides, job.execution());
+  CellSet partition = partition_of(table, options.sides, job.execution());
   WeightSide side = weight_side(table, partition);
   return {std::move(partition), std::move(side)};
 }
@@ -59,7 +59,7 @@ CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& optio
                     job.execution());
   tell(table.name, table.remarks);
   try {
-    Partition partition(table.cells, job.execution());
+    CellSet partition(table.cells, job.execution());
     WeightSide side;
     side.points = lonlats(partition.centers());
     side.columns = std::move(table.columns);
@@ -78,7 +78,7 @@ CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options,
   const Triangulation triangulation = job.triangulate(table);
   WeightSide side;
   side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
-  return {Partition::voronoi(triangulation, job.execution()), std::move(side)};
+  return {CellSet::voronoi(triangulation, job.execution()), std::move(side)};
 }
 
 // Reads the cells of a side in the form that its file has.

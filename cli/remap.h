@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "command.h"
+#include "rondel/cell_set.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regrid.h"
 #include "rondel/remap.h"

@@ -17,10 +17,10 @@
 
 #include "region_files.h"
 #include "report.h"
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "rondel/weight_files.h"
@@ -140,7 +140,7 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
 
 // The polygons of --clip, and the groups of their values.
 struct Regions {
-  Partition partition;
+  CellSet partition;
   Groups values;  ///< by --clip-value
 };
 // Reads the polygons of --clip.
@@ -161,7 +161,7 @@ Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
     values =
         groups_of(column_of(polygons.columns, polygons.name, options.clip_value, "--clip-value"));
   }
-  return {Partition(polygons.cells, execution), std::move(values)};
+  return {CellSet(polygons.cells, execution), std::move(values)};
 }
 
 // Writes the features as GeoJSON, or by GDAL in one of its formats.
@@ -208,7 +208,7 @@ std::vector<std::string> remarks_on_groups(const Groups& groups,
 // Returns the Voronoi cells of the sites, clipped if --clip is given.
 Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& triangulation,
                        const Execution& execution) {
-  const Partition all = Partition::voronoi(triangulation, execution);
+  const CellSet all = CellSet::voronoi(triangulation, execution);
   Cut cut;
   if (options.clip.empty()) {
     cut.cells = all.rings();

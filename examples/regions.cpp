@@ -42,8 +42,8 @@ void divide_island() {
   island.cells.push_back(2);
 
   const auto stations = spiral(500);
-  const auto cells = rondel::Partition::voronoi(rondel::delaunay(stations));
-  const rondel::CellRings clipped = rondel::clip(cells, rondel::Partition(island));
+  const auto cells = rondel::CellSet::voronoi(rondel::delaunay(stations));
+  const rondel::CellRings clipped = rondel::clip(cells, rondel::CellSet(island));
   std::vector<rondel::Index> offices;
   offices.reserve(stations.size());
   for (const rondel::Point& p : stations) offices.push_back(p.z < 0 ? 0 : 1);

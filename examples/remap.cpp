@@ -30,8 +30,8 @@ double integral(const std::vector<double>& means, const std::vector<double>& are
 }
 
 void carry_rain() {
-  const auto coarse = rondel::Partition::voronoi(rondel::delaunay(spiral(500)));
-  const auto fine = rondel::Partition::voronoi(rondel::delaunay(spiral(2000)));
+  const auto coarse = rondel::CellSet::voronoi(rondel::delaunay(spiral(500)));
+  const auto fine = rondel::CellSet::voronoi(rondel::delaunay(spiral(2000)));
   std::vector<double> rain;
   for (const rondel::Point& p : spiral(500)) rain.push_back(1 + p.x * p.y + p.z);
   for (const unsigned order : {1U, 2U}) {
@@ -49,8 +49,8 @@ void carry_to_grid() {
   rondel::LonLatGrid lines;
   for (int k = 0; k <= 12; ++k) lines.lon_deg.push_back(-180 + 30 * k);
   for (int k = 0; k <= 6; ++k) lines.lat_deg.push_back(-90 + 30 * k);
-  const auto cells = rondel::Partition::voronoi(rondel::delaunay(spiral(500)));
-  const auto grid = rondel::Partition::lonlat_grid(lines);
+  const auto cells = rondel::CellSet::voronoi(rondel::delaunay(spiral(500)));
+  const auto grid = rondel::CellSet::lonlat_grid(lines);
   const rondel::Remap remap = rondel::remap(cells, grid);
   double least = 1;
   for (const double fraction : remap.target_fractions) least = std::min(least, fraction);

@@ -4,7 +4,7 @@
 // atlas_bench SOURCE TARGET [TURNS]: compares first-order conservative weights by Atlas and by
 // Rondel, on one thread, in turns, between the cells of the meshes that Atlas makes of two of its
 // grids ("O256", "F180", "N64"). Both have the meshes before the clock starts; Rondel's time is
-// that of the overlay with its weights, and that of its two partitions is printed too. Prints one
+// that of the overlay with its weights, and that of its two sets of cells is printed too. Prints one
 // JSON object: medians of seconds, the number of weights, their largest difference, and the largest
 // difference of row sums from 1.
 
@@ -28,8 +28,8 @@
 #include <vector>
 
 #include "measure.h"
+#include "rondel/cell_set.h"
 #include "rondel/mesh_files.h"
-#include "rondel/partition.h"
 #include "rondel/remap.h"
 
 namespace {
@@ -136,14 +136,14 @@ int main(int argc, char** argv) {
                                                atlas::util::Config("normalise_intersections", 0),
                                            source_cells, target_cells);
     }));
-    std::vector<rondel::Partition> partitions;
+    std::vector<rondel::CellSet> cell_sets;
     partition_seconds.push_back(seconds_of([&] {
-      partitions.emplace_back(sources.rings, one_thread);
-      partitions.emplace_back(targets.rings, one_thread);
+      cell_sets.emplace_back(sources.rings, one_thread);
+      cell_sets.emplace_back(targets.rings, one_thread);
     }));
     rondel::Remap remap;
     rondel_seconds.push_back(
-        seconds_of([&] { remap = rondel::remap(partitions[0], partitions[1], {}, one_thread); }));
+        seconds_of([&] { remap = rondel::remap(cell_sets[0], cell_sets[1], {}, one_thread); }));
     const atlas::interpolation::MatrixCache theirs(interpolation);
     const auto& matrix = theirs.matrix();
     most = difference(remap.weights, theirs, sources.names);

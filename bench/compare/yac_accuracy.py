@@ -108,8 +108,8 @@ def main():
     cells, rings, corners, points = voronoi_cells(count, seed)
     lon, lat = np.arctan2(points[:, 1], points[:, 0]), np.arcsin(np.clip(points[:, 2], -1, 1))
     fields = yac_fields(rings, corners, lon, lat, meridians, parallels)
-    grid = rondel.Partition.lonlat_grid(np.degrees(meridians), np.degrees(parallels))
-    ours = scipy.sparse.csr_array(rondel.remap(rondel.Partition.polygons(cells, rings, corners, points), grid).weights.tocsr())
+    grid = rondel.CellSet.lonlat_grid(np.degrees(meridians), np.degrees(parallels))
+    ours = scipy.sparse.csr_array(rondel.remap(rondel.CellSet.polygons(cells, rings, corners, points), grid).weights.tocsr())
     theirs = read_yac(yac_weights(fields), ours.shape)
 
     difference = scipy.sparse.coo_array(abs(ours - theirs))

@@ -6,7 +6,7 @@
 
 Weights of order 1 from N cells to a grid of NLON x NLON/2 cells between true parallels, in memory, one process, one thread.
 Both get the same corners as doubles, in arrays. Programs run in turns, with sites of their own each time. Prints a
-JSON object: medians of the seconds in which each takes the cells (YAC's basic grids; Rondel's partitions, with areas) and
+JSON object: medians of the seconds in which each takes the cells (YAC's basic grids; Rondel's sets of cells, with areas) and
 makes weights of them (YAC: its exchange, search and weights, which its interface does not separate); the number of weights;
 of pairs that both have, how much they differ at most; of others, how many there are and the greatest weight. Needs rondel,
 yac, netCDF4, SciPy.
@@ -32,7 +32,7 @@ def voronoi_cells(count, seed):
     random = np.random.default_rng(seed)
     sites = random.normal(size=(count, 3))
     sites /= np.linalg.norm(sites, axis=1)[:, None]
-    return rondel.Partition.voronoi(rondel.SphericalDelaunay(sites)).rings
+    return rondel.CellSet.voronoi(rondel.SphericalDelaunay(sites)).rings
 
 
 def seconds_of(work):
@@ -76,10 +76,10 @@ def main():
         lon, lat = np.arctan2(points[:, 1], points[:, 0]), np.arcsin(np.clip(points[:, 2], -1, 1))
         grids, fields = seconds_of(lambda: yac_fields(rings, corners, lon, lat, meridians, parallels))
         search, theirs = seconds_of(lambda: yac_weights(fields))
-        taken, partitions = seconds_of(lambda: (
-            rondel.Partition.polygons(cells, rings, corners, points, threads=1),
-            rondel.Partition.lonlat_grid(np.degrees(meridians), np.degrees(parallels), threads=1)))
-        overlay, ours = seconds_of(lambda: rondel.remap(*partitions, threads=1).weights)
+        taken, cell_sets = seconds_of(lambda: (
+            rondel.CellSet.polygons(cells, rings, corners, points, threads=1),
+            rondel.CellSet.lonlat_grid(np.degrees(meridians), np.degrees(parallels), threads=1)))
+        overlay, ours = seconds_of(lambda: rondel.remap(*cell_sets, threads=1).weights)
         if turn > 0:  # the first one has waited for memory
             for name, seconds in zip(times, (grids, search, taken, overlay), strict=True):
                 times[name].append(seconds)

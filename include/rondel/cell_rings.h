@@ -3,7 +3,7 @@
 
 /// \file
 /// Cells as polygons of arcs with corners of their own: the form in which files have them and from
-/// which partitions of the sphere are made.
+/// which sets of cells are made.
 #pragma once
 
 #include <algorithm>

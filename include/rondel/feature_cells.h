@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "rondel/cell_rings.h"
+#include "rondel/cell_set.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "rondel/types.h"
@@ -64,7 +64,7 @@ RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double toleranc
 /// \param polygons  a cell for each feature, without rings where it has no polygon; or no cells at
 ///                  all
 /// \param tolerance  radians, positive
-/// \throws InvalidInput as feature_sites() and Partition(), if the number of cells is neither 0 nor
+/// \throws InvalidInput as feature_sites() and CellSet(), if the number of cells is neither 0 nor
 ///         that of the features, or if polygons cross or overlap (the message has the first pair
 ///         and a place).
 RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons,
@@ -73,14 +73,14 @@ RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& p
 /// Computes the part of each feature's cell that lies in any of the regions, as clip() cuts cells.
 /// A single feature gets all regions. \throws InvalidInput as feature_cells() and clip().
 RONDEL_API CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
-                                           double tolerance, const Partition& regions,
+                                           double tolerance, const CellSet& regions,
                                            const Execution& execution = {});
 
 /// Computes the intersection of each feature's cell with each region, as intersection() does. The
 /// `cells` of the result are indices of features. \throws InvalidInput as feature_cells() and
 /// intersection().
 RONDEL_API RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons,
-                                       double tolerance, const Partition& regions,
+                                       double tolerance, const CellSet& regions,
                                        const Execution& execution = {});
 
 /// The features that a file has.

@@ -44,7 +44,7 @@ RONDEL_API Culled cull(const MeshArrays& arrays, std::span<const std::uint8_t> i
 /// \param points  of any length but 0
 /// \param regions  for example those of read_polygons(); they may overlap
 /// \throws InvalidInput (index of the point) for the center or a point that is not finite; (cell)
-///         for rings that Partition refuses.
+///         for rings that CellSet refuses.
 RONDEL_API std::vector<std::uint8_t> inside(std::span<const Point> points, const CellRings& regions,
                                             const Execution& execution = {});
 

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "rondel/cell_rings.h"
+#include "rondel/cell_set.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
-#include "rondel/partition.h"
 #include "rondel/types.h"
 #include "rondel/weight_files.h"
 
@@ -153,17 +153,17 @@ RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const s
                                          bool keep_columns);
 
 /// Returns the partition of the cells. \throws FileError with the file's name for cells that
-/// Partition refuses.
-RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
-                                  const Execution& execution = {});
+/// CellSet refuses.
+RONDEL_API CellSet partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
+                                const Execution& execution = {});
 
 /// Returns the description of these cells for a file of weights: the centers (those of the file, or
 /// else the centers of mass), the mask, the shape of the grid, and the corners.
-RONDEL_API WeightSide weight_side(const CellTable& table, const Partition& partition);
+RONDEL_API WeightSide weight_side(const CellTable& table, const CellSet& partition);
 
 /// Returns the corners of cells that have one ring and at most 16 corners each. All cells get the
 /// same number of corners: the last one is repeated, and a cell without ring has (0, 0). The result
 /// is empty for other cells.
-RONDEL_API std::vector<LonLat> weight_corners(const Partition& partition);
+RONDEL_API std::vector<LonLat> weight_corners(const CellSet& partition);
 
 }  // namespace rondel

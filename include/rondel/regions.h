@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "rondel/cell_rings.h"
+#include "rondel/cell_set.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
-#include "rondel/partition.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -39,12 +39,12 @@ struct RegionPieces {
 /// 4. A piece that is the whole sphere has no border, and so no rings: it is in `rings.whole`.
 /// 5. The result depends on the cells and their order alone, not on the number of threads.
 ///
-/// If neither partition is_cover(), one of them is completed to a cover as by remap(), which takes
+/// If neither set of cells is_cover(), one of them is completed to a cover as by remap(), which takes
 /// longer: sides of its cells get corners where corners of its other cells, or the ends of the
 /// coordinate axes, lie on them.
-/// \throws InvalidInput if a partition is a grid of parallels, a cell crosses or overlaps itself,
+/// \throws InvalidInput if cells are a grid of parallels, a cell crosses or overlaps itself,
 ///         or neither is_cover() and cells of both overlap, with two of each.
-RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& regions,
+RONDEL_API RegionPieces intersection(const CellSet& cells, const CellSet& regions,
                                      const Execution& execution = {});
 
 /// Computes the part of each cell that lies in any of the regions: the pieces of intersection(),
@@ -52,7 +52,7 @@ RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& re
 /// is left is in `whole`. Regions that overlap are united first. Regions that share a border must
 /// have the same corners along it; otherwise the border stays visible.
 /// \throws InvalidInput as intersection().
-RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
+RONDEL_API CellRings clip(const CellSet& cells, const CellSet& regions,
                           const Execution& execution = {});
 
 /// Joins cells by group: cell i becomes a part of `groups[i]`, or of no group if that is no_index.
@@ -94,7 +94,7 @@ RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
 /// entirely or in part, and rings that bound no region. `place` is the middle of the part that they
 /// share, or a place where a cell contradicts itself. Corners of one cell on the side of another
 /// are no overlap.
-/// \throws InvalidInput as Partition(cells).
+/// \throws InvalidInput as CellSet(cells).
 RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
                                                         const Execution& execution = {});
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Conservative remapping: computes the means of a field over the cells of one partition from its
+/// Conservative remapping: computes the means of a field over one set of cells from its
 /// means over those of another one (Jones, Mon. Weather Rev. 127, 1999, section 2).
 #pragma once
 
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/cell_set.h"
 #include "rondel/export.h"
-#include "rondel/partition.h"
 #include "rondel/types.h"
 #include "rondel/weights.h"
 
@@ -29,7 +29,7 @@ enum class RemapNorm : std::uint8_t {
 /// Returns the name of a value: "destarea", "fracarea"; empty for other numbers.
 RONDEL_API std::string_view name_of(RemapNorm norm) noexcept;
 
-/// The treatment of places that belong to several cells of one partition.
+/// The treatment of places that belong to several cells of one side.
 enum class CellOverlap : std::uint8_t {
   error,  ///< the cells are refused; the message has two of them and a place
   first,  ///< the cell with the lowest index has it, as if the others ended there
@@ -48,7 +48,7 @@ struct RemapOptions {
   /// mean.
   unsigned order = 1;
   RemapNorm norm = RemapNorm::destarea;
-  /// For each cell 0 if it takes no part, as if it were no cell of its partition. If a mask is
+  /// For each cell 0 if it takes no part, as if it were no cell of its side. If a mask is
   /// empty, all cells take part.
   std::vector<std::int32_t> source_mask = {};
   std::vector<std::int32_t> target_mask = {};
@@ -62,7 +62,7 @@ struct Remap {
   /// Rows are targets, columns sources. A target that no source covers has an empty row, and gets
   /// NaN.
   Weights weights;
-  /// The areas in steradians: those of the partition, or, where they differ by rounding alone, the
+  /// The areas in steradians: those of the cells, or, where they differ by rounding alone, the
   /// sums of the pieces.
   std::vector<double> source_areas;
   std::vector<double> target_areas;      ///< the same for targets
@@ -78,25 +78,25 @@ struct Remap {
   std::vector<Point> moments;  ///< empty for order 1
 };
 
-/// Computes the overlay of two partitions and the weights that follow from it.
+/// Computes the overlay of two sets of cells and the weights that follow from it.
 ///
 /// Exact signs of the corners as they are given decide which edges cross and which cells are inside
 /// of others; only corners of cells that overlap, or cross themselves, by rounding alone are moved.
 /// Points of intersection are rounded. With a grid of parallels nothing needs to be decided: the
 /// sums are continuous functions of the corners. Equal cells, shared corners and shared edges are
-/// no special cases: the weights of a partition onto itself are the identity. Pieces not larger
+/// no special cases: the weights of cells onto themselves are the identity. Pieces not larger
 /// than what rounding of their corners can make are dropped. The weights depend on nothing but the
 /// cells.
 ///
 /// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
-/// the sum of a row is 1, up to a few ulp, where the other partition covers it. If neither
-/// partition is_cover() and neither is a grid of parallels, the one with fewer sides (the source if
+/// the sum of a row is 1, up to a few ulp, where the other side covers it. If neither
+/// side is_cover() and neither is a grid of parallels, the one with fewer sides (the source if
 /// both have as many) is completed by triangles, whose sides leave no trace in the pieces; if its
 /// cells overlap each other, the other one is. That takes longer.
 /// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its
-///         partition, cells of a partition overlap and the options have no rule for it (with the
+///         side, cells of a side overlap and the options have no rule for it (with the
 ///         cells and a place), or a cell crosses or overlaps itself.
-RONDEL_API Remap remap(const Partition& source, const Partition& target,
+RONDEL_API Remap remap(const CellSet& source, const CellSet& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
 
 /// Computes the target means of order 2 with given gradients, for which linear fields are

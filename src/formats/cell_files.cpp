@@ -229,10 +229,10 @@ CellTable read_cells(const FileName& file) {
   });
 }
 
-Partition partition_of(const CellTable& table, GridSides sides, const Execution& execution) {
+CellSet partition_of(const CellTable& table, GridSides sides, const Execution& execution) {
   try {
-    return table.grid ? Partition::lonlat_grid(*table.grid, sides, execution)
-                      : Partition(table.cells, execution);
+    return table.grid ? CellSet::lonlat_grid(*table.grid, sides, execution)
+                      : CellSet(table.cells, execution);
   } catch (const InvalidInput& error) {
     throw FileError(table.name + ": " + error.what());
   }

@@ -20,8 +20,8 @@
 #include "formats/cf_reader.h"
 #include "io/netcdf_reader.h"
 #include "rondel/cell_rings.h"
+#include "rondel/cell_set.h"
 #include "rondel/mesh_files.h"
-#include "rondel/partition.h"
 #include "rondel/types.h"
 
 namespace rondel::formats {

@@ -24,9 +24,9 @@
 
 #include "exact/argument.h"
 #include "exact/vector.h"
+#include "rondel/cell_set.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/partition.h"
 #include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -269,7 +269,7 @@ std::vector<std::uint8_t> inside(std::span<const Point> points, const CellRings&
       throw InvalidInput("point " + std::to_string(i) + " is not finite or the center", i);
     }
   }
-  (void)Partition(regions, execution);  // throws for invalid rings
+  (void)CellSet(regions, execution);  // throws for invalid rings
   const RegionSites sites(regions);
   std::vector<std::uint8_t> result(points.size());
   system::parallel_for(execution.threads, points.size(), points_at_a_time,

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "overlay/cell_set_data.h"
 #include "overlay/overlaps.h"
-#include "overlay/partition_data.h"
 #include "overlay/same_nodes.h"
-#include "rondel/partition.h"
+#include "rondel/cell_set.h"
 
 namespace rondel::overlay {
 namespace {
@@ -30,11 +30,11 @@ std::vector<std::size_t> layers_of(const CellRings& cells, std::span<const Cross
   const std::size_t num_cells = cells.num_cells();
   std::vector<std::size_t> layers(num_cells, no_layer);
   for (const CrossingCells& pair : overlaps) layers[pair.first] = layers[pair.second] = 0;
-  const Partition partition(cells, execution);
+  const CellSet cell_set(cells, execution);
   std::vector<std::vector<Index>> earlier(num_cells);
   for (const CrossingCells& pair : overlaps) earlier[pair.second].push_back(pair.first);
   for (const auto& [a, b] :
-       near_cells(PartitionData::of(partition).subdivision(), execution.threads)) {
+       near_cells(CellSetData::of(cell_set).subdivision(), execution.threads)) {
     if (layers[a] != no_layer && layers[b] != no_layer) earlier[b].push_back(a);
   }
   std::vector<std::size_t> taken;
@@ -91,8 +91,8 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
   CellRings all = with_outside(cells_of_layer(cells, layers, 0), execution);
   for (std::size_t layer = 1; layer < num_layers; ++layer) {
     const CellRings next = with_outside(cells_of_layer(cells, layers, layer), execution);
-    const RegionPieces pieces = intersection(PartitionData::of_apart(all, execution),
-                                             PartitionData::of_apart(next, execution), execution);
+    const RegionPieces pieces = intersection(CellSetData::of_apart(all, execution),
+                                             CellSetData::of_apart(next, execution), execution);
     std::vector<Index> owners(pieces.num_pieces());
     for (std::size_t k = 0; k < owners.size(); ++k) {
       owners[k] = std::min(pieces.cells[k], pieces.regions[k]);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "exact/vector.h"
-#include "rondel/partition.h"
+#include "rondel/cell_set.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {

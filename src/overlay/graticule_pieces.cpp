@@ -96,7 +96,7 @@ class RowStrips {
 // Computes the pieces of one cell after another.
 class GridPieceMaker {
  public:
-  GridPieceMaker(const PartitionData& cells, const Graticule& grid,
+  GridPieceMaker(const CellSetData& cells, const Graticule& grid,
                  std::span<const GraticulePlace> places, bool has_moments)
       : cells_(cells),
         grid_(grid),
@@ -241,7 +241,7 @@ class GridPieceMaker {
     return piece;
   }
 
-  const PartitionData& cells_;
+  const CellSetData& cells_;
   const Graticule& grid_;
   std::span<const GraticulePlace> places_;
   GraticuleWalk walk_;
@@ -252,7 +252,7 @@ class GridPieceMaker {
 
 }  // namespace
 
-PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_moments,
+PieceRows pieces(const CellSetData& cells, const Graticule& grid, bool has_moments,
                  const Execution& execution) {
   const Subdivision& subdivision = cells.subdivision();
   std::vector<GraticulePlace> places(subdivision.points.size());

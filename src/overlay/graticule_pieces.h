@@ -8,15 +8,15 @@
 // index rows: indices of the cells in the input; columns: cells of the grid
 #pragma once
 
+#include "overlay/cell_set_data.h"
 #include "overlay/graticule.h"
-#include "overlay/partition_data.h"
 #include "overlay/pieces.h"
 
 namespace rondel::overlay {
 
 // Returns the pieces of all cells. Throws InvalidInput if the pieces of a cell do not add up to it
 // (require_sum()).
-PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_moments,
+PieceRows pieces(const CellSetData& cells, const Graticule& grid, bool has_moments,
                  const Execution& execution);
 
 // Returns the pieces of the cells of one grid in the cells of another.

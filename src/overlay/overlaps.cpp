@@ -19,9 +19,9 @@
 #include "exact/triangle_area.h"
 #include "exact/vector.h"
 #include "map/arc.h"
+#include "overlay/cell_set_data.h"
 #include "overlay/filling.h"
 #include "overlay/measure.h"
-#include "overlay/partition_data.h"
 #include "overlay/pieces.h"
 #include "overlay/sure_crossing.h"
 #include "rondel/predicates.h"
@@ -282,8 +282,8 @@ class OverlapFinder {
   }
   // Returns the pieces of some cells in a cover.
   [[nodiscard]] PieceRows pieces_in(const Subdivision& cover, std::span<const Index> some) const {
-    const PartitionData laid(Subdivision(rings_of(cells_, some), false, told_.threads), {},
-                             told_.threads);
+    const CellSetData laid(Subdivision(rings_of(cells_, some), false, told_.threads), {},
+                           told_.threads);
     return pieces_of_parts(laid.subdivision(), laid.sizes(), cover, true, told_);
   }
 
@@ -348,8 +348,8 @@ namespace rondel {
 
 std::vector<CrossingCells> overlapping_cells(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
-  const Partition partition(cells, execution);
-  const overlay::PartitionData& data = overlay::PartitionData::of(partition);
+  const CellSet cell_set(cells, execution);
+  const overlay::CellSetData& data = overlay::CellSetData::of(cell_set);
   return overlay::overlaps_of(data.subdivision(), data.all_whole(), execution);
 }
 

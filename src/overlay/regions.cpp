@@ -12,11 +12,11 @@
 
 #include "overlay/arcs.h"
 #include "overlay/border_rings.h"
+#include "overlay/cell_set_data.h"
 #include "overlay/cell_sets.h"
 #include "overlay/filling.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
-#include "overlay/partition_data.h"
 #include "overlay/region_area.h"
 #include "overlay/united.h"
 #include "rondel/error.h"
@@ -28,9 +28,9 @@ namespace rondel {
 namespace {
 
 using overlay::ArcMaker;
+using overlay::CellSetData;
 using overlay::Halfedge;
 using overlay::KeyedArc;
-using overlay::PartitionData;
 using overlay::PieceArc;
 using overlay::Subdivision;
 
@@ -194,12 +194,11 @@ std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivisi
     exchange(arcs);
     return arcs;
   };
-  return overlay::with_one_filled(cells, regions, {"first partition's", "regions'"}, execution,
-                                  with);
+  return overlay::with_one_filled(cells, regions, {"first set's", "regions'"}, execution, with);
 }
 
 // Returns the arcs of all pieces of cells in regions, whatever the two are.
-std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData& regions,
+std::vector<NamedArc> overlay_of(const CellSetData& cells, const CellSetData& regions,
                                  const Execution& execution) {
   std::vector<NamedArc> arcs;
   if (cells.whole() != no_index) {
@@ -221,8 +220,8 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
 }
 
 // Throws InvalidInput if a cell overlaps itself.
-void require_sound(const Partition& cells, const char* what, const Execution& execution) {
-  const std::vector<CrossingCells>& found = PartitionData::of(cells).overlaps(execution);
+void require_sound(const CellSet& cells, const char* what, const Execution& execution) {
+  const std::vector<CrossingCells>& found = CellSetData::of(cells).overlaps(execution);
   const auto wrong = std::ranges::find_if(
       found, [](const CrossingCells& pair) { return pair.first == pair.second; });
   if (wrong == found.end()) return;
@@ -240,15 +239,15 @@ double area_of_cell(const CellRings& cells, std::size_t cell) {
 }
 
 // Clips cells to regions that do not overlap.
-CellRings clipped_to(const Partition& cells, const Partition& regions, const Execution& execution) {
+CellRings clipped_to(const CellSet& cells, const CellSet& regions, const Execution& execution) {
   const std::vector<NamedArc> arcs =
-      overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
+      overlay_of(CellSetData::of(cells), CellSetData::of(regions), execution);
   std::vector<KeyedArc> keyed;
   keyed.reserve(arcs.size());
   for (const NamedArc& arc : arcs) keyed.push_back({arc.cell, arc.from, arc.to});
   CellRings clipped = overlay::rings_around(keyed, cells.num_cells(), execution.threads);
-  const std::vector<double>& of_cells = PartitionData::of(cells).areas();
-  const std::vector<double>& of_regions = PartitionData::of(regions).areas();
+  const std::vector<double>& of_cells = CellSetData::of(cells).areas();
+  const std::vector<double>& of_regions = CellSetData::of(regions).areas();
   const double covered = std::accumulate(of_regions.begin(), of_regions.end(), 0.0);
   clipped.whole =
       whole_cells_of(clipped, [&](std::size_t i) { return std::min(of_cells[i], covered); });
@@ -257,21 +256,21 @@ CellRings clipped_to(const Partition& cells, const Partition& regions, const Exe
 
 }  // namespace
 
-RegionPieces intersection(const Partition& cells, const Partition& regions,
+RegionPieces intersection(const CellSet& cells, const CellSet& regions,
                           const Execution& execution) {
   const system::Call call(execution);
-  overlay::require_arcs(PartitionData::of(cells));
-  overlay::require_arcs(PartitionData::of(regions));
-  require_sound(cells, "of the first partition,", execution);
+  overlay::require_arcs(CellSetData::of(cells));
+  overlay::require_arcs(CellSetData::of(regions));
+  require_sound(cells, "of the first set,", execution);
   require_sound(regions, "of the regions,", execution);
   const std::vector<NamedArc> arcs =
-      overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
+      overlay_of(CellSetData::of(cells), CellSetData::of(regions), execution);
   using Pair = std::pair<Index, Index>;
   std::vector<Pair> pairs;
   pairs.reserve(arcs.size());
   for (const NamedArc& arc : arcs) pairs.emplace_back(arc.cell, arc.beyond);
-  for (const Index cell : PartitionData::of(cells).all_whole()) {
-    for (const Index region : PartitionData::of(regions).all_whole()) {
+  for (const Index cell : CellSetData::of(cells).all_whole()) {
+    for (const Index region : CellSetData::of(regions).all_whole()) {
       pairs.emplace_back(cell, region);
     }
   }
@@ -290,8 +289,8 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   result.rings.corners = all.corners;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (all.cells[k] == all.cells[k + 1]) {
-      if (std::min(PartitionData::of(cells).areas()[pairs[k].first],
-                   PartitionData::of(regions).areas()[pairs[k].second]) <= most_of_sphere)
+      if (std::min(CellSetData::of(cells).areas()[pairs[k].first],
+                   CellSetData::of(regions).areas()[pairs[k].second]) <= most_of_sphere)
         continue;
       result.rings.whole.push_back(static_cast<Index>(result.cells.size()));
     }
@@ -302,12 +301,12 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   return result;
 }
 
-CellRings clip(const Partition& cells, const Partition& regions, const Execution& execution) {
+CellRings clip(const CellSet& cells, const CellSet& regions, const Execution& execution) {
   const system::Call call(execution);
-  overlay::require_arcs(PartitionData::of(cells));
-  overlay::require_arcs(PartitionData::of(regions));
-  require_sound(cells, "of the first partition,", execution);
-  const auto united = overlay::united(PartitionData::of(regions), "of the regions,", execution);
+  overlay::require_arcs(CellSetData::of(cells));
+  overlay::require_arcs(CellSetData::of(regions));
+  require_sound(cells, "of the first set,", execution);
+  const auto united = overlay::united(CellSetData::of(regions), "of the regions,", execution);
   return clipped_to(cells, united ? *united : regions, execution);
 }
 

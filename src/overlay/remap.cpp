@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "exact/vector.h"
+#include "overlay/cell_set_data.h"
 #include "overlay/filling.h"
 #include "overlay/graticule_pieces.h"
 #include "overlay/linear_weights.h"
 #include "overlay/measure.h"
-#include "overlay/partition_data.h"
 #include "overlay/pieces.h"
 #include "overlay/shared_places.h"
 #include "overlay/slopes_of_cells.h"
@@ -28,12 +28,12 @@
 namespace rondel {
 namespace {
 
-using overlay::PartitionData;
+using overlay::CellSetData;
 using overlay::PieceRows;
 
 // Returns the pieces of a cell that is the whole sphere, as row `whole`: all other cells. The
 // result is transposed if the sphere is on the other side.
-PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_rows) {
+PieceRows whole_cells(const CellSetData& cells, Index whole, std::size_t num_rows) {
   PieceRows pieces;
   pieces.offsets.assign(num_rows + 1, 0);
   for (std::size_t i = 0; i < cells.areas().size(); ++i) {
@@ -47,9 +47,9 @@ PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_r
   return pieces;
 }
 
-// Computes the pieces of two partitions of which neither covers the sphere. Rows are targets.
-PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& target,
-                           bool has_moments, const Execution& execution) {
+// Computes the pieces of two sets of cells of which neither covers the sphere. Rows are targets.
+PieceRows overlay_of_parts(const CellSetData& source, const CellSetData& target, bool has_moments,
+                           const Execution& execution) {
   const overlay::Subdivision& sources = source.subdivision();
   const overlay::Subdivision& targets = target.subdivision();
   const auto with = [&](bool is_source_filled, const Execution& told) {
@@ -62,8 +62,8 @@ PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& tar
   return overlay::with_one_filled(sources, targets, {"source", "target"}, execution, with);
 }
 
-// Computes the pieces of two partitions. Rows are targets, columns are sources.
-PieceRows overlay_of(const PartitionData& source, const PartitionData& target, bool has_moments,
+// Computes the pieces of two sets of cells. Rows are targets, columns are sources.
+PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool has_moments,
                      const Execution& execution) {
   const std::size_t num_sources = source.areas().size();
   const std::size_t num_targets = target.areas().size();
@@ -194,7 +194,7 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
 
 // Returns the cells in spatial order, as indices in the input, or nothing if they are those of a
 // grid, which is in order itself.
-std::span<const Index> spatial_order_of(const PartitionData& cells) {
+std::span<const Index> spatial_order_of(const CellSetData& cells) {
   if (cells.grid() != nullptr || cells.whole() != no_index) return {};
   return cells.subdivision().names;
 }
@@ -228,14 +228,14 @@ std::string_view name_of(CellOverlap overlap) noexcept {
   return system::name_in({"error", "first", "share"}, overlap);
 }
 
-Remap remap(const Partition& source, const Partition& target, const RemapOptions& options,
+Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& options,
             const Execution& execution) {
   const system::Call call(execution);
   if (options.order != 1 && options.order != 2) {
     throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2");
   }
-  const PartitionData& sources = PartitionData::of(source);
-  const PartitionData& targets = PartitionData::of(target);
+  const CellSetData& sources = CellSetData::of(source);
+  const CellSetData& targets = CellSetData::of(target);
   const bool is_second = options.order == 2;
   require_mask("source", options.source_mask, source.num_cells());
   require_mask("target", options.target_mask, target.num_cells());

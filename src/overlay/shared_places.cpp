@@ -31,11 +31,11 @@ std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
   std::vector<OwnedPart> parts = {{one_cell(cells, cell), {cell}}};
   for (const Index other : others) {
     const CellRings there = one_cell(cells, other);
-    const Partition inside(there);
-    const Partition outside(beyond_cell(there));
+    const CellSet inside(there);
+    const CellSet outside(beyond_cell(there));
     std::vector<OwnedPart> cut;
     for (const OwnedPart& part : parts) {
-      const Partition whole_part(part.rings);
+      const CellSet whole_part(part.rings);
       CellRings left = clip(whole_part, outside, execution);
       if (has_any(left)) cut.push_back({std::move(left), part.owners});
       if (other < cell) continue;
@@ -76,7 +76,7 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
   std::vector<Index> whole = all.whole;
   Subdivision parts = sound_cells(all, whole, told);
   result.parts =
-      std::make_shared<const PartitionData>(std::move(parts), std::move(whole), execution.threads);
+      std::make_shared<const CellSetData>(std::move(parts), std::move(whole), execution.threads);
   result.data = result.parts.get();
   return result;
 }
@@ -102,7 +102,7 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
 
 }  // namespace
 
-TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_t>& mask,
+TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
                        CellOverlap rule, const char* what, const Execution& execution) {
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
@@ -169,7 +169,7 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
   return joined;
 }
 
-CountedSizes::CountedSizes(const PartitionData& cells, const TakingPart& part)
+CountedSizes::CountedSizes(const CellSetData& cells, const TakingPart& part)
     : cells_(cells), of_parts_(part.has_parts()) {
   if (!of_parts_) return;
   const std::size_t n = cells.areas().size();

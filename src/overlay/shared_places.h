@@ -3,7 +3,7 @@
 
 // Cuts cells that overlap into parts that do not.
 //
-// in    a partition, a mask, the rule for overlaps
+// in    a set of cells, a mask, the rule for overlaps
 // out   the parts with the cells that own each, and tables of parts converted to tables of cells
 // index parts, from 0; cells by their indices in the input
 #pragma once
@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "overlay/partition_data.h"
+#include "overlay/cell_set_data.h"
 #include "overlay/pieces.h"
 #include "rondel/remap.h"
 #include "rondel/types.h"
@@ -23,8 +23,8 @@ namespace rondel::overlay {
 // The cells that take part in an overlay, as given or cut into parts.
 struct TakingPart {
   // The cells or the parts.
-  const PartitionData* data = nullptr;
-  std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data` if these are parts
+  const CellSetData* data = nullptr;
+  std::shared_ptr<const CellSetData> parts = nullptr;  // owns `data` if these are parts
   // Part k belongs to the cells owners[offsets[k]] ... owners[offsets[k + 1] - 1], in equal shares.
   // Both arrays are empty if `data` has the cells themselves.
   std::vector<std::uint64_t> offsets = {};
@@ -36,7 +36,7 @@ struct TakingPart {
 
 // Returns the cells that are not masked. If some of them overlap and `rule` is error, or if one
 // overlaps itself, throws InvalidInput with `what` ("source" or "target"), the cells and a place.
-TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_t>& mask,
+TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
                        CellOverlap rule, const char* what, const Execution& execution);
 
 // Converts rows and columns of parts into those of the cells that own them.
@@ -47,7 +47,7 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
 // length of its border.
 class CountedSizes {
  public:
-  CountedSizes(const PartitionData& cells, const TakingPart& part);
+  CountedSizes(const CellSetData& cells, const TakingPart& part);
   [[nodiscard]] const std::vector<double>& areas() const {
     return of_parts_ ? areas_ : cells_.areas();
   }
@@ -59,7 +59,7 @@ class CountedSizes {
   }
 
  private:
-  const PartitionData& cells_;
+  const CellSetData& cells_;
   bool of_parts_;
   std::vector<double> areas_;
   std::vector<double> lengths_;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Exact orientations of the points of two partitions. The second one, the cover, is perturbed by an
-// infinitesimal rotation: no point of one partition lies on an edge of the other, and two edges
+// Exact orientations of the points of two sets of cells. The second one, the cover, is perturbed by an
+// infinitesimal rotation: no point of one set lies on an edge of the other, and two edges
 // cross in their insides or not at all. So equal grids, shared corners and shared edges are no
 // special cases.
 //
-// in    points of a partition (a, b, x) and of the perturbed cover (y, z)
+// in    points of a set of cells (a, b, x) and of the perturbed cover (y, z)
 // out   signs, never zero; rounded values with bounds where a filter is enough
 //
 // The rotation w = (d, d^1.3, d^1.6), for d that tends to 0, takes y to y + w x y. Where a
@@ -49,7 +49,7 @@ inline double size_of_step(const Vec& step) {
   return size > least_size ? size : too_much;
 }
 
-// The great circle from p to q, two points of the partition that is not perturbed.
+// The great circle from p to q, two points of the cells that are not perturbed.
 class TracedLine {
  public:
   TracedLine(const Point& p, const Point& q)

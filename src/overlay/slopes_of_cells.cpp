@@ -106,7 +106,7 @@ class SlopeEquations {
 // Finds the neighbors of cells: those that share an edge and are not masked.
 class NeighborLists {
  public:
-  NeighborLists(const PartitionData& cells, std::span<const std::int32_t> mask)
+  NeighborLists(const CellSetData& cells, std::span<const std::int32_t> mask)
       : cells_(cells), mask_(mask) {}
 
   // Returns the index in the input of the cell at place c of the spatial order; a grid is in its
@@ -135,13 +135,13 @@ class NeighborLists {
   }
 
  private:
-  const PartitionData& cells_;
+  const CellSetData& cells_;
   std::span<const std::int32_t> mask_;
 };
 
 }  // namespace
 
-CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
+CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> centers,
                              std::span<const std::int32_t> mask, unsigned threads) {
   const NeighborLists neighbors_of(cells, mask);
   const std::size_t n = centers.size();

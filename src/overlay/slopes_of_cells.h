@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "overlay/partition_data.h"
+#include "overlay/cell_set_data.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -29,7 +29,7 @@ struct CellGradients {
 // weighted by the inverse squares of distances, in the tangent plane of the cell's center of mass.
 // The gradient is 0 along a direction that the neighbors do not determine. `centers` are centers of
 // mass. Masked cells (0) are no neighbors; an empty mask masks no cell.
-CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
+CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> centers,
                              std::span<const std::int32_t> mask, unsigned threads);
 
 }  // namespace rondel::overlay

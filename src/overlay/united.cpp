@@ -18,10 +18,10 @@ namespace rondel::overlay {
 namespace {
 
 // Returns a cell and its complement as a partition of the sphere.
-Partition both_sides(const CellRings& one) {
+CellSet both_sides(const CellRings& one) {
   CellRings both = one;
   append(beyond_cell(one), both);
-  return Partition(both);
+  return CellSet(both);
 }
 
 // Throws InvalidInput if the pieces of a cell, which are those with number 0, do not add up to it.
@@ -53,8 +53,8 @@ CellRings union_of(const CellRings& a, const CellRings& b, const Execution& exec
 
 }  // namespace
 
-std::optional<Partition> united(const PartitionData& cells, const char* what,
-                                const Execution& execution) {
+std::optional<CellSet> united(const CellSetData& cells, const char* what,
+                              const Execution& execution) {
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return std::nullopt;
   std::vector<Index> firsts(cells.areas().size());
@@ -83,7 +83,7 @@ std::optional<Partition> united(const PartitionData& cells, const char* what,
   CellRings result;
   for (const CellRings& one : unions) append(one, result);
   merge_equal_points(result);
-  return Partition(result, told);
+  return CellSet(result, told);
 }
 
 }  // namespace rondel::overlay

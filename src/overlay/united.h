@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "overlay/partition_data.h"
+#include "overlay/cell_set_data.h"
 #include "rondel/regions.h"
 
 namespace rondel::overlay {
@@ -15,7 +15,7 @@ namespace rondel::overlay {
 // Returns the cells with each set of overlapping cells merged: the first cell of a set becomes the
 // union, the others become empty. Returns nothing if no cells overlap. Throws InvalidInput, with
 // `what` for the cells, if a cell overlaps itself.
-std::optional<Partition> united(const PartitionData& cells, const char* what,
-                                const Execution& execution);
+std::optional<CellSet> united(const CellSetData& cells, const char* what,
+                              const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Describes the cells of a partition as files of weights do.
+// Describes sets of cells as files of weights do.
 #include <algorithm>
 #include <cstddef>
 #include <span>
 
-#include "overlay/partition_data.h"
+#include "overlay/cell_set_data.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_files.h"
 #include "system/arithmetic.h"
@@ -38,9 +38,9 @@ std::vector<LonLat> corners_of_graticule(const overlay::Graticule& grid) {
 
 }  // namespace
 
-std::vector<LonLat> weight_corners(const Partition& partition) {
+std::vector<LonLat> weight_corners(const CellSet& partition) {
   const system::ArithmeticScope arithmetic;
-  const overlay::PartitionData& data = overlay::PartitionData::of(partition);
+  const overlay::CellSetData& data = overlay::CellSetData::of(partition);
   if (data.grid() != nullptr) return corners_of_graticule(*data.grid());
   const CellRings cells = partition.rings();
   std::size_t most = 0;
@@ -70,7 +70,7 @@ std::vector<LonLat> weight_corners(const Partition& partition) {
   return corners;
 }
 
-WeightSide weight_side(const CellTable& table, const Partition& partition) {
+WeightSide weight_side(const CellTable& table, const CellSet& partition) {
   const system::ArithmeticScope arithmetic;
   WeightSide side;
   side.points = table.centers.empty() ? lonlats(partition.centers()) : table.centers;

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "overlay/first_of_cells.h"
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/partition.h"
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/shortest_text.h"
@@ -73,7 +73,7 @@ void require_disjoint(const CellRings& polygons, const Execution& execution) {
 // Pairwise disjoint cells that cover the sphere, or pieces of such cells, with the feature that
 // each belongs to.
 struct OwnedCells {
-  Partition cells;
+  CellSet cells;
   std::vector<Index> owners;
   // The union of the cells of each feature, if it was computed on the way.
   std::optional<CellRings> joined;
@@ -90,18 +90,17 @@ OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, dou
   if (has_polygons) require_disjoint(polygons, execution);
   FeatureSites found =
       feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
-  Partition cells =
-      Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
+  CellSet cells = CellSet::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
   if (!has_polygons) return {std::move(cells), std::move(found.features), std::nullopt};
   const RegionPieces pieces = intersection(
-      cells, Partition(overlay::with_outside(polygons, execution), execution), execution);
+      cells, CellSet(overlay::with_outside(polygons, execution), execution), execution);
   std::vector<Index> owners(pieces.num_pieces());
   for (std::size_t k = 0; k < owners.size(); ++k) {
     const bool is_outside = pieces.regions[k] == n;
     owners[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
   }
   CellRings joined = dissolve(pieces.rings, owners, n, execution);
-  return {Partition(pieces.rings, execution), std::move(owners), std::move(joined)};
+  return {CellSet(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 
 // Returns execution options without a progress callback if owned_cells() has already reported its
@@ -122,7 +121,7 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
 }
 
 CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
-                                double tolerance, const Partition& regions,
+                                double tolerance, const CellSet& regions,
                                 const Execution& execution) {
   const system::Call call(execution);
   const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
@@ -131,7 +130,7 @@ CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& poly
 }
 
 RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons, double tolerance,
-                            const Partition& regions, const Execution& execution) {
+                            const CellSet& regions, const Execution& execution) {
   const system::Call call(execution);
   const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
   return dissolve(intersection(owned.cells, regions, quiet_after(owned, execution)), owned.owners,

@@ -121,7 +121,7 @@ class Bindings(Tool):
         return made, [row.get("value") for row in rows], [row.get("owner") for row in rows]
 
     def partition(self, regions, **rules):
-        read = self.rondel.Partition.read
+        read = self.rondel.CellSet.read
         return self.once(regions, lambda _: read(self.folder / regions, threads=1, **rules))
 
     def written(self, out, make, **options):

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Partition, remap, apply_gradients: what rondel/partition.h and rondel/remap.h promise of any sites and
+// CellSet, remap, apply_gradients: what rondel/cell_set.h and rondel/remap.h promise of any sites and
 // of any cells.
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double sum_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-void test_arrays(const Remap& remap, const Partition& source, const Partition& target) {
+void test_arrays(const Remap& remap, const CellSet& source, const CellSet& target) {
   require(remap.offsets.size() == target.num_cells() + 1 &&
               remap.offsets.back() == remap.columns.size() &&
               remap.areas.size() == remap.columns.size() &&
@@ -54,7 +54,7 @@ void test_arrays(const Remap& remap, const Partition& source, const Partition& t
 }
 
 // Of diagrams, whose cells may be narrower than rounding.
-void test_diagrams(const Partition& source, const Partition& target) {
+void test_diagrams(const CellSet& source, const CellSet& target) {
   const bool is_sound = source.is_cover() && target.is_cover() &&
                         std::abs(sum_of(source.areas()) - 4 * std::numbers::pi) < 1e-9 &&
                         std::abs(sum_of(target.areas()) - 4 * std::numbers::pi) < 1e-9;
@@ -81,7 +81,7 @@ void test_diagrams(const Partition& source, const Partition& target) {
     for (auto k = same.offsets[j]; k < same.offsets[j + 1]; ++k) {
       if (same.columns[k] != j) others += same.areas[k];
     }
-    require(others < 1e-14, "a partition onto itself is the identity");
+    require(others < 1e-14, "cells onto themselves are the identity");
   }
 }
 
@@ -100,13 +100,13 @@ std::vector<double> next_lines(ByteSource& source, double first, double last) {
 }
 
 // What a grid has of the sphere is what the diagram's pieces have of it.
-void test_grid(const Partition& cells, ByteSource& source) {
+void test_grid(const CellSet& cells, ByteSource& source) {
   LonLatGrid lines;
   const double west = static_cast<double>(source.below(25)) * 30 - 360;
   lines.lon_deg = next_lines(source, west, west + 360);
   lines.lat_deg = next_lines(source, source.below(2) == 0 ? -90 : -37.5, 90);
   if (source.below(2) == 0) std::ranges::reverse(lines.lat_deg);
-  const Partition grid = Partition::lonlat_grid(lines);
+  const CellSet grid = CellSet::lonlat_grid(lines);
   const bool is_sound =
       cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9;
   if (!is_sound) return;
@@ -159,14 +159,14 @@ void test_file(const RegionPieces& pieces) {
 }
 
 // Whether no cell is the whole sphere, which has no border, and nothing is lost.
-bool has_borders(const Partition& cells) {
+bool has_borders(const CellSet& cells) {
   constexpr double nearly_whole = 12;
   return cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9 &&
          std::ranges::all_of(cells.areas(), [](double area) { return area < nearly_whole; });
 }
 
 // Of diagrams, too: the pieces as polygons.
-void test_regions(const Partition& cells, const Partition& others, Index num_groups) {
+void test_regions(const CellSet& cells, const CellSet& others, Index num_groups) {
   const double whole = 4 * std::numbers::pi;
   if (!has_borders(cells) || !has_borders(others)) return;
   const RegionPieces pieces = intersection(cells, others);
@@ -191,7 +191,7 @@ void test_regions(const Partition& cells, const Partition& others, Index num_gro
   const CellRings all = dissolve(cells.rings(), std::vector<Index>(cells.num_cells(), 0), 1);
   require(all.is_whole(0), "all cells together are the whole sphere");
   const CellRings regions = dissolve(cells.rings(), groups, num_groups);
-  const CellRings inside = clip(others, Partition(regions));
+  const CellRings inside = clip(others, CellSet(regions));
   require(std::abs(sum_of(areas(inside)) - sum_of(areas(regions))) < 1e-8,
           "what is clipped has the area of the regions");
 }
@@ -230,7 +230,7 @@ std::vector<Index> corners_by_offsets(const CellRings& cells, std::size_t ring) 
 }
 
 // Every cell but some, which become empty.
-Partition without_some(const Partition& cells, Index step) {
+CellSet without_some(const CellSet& cells, Index step) {
   const CellRings all = cells.rings();
   CellRings result;
   result.points = all.points;
@@ -247,16 +247,16 @@ Partition without_some(const Partition& cells, Index step) {
     require(std::ranges::equal(all.corners_of(r), corners_by_offsets(all, r)),
             "a ring has its corners");
   }
-  return Partition(result);
+  return CellSet(result);
 }
 
 // Of two diagrams with gaps the pieces are those of the diagrams without any.
-void test_parts(const Partition& cells, const Partition& others, ByteSource& source) {
+void test_parts(const CellSet& cells, const CellSet& others, ByteSource& source) {
   if (!has_borders(cells) || !has_borders(others)) return;
   const auto first = static_cast<Index>(2 + source.below(3));
   const auto second = static_cast<Index>(2 + source.below(3));
   const Remap whole = remap(cells, others);
-  const Partition target = without_some(others, second);
+  const CellSet target = without_some(others, second);
   const Remap parts = remap(without_some(cells, first), target);
   std::vector<double> areas(cells.num_cells());
   for (std::size_t j = 0; j < others.num_cells(); ++j) {
@@ -274,7 +274,7 @@ void test_parts(const Partition& cells, const Partition& others, ByteSource& sou
 }
 
 // Cells that are not refused have their own area over a cover, and no place twice.
-void test_shares(const Remap& there, const Partition& cells, const Partition& cover) {
+void test_shares(const Remap& there, const CellSet& cells, const CellSet& cover) {
   std::vector<double> shares(cells.num_cells());
   for (std::size_t j = 0; j < cover.num_cells(); ++j) {
     double sum = 0;
@@ -290,14 +290,13 @@ void test_shares(const Remap& there, const Partition& cells, const Partition& co
   for (const double weight : there.weights.values) require(std::isfinite(weight), "finite weights");
 }
 
-void test_any_cells(const CellRings& rings, const Partition& target) {
+void test_any_cells(const CellRings& rings, const CellSet& target) {
   try {
-    const Partition cells(rings);
+    const CellSet cells(rings);
     const std::vector<CrossingCells> overlaps = overlapping_cells(rings);
     require(cells.num_cells() == rings.num_cells() && cells.areas().size() == cells.num_cells(),
             "an area for each cell");
-    require(Partition(cells.given_rings()).num_cells() == cells.num_cells(),
-            "the same cells again");
+    require(CellSet(cells.given_rings()).num_cells() == cells.num_cells(), "the same cells again");
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
     require(overlaps.empty(), "cells that overlap are refused");
@@ -325,13 +324,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   second.insert(second.end(), first.begin(), first.begin() + static_cast<std::ptrdiff_t>(half / 3));
   try {
     const Triangulation t = delaunay(first, options);
-    const Partition cells = Partition::voronoi(t);
-    const Partition others = Partition::voronoi(delaunay(second, options));
+    const CellSet cells = CellSet::voronoi(t);
+    const CellSet others = CellSet::voronoi(delaunay(second, options));
     fuzz::test_diagrams(cells, others);
     fuzz::test_regions(cells, others, static_cast<Index>(1 + source.below(3)));
     fuzz::test_grid(cells, source);
     fuzz::test_parts(cells, others, source);
-    const Partition triangles = Partition::triangles(t);
+    const CellSet triangles = CellSet::triangles(t);
     if (others.is_cover()) {
       const Remap of_triangles = remap(triangles, others);
       fuzz::require(of_triangles.source_areas.size() == triangles.num_cells(), "an area for each");

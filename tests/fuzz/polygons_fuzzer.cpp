@@ -48,9 +48,9 @@ void test_cells(const PolygonTable& table) {
   }
   const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
   try {
-    const CellRings clipped = clip(Partition::voronoi(delaunay(sites)), Partition(cells));
+    const CellRings clipped = clip(CellSet::voronoi(delaunay(sites)), CellSet(cells));
     require(clipped.num_cells() == sites.size(), "a part of each cell");
-    require(clip(Partition(clipped), Partition(cells)).num_cells() == sites.size(), "and again");
+    require(clip(CellSet(clipped), CellSet(cells)).num_cells() == sites.size(), "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
   }
 }
@@ -82,12 +82,12 @@ void test_features(const FeatureTable& table) {
     require(found.sites.size() == found.features.size(), "a feature for each site");
     const CellRings cells = feature_cells(table.lines, table.polygons, tolerance);
     require(cells.num_cells() == table.lines.num_features(), "a cell for each feature");
-    const Partition octants = Partition::triangles(
+    const CellSet octants = CellSet::triangles(
         delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}));
     const RegionPieces pieces = feature_pieces(table.lines, table.polygons, tolerance, octants);
     require(areas(pieces.rings).size() == pieces.num_pieces(), "a ring for each piece");
     const CellRings clipped =
-        clipped_feature_cells(table.lines, table.polygons, tolerance, Partition(table.polygons));
+        clipped_feature_cells(table.lines, table.polygons, tolerance, CellSet(table.polygons));
     require(clipped.num_cells() == cells.num_cells(), "a part of each cell");
   } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
   }

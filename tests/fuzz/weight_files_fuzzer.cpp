@@ -69,7 +69,7 @@ void test_corners(std::string_view bytes) {
     const CentersOutside outside = centers_outside(cells, centers);
     require(outside.number <= outside.of && outside.of <= cells.num_cells(), "centers are counted");
     require(outside.number > 0 || !outside.are_most(), "no most of none");
-    require(Partition(cells).num_cells() == cells.num_cells(), "which are a partition");
+    require(CellSet(cells).num_cells() == cells.num_cells(), "which can be prepared");
   } catch (const InvalidInput&) {
   }
   try {
@@ -86,7 +86,7 @@ void test_corners(std::string_view bytes) {
     const LonLatGrid grid =
         grid_around(axes.first(numbers.size() / 2), axes.last(numbers.size() / 2));
     require(grid.lon_deg.size() == numbers.size() / 2 + 1, "lines on both sides of each");
-    static_cast<void>(Partition::lonlat_grid(grid));
+    static_cast<void>(CellSet::lonlat_grid(grid));
   } catch (const InvalidInput&) {
   }
 }
@@ -167,11 +167,11 @@ void test(std::string_view bytes) {
     const CellTable table = read_cells(path);
     require(table.mask.empty() || table.mask.size() == table.num_cells(), "a mask has all cells");
     require(can_read_cells(path), "a file of cells has an ending of cells");
-    const Partition partition = partition_of(table);
-    require(partition.num_cells() == table.num_cells(), "cells are kept");
-    require(partition.centers().size() == table.num_cells(), "a cell has a center");
-    const WeightSide side = weight_side(table, partition);
-    const std::size_t num_corners = weight_corners(partition).size();
+    const CellSet cell_set = partition_of(table);
+    require(cell_set.num_cells() == table.num_cells(), "cells are kept");
+    require(cell_set.centers().size() == table.num_cells(), "a cell has a center");
+    const WeightSide side = weight_side(table, cell_set);
+    const std::size_t num_corners = weight_corners(cell_set).size();
     require(side.points.size() == table.num_cells() && side.corners.size() == num_corners &&
                 (num_corners == 0 || num_corners % table.num_cells() == 0),
             "a cell has a center and as many corners as others");

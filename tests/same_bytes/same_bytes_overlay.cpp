@@ -28,7 +28,7 @@
 namespace rondel::test {
 namespace {
 
-std::string hash_of_remap(const Partition& source, const Partition& target, unsigned order,
+std::string hash_of_remap(const CellSet& source, const CellSet& target, unsigned order,
                           unsigned threads) {
   const Remap result = remap(source, target, {.order = order}, {.threads = threads});
   Hash hash;
@@ -84,11 +84,11 @@ std::string hash_of_map(const Triangulation& triangulation, unsigned threads) {
   return hash.text();
 }
 
-Partition cells_of(const SiteSet& set) {
-  return Partition::voronoi(delaunay(set.sites, {.sphere = set.sphere}));
+CellSet cells_of(const SiteSet& set) {
+  return CellSet::voronoi(delaunay(set.sites, {.sphere = set.sphere}));
 }
 
-Partition grid_of(std::size_t num_lon, std::size_t num_lat) {
+CellSet grid_of(std::size_t num_lon, std::size_t num_lat) {
   LonLatGrid grid;
   for (std::size_t k = 0; k <= num_lon; ++k) {
     grid.lon_deg.push_back(360.0 * static_cast<double>(k) / static_cast<double>(num_lon) - 180);
@@ -96,7 +96,7 @@ Partition grid_of(std::size_t num_lon, std::size_t num_lat) {
   for (std::size_t k = 0; k <= num_lat; ++k) {
     grid.lat_deg.push_back(180.0 * static_cast<double>(k) / static_cast<double>(num_lat) - 90);
   }
-  return Partition::lonlat_grid(grid);
+  return CellSet::lonlat_grid(grid);
 }
 
 void add_lines(const std::string& name, const SiteSet& set, std::size_t num_others,
@@ -113,10 +113,10 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
   const bool is_drawn = std::ranges::find(drawn, name) != drawn.end();
   if (is_drawn)
     record("map", [&](unsigned threads) { return hash_of_map(triangulation, threads); });
-  const Partition cells = Partition::voronoi(triangulation);
-  const Partition others = cells_of(generator("uniform").make(num_others, 7));
-  const Partition grid = grid_of(36, 17);
-  const auto record_remaps = [&](const std::string& what, const Partition& a, const Partition& b) {
+  const CellSet cells = CellSet::voronoi(triangulation);
+  const CellSet others = cells_of(generator("uniform").make(num_others, 7));
+  const CellSet grid = grid_of(36, 17);
+  const auto record_remaps = [&](const std::string& what, const CellSet& a, const CellSet& b) {
     for (const unsigned order : {1U, 2U}) {
       record(what + '-' + std::to_string(order),
              [&](unsigned threads) { return hash_of_remap(a, b, order, threads); });
@@ -128,13 +128,13 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
   if (!cells.is_cover()) return;
   record_remaps("of-uniform", others, cells);
   record_remaps("to-itself", cells, cells);
-  const auto half_of = [](const Partition& all) {
+  const auto half_of = [](const CellSet& all) {
     CellRings half = all.rings();
     half.cells.resize(half.num_cells() / 2 + 1);
     half.rings.resize(half.cells.back() + 1);
     half.corners.resize(half.rings.back());
     std::erase_if(half.whole, [&](Index cell) { return cell >= half.num_cells(); });
-    return Partition(half);
+    return CellSet(half);
   };
   record_remaps("parts", half_of(cells), half_of(others));
   record("clip", [&](unsigned threads) {

@@ -12,10 +12,10 @@
 #include <random>
 #include <string>
 
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
-#include "rondel/partition.h"
 #include "rondel/query.h"
 #include "rondel/regions.h"
 
@@ -262,7 +262,7 @@ TEST(feature_cells, may_be_clipped) {
   CellRings around;
   add_square(around, 0, 40);
   add_square(around, 90, 5);
-  const Partition regions(around);
+  const CellSet regions(around);
   FeatureLines lines;
   lines.points = {unit_vector({35, 20})};
   lines.lines = {0, 1};
@@ -272,7 +272,7 @@ TEST(feature_cells, may_be_clipped) {
   const std::vector<double> found = areas(clipped_feature_cells(lines, squares, 0.005, regions));
   EXPECT_NEAR(sum(found), sum(areas(around)), 1e-13);
   EXPECT_GT(found[3], 0.01);
-  const RegionPieces pieces = intersection(Partition(whole), regions);
+  const RegionPieces pieces = intersection(CellSet(whole), regions);
   const std::vector<double> of_pieces = areas(pieces.rings);
   std::vector<double> expected(4);
   for (std::size_t k = 0; k < of_pieces.size(); ++k) expected[pieces.cells[k]] += of_pieces[k];
@@ -426,7 +426,7 @@ TEST(crossing_cells, of_a_diagram_are_none) {
   std::vector<Point> sites;
   RandomPlaces random(6);
   for (int i = 0; i < 2'000; ++i) sites.push_back(random.next());
-  EXPECT_TRUE(crossing_cells(Partition::voronoi(delaunay(sites)).rings()).empty());
+  EXPECT_TRUE(crossing_cells(CellSet::voronoi(delaunay(sites)).rings()).empty());
 }
 
 TEST(feature_cells, of_one_feature_have_no_border) {

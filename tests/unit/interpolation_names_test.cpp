@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/cell_set.h"
 #include "rondel/graphs.h"
 #include "rondel/names.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/query.h"
 #include "rondel/regrid.h"

@@ -213,9 +213,9 @@ TEST_F(CulledFiles, cells_of_every_format_are_those_that_are_left) {
     mesh::write(path("m.nc"), culled, {.format = format});
     const CellTable table = read_cells({path("m.nc"), {}});
     ASSERT_EQ(table.num_cells(), culled.num_cells());
-    const Partition partition = partition_of(table);
+    const CellSet cell_set = partition_of(table);
     for (std::size_t i = 0; i < culled.num_cells(); ++i) {
-      EXPECT_NEAR(partition.areas()[i], culled.cell_areas[i], 1e-12);
+      EXPECT_NEAR(cell_set.areas()[i], culled.cell_areas[i], 1e-12);
     }
   }
   mesh::write(path("m.exo"), culled, {.format = MeshFormat::exodus});

@@ -19,7 +19,7 @@ namespace {
 
 // The largest difference of a piece and its integral.
 double worst_piece(const Triangulation& sites, const LonLatGrid& grid) {
-  const Remap remap = rondel::remap(Partition::voronoi(sites), Partition::lonlat_grid(grid));
+  const Remap remap = rondel::remap(CellSet::voronoi(sites), CellSet::lonlat_grid(grid));
   const Cells all = cells(sites);
   std::vector<LongRing> sources;
   for (std::size_t i = 0; i < sites.num_sites(); ++i) {
@@ -63,7 +63,7 @@ TEST(overlay_grid, pieces_of_cells_in_line_with_the_grid) {
   }
 }
 
-void expect_sums(const Remap& remap, const Partition& source, const Partition& target) {
+void expect_sums(const Remap& remap, const CellSet& source, const CellSet& target) {
   for (std::size_t i = 0; i < source.num_cells(); ++i) {
     const double area = source.areas()[i];
     if (!(area > 0)) continue;
@@ -82,10 +82,10 @@ void expect_sums(const Remap& remap, const Partition& source, const Partition& t
 }
 
 TEST(overlay_grid, sums_of_rows_and_columns) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 3000, 6));
-  const Partition fine = Partition::lonlat_grid(regular_grid(180, 90));
-  const Partition coarse = Partition::lonlat_grid(regular_grid(20, 10, 7));
-  for (const Partition& grid : {fine, coarse}) {
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 3000, 6));
+  const CellSet fine = CellSet::lonlat_grid(regular_grid(180, 90));
+  const CellSet coarse = CellSet::lonlat_grid(regular_grid(20, 10, 7));
+  for (const CellSet& grid : {fine, coarse}) {
     ASSERT_TRUE(grid.is_cover());
     EXPECT_NEAR(
         static_cast<double>(std::accumulate(grid.areas().begin(), grid.areas().end(), 0.0L)),
@@ -101,8 +101,8 @@ TEST(overlay_grid, sums_of_rows_and_columns) {
 
 // What the one side's pieces are does not depend on which is the source.
 TEST(overlay_grid, sides_may_be_exchanged) {
-  const Partition cells = Partition::voronoi(triangulation_of("clustered", 400, 8));
-  const Partition grid = Partition::lonlat_grid(regular_grid(30, 20));
+  const CellSet cells = CellSet::voronoi(triangulation_of("clustered", 400, 8));
+  const CellSet grid = CellSet::lonlat_grid(regular_grid(30, 20));
   const Remap there = remap(cells, grid);
   const Remap back = remap(grid, cells);
   ASSERT_EQ(there.areas.size(), back.areas.size());
@@ -144,8 +144,8 @@ TEST(overlay_grid, linear_fields_with_their_gradients) {
   const auto sites = triangulation_of("uniform", 700, 7);
   const LonLatGrid lines = regular_grid(36, 18, 5);
   const LonLatGrid other_lines = regular_grid(20, 24, -7.5);
-  const auto check = [&](const Partition& source, const std::vector<double>& means,
-                         const Partition& target, const std::vector<double>& expected) {
+  const auto check = [&](const CellSet& source, const std::vector<double>& means,
+                         const CellSet& target, const std::vector<double>& expected) {
     const Remap remap = rondel::remap(source, target, {.order = 2});
     std::vector<double> values(expected.size());
     apply_gradients(remap, means, std::vector<Point>(means.size(), g), values);
@@ -162,18 +162,18 @@ TEST(overlay_grid, linear_fields_with_their_gradients) {
     }
     EXPECT_LT(error, error_of_constant / 5);
   };
-  const Partition voronoi = Partition::voronoi(sites);
-  const Partition grid = Partition::lonlat_grid(lines);
+  const CellSet voronoi = CellSet::voronoi(sites);
+  const CellSet grid = CellSet::lonlat_grid(lines);
   check(voronoi, field(centers_of(sites)), grid, field(box_centers(lines)));
   check(grid, field(box_centers(lines)), voronoi, field(centers_of(sites)));
-  check(grid, field(box_centers(lines)), Partition::lonlat_grid(other_lines),
+  check(grid, field(box_centers(lines)), CellSet::lonlat_grid(other_lines),
         field(box_centers(other_lines)));
 }
 
 TEST(overlay_grid, onto_itself_is_the_identity) {
   for (const LonLatGrid& lines :
        {regular_grid(36, 18), regular_grid(7, 11, 12.3), LonLatGrid{{0.1, 0.2, 0.7}, {3, 2, -1}}}) {
-    const Partition grid = Partition::lonlat_grid(lines);
+    const CellSet grid = CellSet::lonlat_grid(lines);
     for (const unsigned order : {1U, 2U}) {
       const Remap self = remap(grid, grid, {.order = order});
       for (std::size_t j = 0; j < grid.num_cells(); ++j) {
@@ -192,7 +192,7 @@ TEST(overlay_grid, of_the_same_lines_written_differently) {
   LonLatGrid other = regular_grid(10, 6, 0);
   for (double& lon : other.lon_deg) lon += lon == 72 ? 1e-13 : 0;
   std::ranges::reverse(other.lat_deg);
-  const Remap remap = rondel::remap(Partition::lonlat_grid(lines), Partition::lonlat_grid(other));
+  const Remap remap = rondel::remap(CellSet::lonlat_grid(lines), CellSet::lonlat_grid(other));
   for (std::size_t j = 0; j < 60; ++j) {
     ASSERT_EQ(remap.weights.offsets[j + 1] - remap.weights.offsets[j], 1U);
     EXPECT_EQ(remap.weights.columns[j], (5 - j / 10) * 10 + (j % 10 + 5) % 10);
@@ -202,9 +202,9 @@ TEST(overlay_grid, of_the_same_lines_written_differently) {
 
 TEST(overlay_grid, great_circles_are_sides_on_request) {
   const LonLatGrid lines = regular_grid(12, 6);
-  const Partition arcs = Partition::lonlat_grid(lines, GridSides::great_circles);
+  const CellSet arcs = CellSet::lonlat_grid(lines, GridSides::great_circles);
   ASSERT_TRUE(arcs.is_cover());
-  const Partition parallels = Partition::lonlat_grid(lines);
+  const CellSet parallels = CellSet::lonlat_grid(lines);
   // North of the equator an arc is north of its parallel.
   const CellRings rings = arcs.rings();
   for (std::size_t i = 0; i < 72; ++i) {
@@ -216,7 +216,7 @@ TEST(overlay_grid, great_circles_are_sides_on_request) {
     const bool is_smaller = i < 24 || i >= 48;
     EXPECT_EQ(arcs.areas()[i] < parallels.areas()[i], is_smaller) << i;
   }
-  EXPECT_THROW((void)Partition::lonlat_grid(regular_grid(2, 2), GridSides::great_circles),
+  EXPECT_THROW((void)CellSet::lonlat_grid(regular_grid(2, 2), GridSides::great_circles),
                InvalidInput);
   const Remap remap = rondel::remap(arcs, parallels);
   EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0), 4 * std::numbers::pi,
@@ -225,7 +225,7 @@ TEST(overlay_grid, great_circles_are_sides_on_request) {
 
 // Hemispheres whose border is along meridians, with both poles as corners or not.
 TEST(overlay_grid, borders_through_the_poles) {
-  const Partition grid = Partition::lonlat_grid(regular_grid(8, 4));
+  const CellSet grid = CellSet::lonlat_grid(regular_grid(8, 4));
   for (const double lon : {0.0, 45.0, 90.0, 135.0, -45.0, 180.0}) {
     CellRings halves;
     for (const auto& [east, lat] : {std::pair{0.0, 0.0}, {0, 90}, {180, 0}, {0, -90}}) {
@@ -234,7 +234,7 @@ TEST(overlay_grid, borders_through_the_poles) {
     halves.corners = {0, 1, 2, 3, 0, 3, 2, 1};
     halves.rings = {0, 4, 8};
     halves.cells = {0, 1, 2};
-    const Partition cells(halves);
+    const CellSet cells(halves);
     for (const unsigned order : {1U, 2U}) {
       const Remap remap = rondel::remap(cells, grid, {.order = order});
       for (std::size_t j = 0; j < 32; ++j) {
@@ -258,11 +258,11 @@ TEST(overlay_grid, sides_over_the_pole) {
   triangle.corners = {0, 1, 2};
   triangle.rings = {0, 3};
   triangle.cells = {0, 1};
-  const Partition cell(triangle);
+  const CellSet cell(triangle);
   for (const std::size_t num_lon : {1U, 2U, 4U, 12U}) {
     for (const double west : {-180.0, -170.0, 0.0}) {
       const Remap remap =
-          rondel::remap(cell, Partition::lonlat_grid(regular_grid(num_lon, 5, west)), {.order = 2});
+          rondel::remap(cell, CellSet::lonlat_grid(regular_grid(num_lon, 5, west)), {.order = 2});
       EXPECT_NEAR(remap.source_fractions[0], 1, 1e-14) << num_lon << ' ' << west;
     }
   }
@@ -315,10 +315,10 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
     const auto columns = static_cast<std::size_t>(360 / step);
     const std::size_t rows = columns / 2;
     const LonLatGrid grid = regular_grid(columns, rows);
-    const Partition boxes = Partition::lonlat_grid(grid);
+    const CellSet boxes = CellSet::lonlat_grid(grid);
     for (const double noise : {0.0, 1e-16, 2e-16, 1e-15}) {
       SCOPED_TRACE(std::to_string(step) + ' ' + std::to_string(noise));
-      const Partition mesh(cells_of_corners_of(grid, noise, random));
+      const CellSet mesh(cells_of_corners_of(grid, noise, random));
       const bool is_source = random.below(2) == 0;
       const Remap remap = is_source ? rondel::remap(mesh, boxes) : rondel::remap(boxes, mesh);
       std::size_t num_pieces = 0;
@@ -353,9 +353,9 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
 
 TEST(overlay_grid, of_few_cells) {
   for (const std::size_t n : {1U, 2U, 3U, 4U}) {
-    const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 15));
+    const CellSet cells = CellSet::voronoi(triangulation_of("uniform", n, 15));
     for (const std::size_t num_lon : {1U, 2U, 5U}) {
-      const Partition grid = Partition::lonlat_grid(regular_grid(num_lon, 4));
+      const CellSet grid = CellSet::lonlat_grid(regular_grid(num_lon, 4));
       for (const Remap& remap : {rondel::remap(cells, grid), rondel::remap(grid, cells)}) {
         EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0),
                     4 * std::numbers::pi, 1e-13)
@@ -376,10 +376,10 @@ TEST(overlay_grid, meridians_may_decrease) {
     const auto mirrored = [&](std::size_t cell) {
       return cell - cell % columns + columns - 1 - cell % columns;
     };
-    const Partition cells = Partition::voronoi(triangulation_of("uniform", 60, 3));
+    const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 60, 3));
     for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
-      const Partition a = Partition::lonlat_grid(east, sides);
-      const Partition b = Partition::lonlat_grid(west, sides);
+      const CellSet a = CellSet::lonlat_grid(east, sides);
+      const CellSet b = CellSet::lonlat_grid(west, sides);
       EXPECT_EQ(a.is_cover(), b.is_cover());
       const Remap of_a = rondel::remap(cells, a, {.order = 2});
       const Remap of_b = rondel::remap(cells, b, {.order = 2});
@@ -400,7 +400,7 @@ TEST(overlay_grid, meridians_may_decrease) {
 TEST(overlay_grid, names_what_is_wrong) {
   const auto message_of = [](const LonLatGrid& grid) -> std::string {
     try {
-      (void)Partition::lonlat_grid(grid);
+      (void)CellSet::lonlat_grid(grid);
     } catch (const InvalidInput& error) {
       return error.what();
     }
@@ -413,7 +413,7 @@ TEST(overlay_grid, names_what_is_wrong) {
   EXPECT_EQ(message_of({{0, NAN}, {0, 1}}), "meridian 1, nan, is no longitude");
   EXPECT_EQ(message_of({{0, 1}, {0, 91}}), "parallel 1, 91, is no latitude");
   EXPECT_EQ(message_of({{0, 1}, {0, -1, 2}}), "parallel 2, 2, is not in order");
-  const Partition grid = Partition::lonlat_grid(regular_grid(4, 2));
+  const CellSet grid = CellSet::lonlat_grid(regular_grid(4, 2));
   EXPECT_THROW((void)grid.rings(), InvalidInput);
   EXPECT_THROW((void)intersection(grid, grid), InvalidInput);
 }

@@ -35,8 +35,7 @@ void expect_a_cover(const Remap& remap, const std::string& name) {
 }
 
 // The area of the pieces as polygons is that of the cells, and so is that of what is joined of them.
-void expect_whole_polygons(const Partition& cells, const Partition& other,
-                           const std::string& name) {
+void expect_whole_polygons(const CellSet& cells, const CellSet& other, const std::string& name) {
   const RegionPieces pieces = intersection(cells, other);
   const CellRings joined = dissolve(pieces.rings, pieces.cells, cells.num_cells());
   const std::vector<double> of_pieces = areas(pieces.rings);
@@ -52,24 +51,24 @@ void expect_whole_polygons(const Partition& cells, const Partition& other,
 
 class OverlayHostile : public testing::TestWithParam<std::size_t> {};
 
-Partition cells_of(const Generator& generator, std::size_t n, std::uint64_t seed) {
+CellSet cells_of(const Generator& generator, std::size_t n, std::uint64_t seed) {
   const SiteSet set = generator.make(n, seed);
   const Model model = generator.weighted_only ? Model::weighted : Model::projected;
-  return Partition::voronoi(delaunay(set.sites, {.model = model, .sphere = set.sphere}));
+  return CellSet::voronoi(delaunay(set.sites, {.model = model, .sphere = set.sphere}));
 }
 
 TEST_P(OverlayHostile, nothing_is_lost) {
   const Generator& generator = generators()[GetParam()];
   if (generator.has_long_integers && is_shortened()) GTEST_SKIP();
   const std::size_t n = generator.has_long_integers ? 12 : 120;
-  const Partition cells = cells_of(generator, n, 5);
-  const Partition other = cells_of(generator, n + n / 2, 7);
-  const Partition uniform = Partition::voronoi(triangulation_of("uniform", 100, 7));
+  const CellSet cells = cells_of(generator, n, 5);
+  const CellSet other = cells_of(generator, n + n / 2, 7);
+  const CellSet uniform = CellSet::voronoi(triangulation_of("uniform", 100, 7));
   const std::string name(generator.name);
   expect_a_cover(remap(cells, uniform, {.order = 2}), name + " to uniform");
   expect_a_cover(remap(uniform, cells, {.order = 2}), "uniform to " + name);
   for (const std::size_t num_lon : {1U, 4U, 90U}) {
-    const Partition grid = Partition::lonlat_grid(regular_grid(num_lon, num_lon * 3));
+    const CellSet grid = CellSet::lonlat_grid(regular_grid(num_lon, num_lon * 3));
     expect_a_cover(remap(cells, grid, {.order = 2}), name + " to a grid");
     expect_a_cover(remap(grid, cells, {.order = 2}), "grid to " + name);
   }
@@ -102,12 +101,12 @@ CellRings caps(Index num_corners, double even, double odd) {
 
 TEST(overlay_hostile, cells_of_many_corners_are_those_of_clipping) {
   const auto sites = triangulation_of("uniform", 120, 3);
-  const Partition others = Partition::voronoi(sites);
+  const CellSet others = CellSet::voronoi(sites);
   const Cells convex = cells(sites);
   for (const Index num_corners : {10U, 64U, 302U}) {
     for (const auto& [even, odd] : {std::pair{0.2, 0.2}, {0.9, 0.9}, {0.3, 0.7}, {0.1, 0.15}}) {
       const CellRings rings = caps(num_corners, even, odd);
-      const Partition two(rings);
+      const CellSet two(rings);
       const Remap there = rondel::remap(two, others);
       const Remap back = rondel::remap(others, two);
       LongRing cap;
@@ -129,8 +128,8 @@ TEST(overlay_hostile, corners_in_the_middle_of_cells) {
   const std::vector<Point> sites = {{0, 0, 1}, {-3, 0, 0}, {0, 0, -1}, {0, -3, 0}};
   const std::vector<Point> others = {{0, -3, 0}, {-0.1875, 0, 0}, {3, 0, 0},
                                      {0, 0, -3}, {-1, -1, -1},    {0, 0, 1}};
-  const Partition cells = Partition::voronoi(delaunay(sites));
-  const Partition other = Partition::voronoi(delaunay(others));
+  const CellSet cells = CellSet::voronoi(delaunay(sites));
+  const CellSet other = CellSet::voronoi(delaunay(others));
   expect_a_cover(remap(cells, other), "there");
   expect_a_cover(remap(other, cells), "back");
 }
@@ -138,13 +137,13 @@ TEST(overlay_hostile, corners_in_the_middle_of_cells) {
 // As one is turned by less than an ulp and more, pieces appear, but no area does.
 TEST(overlay_hostile, turned_by_little) {
   const SiteSet set = generator("uniform").make(1000, 20);
-  const Partition cells = Partition::voronoi(delaunay(set.sites));
+  const CellSet cells = CellSet::voronoi(delaunay(set.sites));
   for (const double angle : {1e-17, 1e-16, 1e-15, 1e-12, 1e-8}) {
     std::vector<Point> turned;
     for (const Point& p : set.sites) {
       turned.push_back({p.x - angle * p.y, p.y + angle * p.x, p.z});
     }
-    expect_a_cover(remap(cells, Partition::voronoi(delaunay(turned))), std::to_string(angle));
+    expect_a_cover(remap(cells, CellSet::voronoi(delaunay(turned))), std::to_string(angle));
   }
 }
 

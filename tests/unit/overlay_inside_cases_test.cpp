@@ -97,7 +97,7 @@ TEST(overlay_inside, loops_that_balance_are_refused) {
     cells.cells = {0, 1};
     for (const Cover& cover : known_covers(0)) {
       SCOPED_TRACE(cover.name);
-      EXPECT_THROW((void)remap(Partition(cells), cover.cells), InvalidInput);
+      EXPECT_THROW((void)remap(CellSet(cells), cover.cells), InvalidInput);
     }
     // The loops now have a corner where they meet.
     cells.points.push_back({1, 0, 0});
@@ -105,7 +105,7 @@ TEST(overlay_inside, loops_that_balance_are_refused) {
     cells.rings = {0, 6};
     for (const Cover& cover : known_covers(0)) {
       SCOPED_TRACE(cover.name);
-      EXPECT_THROW((void)remap(Partition(cells), cover.cells), InvalidInput);
+      EXPECT_THROW((void)remap(CellSet(cells), cover.cells), InvalidInput);
     }
   }
 }
@@ -114,7 +114,7 @@ TEST(overlay_inside, a_loop_at_a_corner_on_a_side_is_refused) {
   for (const double share : {0.1, 0.5, 0.9}) {
     const Point beyond = {-share, -std::sqrt(1 - share * share), 0};
     const RingOfPoints ring = {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}, beyond, {-1, 0, 0}, {0, 0, -1}};
-    const Partition cell(one_cell_of({ring}));
+    const CellSet cell(one_cell_of({ring}));
     EXPECT_EQ(overlapping_cells(one_cell_of({ring})).size(), 1U);
     for (const Cover& cover : known_covers(1)) {
       EXPECT_THROW((void)remap(cell, cover.cells), InvalidInput) << cover.name;
@@ -127,13 +127,13 @@ TEST(overlay_inside, a_loop_at_a_corner_on_a_side_is_refused) {
 TEST(overlay_inside, sides_that_end_on_a_parallel) {
   for (const double lat : {45.0, -45.0, 60.0}) {
     const LonLatGrid grid = {{-180, -60, 60, 180}, {-90, -60, -45, 0, 45, 60, 90}};
-    const Partition boxes = Partition::lonlat_grid(grid);
+    const CellSet boxes = CellSet::lonlat_grid(grid);
     for (const double lon : {10.0, 40.0, 100.0}) {
       const double sign = lat > 0 ? 1 : -1;
       const RingOfPoints ring = {unit_vector({0, lat}), unit_vector({lon / 2, lat - sign * 60}),
                                  unit_vector({lon, lat - sign * 3})};
       const RegionOracle oracle({ring});
-      const Remap pieces = remap(Partition(one_cell_of({ring})), boxes);
+      const Remap pieces = remap(CellSet(one_cell_of({ring})), boxes);
       for (std::size_t row = 0; row < 6; ++row) {
         for (std::size_t column = 0; column < 3; ++column) {
           const OracleBox box = {grid.lon_deg[column], grid.lat_deg[row], grid.lon_deg[column + 1],
@@ -148,7 +148,7 @@ TEST(overlay_inside, sides_that_end_on_a_parallel) {
 
 // Pieces of a cell that is smaller than what a row of the grid is high.
 TEST(overlay_inside, small_cells_on_a_parallel_keep_their_pieces) {
-  const Partition boxes = Partition::lonlat_grid({{-180, 0, 180}, {-90, 30, 90}});
+  const CellSet boxes = CellSet::lonlat_grid({{-180, 0, 180}, {-90, 30, 90}});
   for (const double size : {1e-2, 1e-5, 1e-8}) {
     const Point p = unit_vector({40, 30});
     const Point east = unit_vector({130, 0});
@@ -158,7 +158,7 @@ TEST(overlay_inside, small_cells_on_a_parallel_keep_their_pieces) {
       ring.push_back(normalized(p + x * size * east + y * size * north));
     }
     const RegionOracle oracle({ring});
-    const Remap pieces = remap(Partition(one_cell_of({ring})), boxes);
+    const Remap pieces = remap(CellSet(one_cell_of({ring})), boxes);
     EXPECT_NEAR(piece_of(pieces, 0, 1), oracle.piece(OracleBox{0, -90, 180, 30}, true).area,
                 1e-14 * size);
     EXPECT_NEAR(piece_of(pieces, 0, 3), oracle.piece(OracleBox{0, 30, 180, 90}, true).area,
@@ -173,7 +173,7 @@ TEST(overlay_inside, sides_that_all_run_to_and_fro_are_refused) {
   RingOfPoints back = ring;
   std::ranges::reverse(back);
   try {
-    (void)Partition(one_cell_of({ring, back}));
+    (void)CellSet(one_cell_of({ring, back}));
     ADD_FAILURE();
   } catch (const InvalidInput& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -181,12 +181,12 @@ TEST(overlay_inside, sides_that_all_run_to_and_fro_are_refused) {
               "which has no rings");
   }
   // What has no width is nothing.
-  EXPECT_EQ(Partition(one_cell_of({{ring[0], ring[1], normalized(Point{1, 1, 0})}})).areas()[0], 0);
+  EXPECT_EQ(CellSet(one_cell_of({{ring[0], ring[1], normalized(Point{1, 1, 0})}})).areas()[0], 0);
 }
 
 // The border of a cell is next to that of a half of the sphere.
 TEST(overlay_inside, rings_within_rounding_of_a_half) {
-  const Partition halves = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}, {0, 0, -1}}));
+  const CellSet halves = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}, {0, 0, -1}}));
   for (const double height : {1e-300, 1e-20, 1e-17, 1e-16, 1e-12, 1e-6, 1e-3, 0.1}) {
     for (const double side : {1.0, -1.0}) {
       RingOfPoints ring;
@@ -197,7 +197,7 @@ TEST(overlay_inside, rings_within_rounding_of_a_half) {
       for (Point& p : ring) p = normalized(p);
       for (const bool is_turned : {false, true}) {
         if (is_turned) std::ranges::reverse(ring);
-        const Partition cell(one_cell_of({ring}));
+        const CellSet cell(one_cell_of({ring}));
         const Remap pieces = remap(cell, halves);
         const double sum = pieces.areas.empty()
                                ? 0
@@ -235,7 +235,7 @@ TEST(overlay_inside, belts_have_their_areas) {
       }
       std::ranges::reverse(north);
       expect_right({south, north}, 2);
-      EXPECT_GT(Partition(one_cell_of({south, north})).areas()[0], 0) << lat << ' ' << width;
+      EXPECT_GT(CellSet(one_cell_of({south, north})).areas()[0], 0) << lat << ' ' << width;
     }
   }
 }

@@ -444,7 +444,7 @@ void expect_arcs(const ShapeInPlane& shape, std::uint64_t seed) {
   }
   if (oracle.excess() > rounding) {
     // Rings that go around nothing twice are refused by whoever lays them over something.
-    EXPECT_THROW((void)remap(Partition(table->cells), known_covers(0)[0].cells), InvalidInput)
+    EXPECT_THROW((void)remap(CellSet(table->cells), known_covers(0)[0].cells), InvalidInput)
         << oracle.excess();
     return;
   }

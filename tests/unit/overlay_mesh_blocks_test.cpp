@@ -51,10 +51,10 @@ void add_blocks(MeshWriter& file) {
 void expect_cube(const CellTable& table) {
   EXPECT_EQ(table.convention, "Exodus");
   ASSERT_EQ(table.num_cells(), 7U);
-  const Partition partition = partition_of(table);
-  EXPECT_TRUE(partition.is_cover());
+  const CellSet cell_set = partition_of(table);
+  EXPECT_TRUE(cell_set.is_cover());
   for (std::size_t i = 0; i < 7; ++i) {
-    EXPECT_NEAR(partition.areas()[i], 4 * std::numbers::pi / (i < 5 ? 6 : 12), 1e-14) << i;
+    EXPECT_NEAR(cell_set.areas()[i], 4 * std::numbers::pi / (i < 5 ? 6 : 12), 1e-14) << i;
   }
 }
 
@@ -130,8 +130,8 @@ TEST(overlay_mesh_blocks, corners_of_all_cells_of_tiles) {
   EXPECT_EQ(of_all.shape, (std::vector<std::uint64_t>{2, 2, 3}));
   ASSERT_EQ(of_all.centers.size(), 12U);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(of_all.centers[i], (LonLat{lon[i], lat[i]}));
-  const Partition one = partition_of(of_all);
-  const Partition other = partition_of(of_each);
+  const CellSet one = partition_of(of_all);
+  const CellSet other = partition_of(of_each);
   ASSERT_EQ(one.num_cells(), 12U);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(one.areas()[i], other.areas()[i]);

@@ -47,9 +47,9 @@ struct MeshOfDiagram {
                          all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1]));
       most = std::max(most, rings.back().size());
     }
-    const Partition partition = Partition::voronoi(triangulation);
-    areas = {partition.areas().begin(), partition.areas().end()};
-    for (const LonLat& center : lonlats(partition.centers())) {
+    const CellSet cell_set = CellSet::voronoi(triangulation);
+    areas = {cell_set.areas().begin(), cell_set.areas().end()};
+    for (const LonLat& center : lonlats(cell_set.centers())) {
       center_lon.push_back(center.lon_deg);
       center_lat.push_back(center.lat_deg);
     }
@@ -101,10 +101,10 @@ void expect_diagram(const CellTable& table, const MeshOfDiagram& mesh, const cha
                     double tolerance = 1e-13) {
   EXPECT_EQ(table.convention, convention);
   ASSERT_EQ(table.num_cells(), num_sites);
-  const Partition partition = partition_of(table);
-  EXPECT_TRUE(partition.is_cover());
+  const CellSet cell_set = partition_of(table);
+  EXPECT_TRUE(cell_set.is_cover());
   for (std::size_t i = 0; i < num_sites; ++i) {
-    EXPECT_NEAR(partition.areas()[i], mesh.areas[i], tolerance);
+    EXPECT_NEAR(cell_set.areas()[i], mesh.areas[i], tolerance);
   }
 }
 
@@ -412,7 +412,7 @@ TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
       corners.push_back({mesh.lon[node] + turn, mesh.lat[node]});
     }
   }
-  const Partition cells(cells_of_corners(corners, mesh.most));
+  const CellSet cells(cells_of_corners(corners, mesh.most));
   EXPECT_TRUE(cells.is_cover());
   ASSERT_EQ(cells.num_cells(), num_sites);
   for (std::size_t i = 0; i < num_sites; ++i) {
@@ -444,19 +444,19 @@ TEST(overlay_mesh_files, given_rings_make_the_same_cells) {
     rings.rings.push_back(rings.corners.size());
     rings.cells.push_back(rings.rings.size() - 1);
   }
-  const Partition cells(rings);
+  const CellSet cells(rings);
   const CellRings given = cells.given_rings();
   ASSERT_EQ(given.corners.size(), rings.corners.size());
   for (std::size_t k = 0; k < rings.corners.size(); ++k) {
     EXPECT_EQ(given.points[given.corners[k]].x, rings.points[rings.corners[k]].x) << k;
   }
-  const Partition again(given);
+  const CellSet again(given);
   const std::span<const double> areas = cells.areas();
   EXPECT_TRUE(std::ranges::equal(again.areas(), areas));
   // The areas depend on where the rings begin.
-  const Partition turned(cells.rings());
+  const CellSet turned(cells.rings());
   EXPECT_FALSE(std::ranges::equal(turned.areas(), areas));
-  EXPECT_THROW((void)Partition::lonlat_grid({{0, 90}, {0, 45}}).given_rings(), InvalidInput);
+  EXPECT_THROW((void)CellSet::lonlat_grid({{0, 90}, {0, 45}}).given_rings(), InvalidInput);
 }
 
 // A curvilinear grid of n x n cells, which is turned against the axes: its centers, and the nodes

@@ -128,7 +128,7 @@ TEST(overlay_overlaps, of_complements) {
 
 // A cover, and a few of its cells once more.
 TEST(overlay_overlaps, of_covers_with_cells_twice) {
-  const CellRings all = Partition::voronoi(triangulation_of("uniform", 300, 5)).rings();
+  const CellRings all = CellSet::voronoi(triangulation_of("uniform", 300, 5)).rings();
   EXPECT_EQ(pairs_of(all), Pairs{});
   CellRings twice = all;
   Pairs expected;
@@ -163,12 +163,12 @@ std::vector<PlaneBox> random_boxes(Random& random) {
   return boxes;
 }
 
-Partition cells_of_boxes(const std::vector<PlaneBox>& boxes) {
+CellSet cells_of_boxes(const std::vector<PlaneBox>& boxes) {
   std::vector<std::vector<std::string>> features;
   for (const auto& [west, south, east, north] : boxes) {
     features.push_back({planar_polygon({planar_box(west, south, east, north)})});
   }
-  return Partition(planar_table(features).cells);
+  return CellSet(planar_table(features).cells);
 }
 
 // What each pair has of the boxes between all lines, each of which counts for the cells that have it by its rule.
@@ -216,8 +216,8 @@ TEST(overlay_overlaps, places_of_several_cells_of_both_sides_are_shared) {
   for (int trial = 0; trial < 8; ++trial) {
     const std::vector<PlaneBox> from = random_boxes(random);
     const std::vector<PlaneBox> to = random_boxes(random);
-    const Partition source = cells_of_boxes(from);
-    const Partition target = cells_of_boxes(to);
+    const CellSet source = cells_of_boxes(from);
+    const CellSet target = cells_of_boxes(to);
     for (const CellOverlap rule : {CellOverlap::share, CellOverlap::first}) {
       const Remap found = remap(source, target, {.overlap = rule});
       const Remap second = remap(source, target, {.order = 2, .overlap = rule});

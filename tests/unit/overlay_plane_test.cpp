@@ -13,8 +13,8 @@
 
 #include "overlay_planar.h"
 #include "overlay_support.h"
+#include "rondel/cell_set.h"
 #include "rondel/error.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
@@ -277,7 +277,7 @@ TEST(overlay_plane, a_comb_has_its_area) {
   const CellRings cells = planar_table({{planar_polygon({comb})}}).cells;
   const double area = area_in_plane(comb);
   EXPECT_NEAR(areas(cells)[0], area, 1e-3 * area);
-  EXPECT_NEAR(Partition(cells).areas()[0], area, 1e-3 * area);
+  EXPECT_NEAR(CellSet(cells).areas()[0], area, 1e-3 * area);
   EXPECT_TRUE(crossing_cells(cells).empty());
 }
 

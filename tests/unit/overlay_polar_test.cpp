@@ -13,8 +13,8 @@
 
 #include "overlay_oracle.h"
 #include "overlay_support.h"
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
-#include "rondel/partition.h"
 #include "rondel/predicates.h"
 #include "rondel/remap.h"
 #include "support/random.h"
@@ -68,7 +68,7 @@ TEST(overlay_polar, areas_of_thin_rows_are_right_to_some_units) {
       const double south = random.uniform(-89, 88);
       grid.lat_deg = {south, south + random.power(-10, 0)};
     }
-    const Partition cells = Partition::lonlat_grid(grid);
+    const CellSet cells = CellSet::lonlat_grid(grid);
     for (std::size_t j = 0; j + 1 < grid.lat_deg.size(); ++j) {
       for (std::size_t i = 0; i < 2; ++i) {
         const auto area = static_cast<double>(
@@ -78,7 +78,7 @@ TEST(overlay_polar, areas_of_thin_rows_are_right_to_some_units) {
     }
   }
   // Of 2 pi (1 - sin(lat)).
-  const Partition cap = Partition::lonlat_grid({{-180, 180}, {90 - 1e-4, 90}});
+  const CellSet cap = CellSet::lonlat_grid({{-180, 180}, {90 - 1e-4, 90}});
   const auto area = static_cast<double>(2 * wide_pi() * (1 - sin(wide_radians(90 - 1e-4))));
   EXPECT_NEAR(cap.areas()[0], area, 4 * half_ulp * area);
 }
@@ -93,7 +93,7 @@ TEST(overlay_polar, pieces_of_two_grids_are_right_to_some_units) {
       for (double& lat : to.lat_deg) lat = -lat;
       std::ranges::reverse(to.lat_deg);
     }
-    const Remap remap = rondel::remap(Partition::lonlat_grid(from), Partition::lonlat_grid(to));
+    const Remap remap = rondel::remap(CellSet::lonlat_grid(from), CellSet::lonlat_grid(to));
     for (std::size_t t = 0; t < 4; ++t) {
       for (std::size_t s = 0; s < 4; ++s) {
         const double west = std::max(from.lon_deg[s % 2], to.lon_deg[t % 2]);
@@ -206,7 +206,7 @@ TEST(overlay_polar, pieces_of_triangles_are_right_to_rounding_of_their_place) {
     cells.corners = {0, 1, 2};
     cells.rings = {0, 3};
     cells.cells = {0, 1};
-    const Remap remap = rondel::remap(Partition(cells), Partition::lonlat_grid(grid));
+    const Remap remap = rondel::remap(CellSet(cells), CellSet::lonlat_grid(grid));
     for (std::size_t row = 0; row + 1 < grid.lat_deg.size(); ++row) {
       const double south = grid.lat_deg[row];
       const double north = grid.lat_deg[row + 1];
@@ -221,8 +221,8 @@ TEST(overlay_polar, pieces_of_triangles_are_right_to_rounding_of_their_place) {
 
 // A row that is thinner than rounding of the sine of its latitude is covered by what covers it, and by nothing else.
 TEST(overlay_polar, fractions_of_rows_at_a_pole) {
-  const Partition grid = Partition::lonlat_grid({{-180, 180}, {-90, 0, 90 - 2e-7, 90 - 1e-7, 90}});
-  const Partition half = Partition::lonlat_grid({{-180, 0}, {-90, 90}}, GridSides::parallels);
+  const CellSet grid = CellSet::lonlat_grid({{-180, 180}, {-90, 0, 90 - 2e-7, 90 - 1e-7, 90}});
+  const CellSet half = CellSet::lonlat_grid({{-180, 0}, {-90, 90}}, GridSides::parallels);
   const Remap of_half = remap(half, grid);
   for (std::size_t row = 0; row < 4; ++row) EXPECT_NEAR(of_half.target_fractions[row], 0.5, 4e-16);
   CellRings octant;
@@ -230,7 +230,7 @@ TEST(overlay_polar, fractions_of_rows_at_a_pole) {
   octant.corners = {0, 1, 2};
   octant.rings = {0, 3};
   octant.cells = {0, 1};
-  const Remap of_octant = remap(Partition(octant), grid);
+  const Remap of_octant = remap(CellSet(octant), grid);
   EXPECT_EQ(of_octant.target_fractions[0], 0);
   for (std::size_t row = 1; row < 4; ++row) {
     EXPECT_NEAR(of_octant.target_fractions[row], 0.25, 1e-15);

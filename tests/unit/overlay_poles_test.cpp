@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "rondel/cell_set.h"
 #include "rondel/error.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
@@ -96,8 +96,8 @@ TEST(overlay_poles, overlapping_polygons_with_a_corner_at_a_pole_have_the_areas_
       EXPECT_NEAR(found[i], wanted[i], 2e-3 * own) << text;
     }
     // The cells are sound: none crosses itself.
-    EXPECT_NO_THROW((void)Partition(table.cells).areas()) << text;
-    EXPECT_NO_THROW((void)intersection(Partition(table.cells), Partition(table.cells))) << text;
+    EXPECT_NO_THROW((void)CellSet(table.cells).areas()) << text;
+    EXPECT_NO_THROW((void)intersection(CellSet(table.cells), CellSet(table.cells))) << text;
   }
 }
 

@@ -312,9 +312,9 @@ TEST(overlay_polygons, neighbors_share_corners_everywhere) {
 }
 
 TEST(overlay_polygons, cells_are_clipped_to_them) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 2));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 500, 2));
   const PolygonTable table = table_of(polygon(ring_of_box(150, -60, 200, 70)));
-  const CellRings clipped = clip(cells, Partition(table.cells));
+  const CellRings clipped = clip(cells, CellSet(table.cells));
   double sum = 0;
   for (const double area : areas(clipped)) sum += area;
   EXPECT_NEAR(sum, areas(table.cells)[0], 1e-13);

@@ -58,7 +58,7 @@ void expect_simple_rings(const CellRings& cells) {
 
 // Regions with holes and of many parts, some of the sphere in none.
 CellRings random_regions(std::size_t n, Index num_groups, std::uint64_t seed) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", n, seed));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", n, seed));
   return dissolve(cells.rings(), random_groups(n, num_groups, seed, true), num_groups);
 }
 
@@ -71,8 +71,8 @@ double sum(std::span<const double> values) {
 }
 
 TEST(overlay_regions, pieces_have_the_areas_of_the_overlay) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 900, 1));
-  const Partition regions(random_regions(400, 3, 2));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 900, 1));
+  const CellSet regions(random_regions(400, 3, 2));
   const RegionPieces pieces = intersection(cells, regions);
   const std::vector<double> found = areas(pieces.rings);
   const Remap remap = rondel::remap(cells, regions);
@@ -84,16 +84,16 @@ TEST(overlay_regions, pieces_have_the_areas_of_the_overlay) {
 }
 
 TEST(overlay_regions, pieces_of_covers_leave_no_gap) {
-  const Partition cells = Partition::voronoi(triangulation_of("clustered", 2000, 3));
-  const Partition others = Partition::voronoi(triangulation_of("uniform", 500, 4));
+  const CellSet cells = CellSet::voronoi(triangulation_of("clustered", 2000, 3));
+  const CellSet others = CellSet::voronoi(triangulation_of("uniform", 500, 4));
   const RegionPieces pieces = intersection(cells, others);
   EXPECT_TRUE(is_closed(pieces.rings));
   EXPECT_NEAR(sum(areas(pieces.rings)), 4 * std::numbers::pi, 1e-13);
 }
 
 TEST(overlay_regions, what_is_joined_again_is_what_was_cut) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 700, 5));
-  const Partition others = Partition::voronoi(triangulation_of("uniform", 300, 6));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 700, 5));
+  const CellSet others = CellSet::voronoi(triangulation_of("uniform", 300, 6));
   const CellRings whole = clip(cells, others);
   const std::vector<double> found = areas(whole);
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -109,8 +109,8 @@ TEST(overlay_regions, what_is_joined_again_is_what_was_cut) {
 
 // By group of cells and group of regions: against the sums of the pieces' areas.
 TEST(overlay_regions, pieces_are_joined_by_both_groups) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 15));
-  const Partition regions = Partition::voronoi(triangulation_of("uniform", 60, 16));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 500, 15));
+  const CellSet regions = CellSet::voronoi(triangulation_of("uniform", 60, 16));
   const RegionPieces pieces = intersection(cells, regions);
   const auto group = [](Index i, Index num_groups) {
     return i % (num_groups + 1) == num_groups ? no_index : i % num_groups;
@@ -145,20 +145,20 @@ TEST(overlay_regions, pieces_are_joined_by_both_groups) {
 }
 
 TEST(overlay_regions, clipped_cells_have_the_area_of_the_regions) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 3000, 7));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 3000, 7));
   const CellRings regions = random_regions(500, 4, 8);
-  const CellRings clipped = clip(cells, Partition(regions));
+  const CellRings clipped = clip(cells, CellSet(regions));
   EXPECT_NEAR(sum(areas(clipped)), sum(areas(regions)), 1e-13);
   expect_simple_rings(clipped);
   // Both ways around.
-  const CellRings exchanged = clip(Partition(regions), cells);
+  const CellRings exchanged = clip(CellSet(regions), cells);
   const auto expected = areas(regions);
   const auto found = areas(exchanged);
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-13);
 }
 
-TEST(overlay_regions, a_partition_clipped_to_itself_is_itself) {
-  const Partition cells = Partition::voronoi(triangulation_of("globe_grid", 600, 9));
+TEST(overlay_regions, cells_clipped_to_themselves_are_themselves) {
+  const CellSet cells = CellSet::voronoi(triangulation_of("globe_grid", 600, 9));
   const CellRings same = clip(cells, cells);
   EXPECT_TRUE(is_closed(same));
   const CellRings rings = cells.rings();
@@ -176,7 +176,7 @@ TEST(overlay_regions, a_partition_clipped_to_itself_is_itself) {
 }
 
 TEST(overlay_regions, dissolved_cells_share_their_borders) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 5000, 10));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 5000, 10));
   const std::vector<Index> groups = random_groups(cells.num_cells(), 5, 11);
   const CellRings joined = dissolve(cells.rings(), groups, 5);
   EXPECT_TRUE(is_closed(joined));
@@ -188,7 +188,7 @@ TEST(overlay_regions, dissolved_cells_share_their_borders) {
 }
 
 TEST(overlay_regions, of_everything_nothing_is_left) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 100, 12));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 100, 12));
   const CellRings all = dissolve(cells.rings(), std::vector<Index>(100, 0), 1);
   EXPECT_EQ(all.cells, (std::vector<std::uint64_t>{0, 0}));  // no border is left
   const CellRings none = dissolve(cells.rings(), std::vector<Index>(100, no_index), 1);
@@ -197,8 +197,8 @@ TEST(overlay_regions, of_everything_nothing_is_left) {
 
 TEST(overlay_regions, threads_and_orders_make_no_difference) {
   const auto triangulation = triangulation_of("uniform", 3000, 13);
-  const Partition cells = Partition::voronoi(triangulation);
-  const Partition regions(random_regions(300, 2, 14));
+  const CellSet cells = CellSet::voronoi(triangulation);
+  const CellSet regions(random_regions(300, 2, 14));
   const CellRings one = clip(cells, regions, {.threads = 1});
   const CellRings four = clip(cells, regions, {.threads = 4});
   EXPECT_EQ(one.corners, four.corners);
@@ -206,15 +206,15 @@ TEST(overlay_regions, threads_and_orders_make_no_difference) {
 }
 
 TEST(overlay_regions, one_site_has_all_of_the_regions) {
-  const Partition cell = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
+  const CellSet cell = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
   const CellRings regions = random_regions(50, 2, 15);
-  const CellRings clipped = clip(cell, Partition(regions));
+  const CellRings clipped = clip(cell, CellSet(regions));
   EXPECT_NEAR(areas(clipped)[0], sum(areas(regions)), 1e-13);
 }
 
 // Neither covers the sphere: pieces are those of a cover's cells, with as many corners.
 TEST(overlay_regions, parts_of_the_sphere) {
-  const CellRings all = Partition::voronoi(triangulation_of("uniform", 900, 17)).rings();
+  const CellRings all = CellSet::voronoi(triangulation_of("uniform", 900, 17)).rings();
   const CellRings of_regions = random_regions(400, 3, 18);
   std::vector<Index> names(all.num_cells(), no_index);
   Index num_names = 0;
@@ -222,10 +222,10 @@ TEST(overlay_regions, parts_of_the_sphere) {
     if (i % 3 != 0) names[i] = num_names++;
   }
   const CellRings some = dissolve(all, names, num_names);
-  const Partition cells(some);
-  const Partition regions(of_regions);
+  const CellSet cells(some);
+  const CellSet regions(of_regions);
   ASSERT_FALSE(cells.is_cover() || regions.is_cover());
-  const RegionPieces expected = intersection(Partition(all), regions);
+  const RegionPieces expected = intersection(CellSet(all), regions);
   const std::vector<double> known = areas(expected.rings);
   for (const bool is_back : {false, true}) {
     const RegionPieces found =
@@ -266,44 +266,43 @@ TEST(overlay_regions, of_parts_that_overlap) {
     }
     return cells;
   };
-  const Partition twice(boxes({{0, 0, 20, 20}, {10, 10, 30, 30}}));
-  const Partition plain(boxes({{8, 8, 12, 12}, {20, 20, 25, 25}, {12, 8, 19, 12}}));
+  const CellSet twice(boxes({{0, 0, 20, 20}, {10, 10, 30, 30}}));
+  const CellSet plain(boxes({{8, 8, 12, 12}, {20, 20, 25, 25}, {12, 8, 19, 12}}));
   for (const auto& [cells, regions] : {std::pair(twice, plain), std::pair(plain, twice)}) {
     const RegionPieces pieces = intersection(cells, regions);
     const std::vector<double> found = areas(pieces.rings);
     for (std::size_t k = 0; k < found.size(); ++k) {
-      const auto alone = [](const Partition& all, Index i) {
+      const auto alone = [](const CellSet& all, Index i) {
         std::vector<Index> groups(all.num_cells(), no_index);
         groups[i] = 0;
-        return Partition(dissolve(all.rings(), groups, 1));
+        return CellSet(dissolve(all.rings(), groups, 1));
       };
       const Remap piece = remap(alone(cells, pieces.cells[k]), alone(regions, pieces.regions[k]));
       EXPECT_NEAR(found[k], piece_of(piece, 0, 0), 1e-15);
     }
   }
   // What is in any of them, once.
-  const CellRings outline = clip(Partition(boxes({{-5, -5, 40, 40}})), twice);
+  const CellRings outline = clip(CellSet(boxes({{-5, -5, 40, 40}})), twice);
   expect_simple_rings(outline);
   EXPECT_EQ(outline.corners.size(), 8U);
-  const double shared =
-      areas(intersection(Partition(boxes({{0, 0, 20, 20}})), Partition(boxes({{10, 10, 30, 30}})))
-                .rings)[0];
+  const double shared = areas(
+      intersection(CellSet(boxes({{0, 0, 20, 20}})), CellSet(boxes({{10, 10, 30, 30}}))).rings)[0];
   EXPECT_NEAR(areas(outline)[0], sum(twice.areas()) - shared, 1e-15);
-  const Partition crossed(boxes({{0, 0, 10, 10}, {5, -5, 8, 20}, {2, 3, 5, 9}, {-3, 4, 20, 6}}));
-  const CellRings cross = clip(Partition::voronoi(triangulation_of("uniform", 9, 3)), crossed);
+  const CellSet crossed(boxes({{0, 0, 10, 10}, {5, -5, 8, 20}, {2, 3, 5, 9}, {-3, 4, 20, 6}}));
+  const CellRings cross = clip(CellSet::voronoi(triangulation_of("uniform", 9, 3)), crossed);
   expect_simple_rings(cross);
-  const Remap places = remap(crossed, Partition::voronoi(triangulation_of("uniform", 9, 3)),
+  const Remap places = remap(crossed, CellSet::voronoi(triangulation_of("uniform", 9, 3)),
                              {.overlap = CellOverlap::first});
   EXPECT_NEAR(sum(areas(cross)), sum(places.areas), 1e-14);
-  const Partition around(boxes({{-40, -30, 50, 40}}));
+  const CellSet around(boxes({{-40, -30, 50, 40}}));
   const CellRings same = clip(plain, around);
   EXPECT_EQ(same.corners.size(), 12U);
   EXPECT_NEAR(sum(areas(same)), sum(plain.areas()), 1e-15);
-  EXPECT_TRUE(clip(plain, Partition(boxes({{100, 0, 120, 20}}))).corners.empty());
+  EXPECT_TRUE(clip(plain, CellSet(boxes({{100, 0, 120, 20}}))).corners.empty());
 }
 
 TEST(overlay_regions, bad_groups_are_refused) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 10, 16));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 10, 16));
   const CellRings rings = cells.rings();
   EXPECT_THROW(dissolve(rings, std::vector<Index>(9, 0), 1), InvalidInput);
   std::vector<Index> groups(10, 0);

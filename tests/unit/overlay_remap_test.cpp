@@ -19,8 +19,8 @@
 namespace rondel::test {
 namespace {
 
-Partition voronoi_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
-  return Partition::voronoi(triangulation_of(kind, n, seed));
+CellSet voronoi_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
+  return CellSet::voronoi(triangulation_of(kind, n, seed));
 }
 
 // The cell of the sphere's octant with the corners x, y, z, as three others would cut it.
@@ -44,7 +44,7 @@ CellRings octants() {
 TEST(overlay_remap, pieces_are_those_of_clipping) {
   const auto first = triangulation_of("uniform", 150, 1);
   const auto second = triangulation_of("uniform", 200, 2);
-  const Remap remap = rondel::remap(Partition::voronoi(first), Partition::voronoi(second));
+  const Remap remap = rondel::remap(CellSet::voronoi(first), CellSet::voronoi(second));
   const Cells sources = cells(first);
   const Cells targets = cells(second);
   for (std::size_t i = 0; i < 150; ++i) {
@@ -56,10 +56,10 @@ TEST(overlay_remap, pieces_are_those_of_clipping) {
 }
 
 TEST(overlay_remap, of_octants_is_known) {
-  const Partition source(octants());
+  const CellSet source(octants());
   ASSERT_TRUE(source.is_cover());
   for (const double area : source.areas()) EXPECT_NEAR(area, std::numbers::pi / 2, 4 * ulp);
-  const Partition target = Partition::voronoi(delaunay(octants().points));
+  const CellSet target = CellSet::voronoi(delaunay(octants().points));
   const Remap remap = rondel::remap(source, target);
   ASSERT_EQ(remap.weights.num_rows(), 6U);
   // The cells of the axes are cut into four parts each.
@@ -70,8 +70,8 @@ TEST(overlay_remap, of_octants_is_known) {
 }
 
 TEST(overlay_remap, sums_of_rows_and_columns) {
-  const Partition source = voronoi_of("uniform", 3000, 3);
-  const Partition target = voronoi_of("clustered", 2000, 4);
+  const CellSet source = voronoi_of("uniform", 3000, 3);
+  const CellSet target = voronoi_of("clustered", 2000, 4);
   const Remap remap = rondel::remap(source, target);
   std::vector<double> columns(source.num_cells());
   std::vector<double> areas(target.num_cells());
@@ -96,7 +96,7 @@ TEST(overlay_remap, sums_of_rows_and_columns) {
 
 // A sum of thousands of pieces is off by its last rounding alone.
 TEST(overlay_remap, areas_of_cells_of_many_pieces) {
-  const Partition source = Partition::voronoi(delaunay(octants().points));
+  const CellSet source = CellSet::voronoi(delaunay(octants().points));
   const Remap remap = rondel::remap(source, voronoi_of("uniform", 20'000, 5));
   std::vector<long double> sums(source.num_cells());
   std::vector<std::size_t> counts(source.num_cells());
@@ -118,11 +118,11 @@ TEST(overlay_remap, sums_of_rows_of_tiny_cells) {
     for (std::size_t i = 0; i < 300; ++i) {
       sites.push_back({1, width * (random.unit() - 0.5), width * (random.unit() - 0.5)});
     }
-    return Partition::voronoi(delaunay(sites));
+    return CellSet::voronoi(delaunay(sites));
   };
   for (const double width : {1e-2, 1e-5, 1e-7, 1e-9, 1e-11}) {
-    const Partition source = patch(width, 3);
-    const Partition target = patch(width, 4);
+    const CellSet source = patch(width, 3);
+    const CellSet target = patch(width, 4);
     const Remap remap = rondel::remap(source, target);
     for (std::size_t j = 0; j < target.num_cells(); ++j) {
       double sum = 0;
@@ -134,13 +134,13 @@ TEST(overlay_remap, sums_of_rows_of_tiny_cells) {
 
 // A cell of which something is missing keeps its area.
 TEST(overlay_remap, what_is_missing_is_no_rounding) {
-  const Partition source = voronoi_of("uniform", 300, 17);
+  const CellSet source = voronoi_of("uniform", 300, 17);
   CellRings half = source.rings();
   half.cells.resize(half.num_cells() / 2 + 1);
   half.rings.resize(half.cells.back() + 1);
   half.corners.resize(half.rings.back());
-  const Partition target = voronoi_of("uniform", 200, 18);
-  const Remap remap = rondel::remap(Partition(half), target);
+  const CellSet target = voronoi_of("uniform", 200, 18);
+  const Remap remap = rondel::remap(CellSet(half), target);
   std::size_t num_partial = 0;
   for (std::size_t j = 0; j < target.num_cells(); ++j) {
     if (remap.target_fractions[j] == 1) continue;
@@ -151,8 +151,8 @@ TEST(overlay_remap, what_is_missing_is_no_rounding) {
 }
 
 TEST(overlay_remap, keeps_integrals_of_any_field) {
-  const Partition source = voronoi_of("uniform", 2000, 5);
-  const Partition target = voronoi_of("uniform", 500, 6);
+  const CellSet source = voronoi_of("uniform", 2000, 5);
+  const CellSet target = voronoi_of("uniform", 500, 6);
   std::mt19937_64 random(1);
   std::vector<double> field(source.num_cells());
   for (double& f : field) f = std::uniform_real_distribution(-1.0, 1.0)(random);
@@ -179,8 +179,8 @@ TEST(overlay_remap, keeps_integrals_of_any_field) {
 // Means of a linear field over cells are its values at their centers of mass.
 TEST(overlay_remap, linear_fields_with_their_gradients) {
   const auto first = triangulation_of("uniform", 700, 7);
-  const Partition source = Partition::voronoi(first);
-  const Partition target = voronoi_of("uniform", 900, 8);
+  const CellSet source = CellSet::voronoi(first);
+  const CellSet target = voronoi_of("uniform", 900, 8);
   const Remap remap = rondel::remap(source, target, {.order = 2});
   const Point g{0.3, -1.7, 0.9};
   const auto means_of = [&](const Triangulation& t) {
@@ -212,7 +212,7 @@ TEST(overlay_remap, linear_fields_with_their_gradients) {
 
 TEST(overlay_remap, onto_itself_is_the_identity) {
   for (const char* kind : {"uniform", "s_n", "globe_grid", "platonic_solid"}) {
-    const Partition cells = voronoi_of(kind, 500, 9);
+    const CellSet cells = voronoi_of(kind, 500, 9);
     for (const unsigned order : {1U, 2U}) {
       const Remap remap = rondel::remap(cells, cells, {.order = order});
       for (std::size_t j = 0; j < cells.num_cells(); ++j) {
@@ -227,19 +227,19 @@ TEST(overlay_remap, onto_itself_is_the_identity) {
 
 TEST(overlay_remap, threads_and_order_of_sites_change_nothing) {
   const SiteSet set = generator("uniform").make(4000, 10);
-  const Partition target = voronoi_of("uniform", 3000, 11);
+  const CellSet target = voronoi_of("uniform", 3000, 11);
   const Remap one =
-      rondel::remap(Partition::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 1});
+      rondel::remap(CellSet::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 1});
   const Remap many =
-      rondel::remap(Partition::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 4});
+      rondel::remap(CellSet::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 4});
   EXPECT_EQ(one.weights, many.weights);
   std::vector<Index> order(set.sites.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::shuffle(order, std::mt19937_64(2));
   std::vector<Point> shuffled;
   for (const Index i : order) shuffled.push_back(set.sites[i]);
-  const Remap other = rondel::remap(Partition::voronoi(delaunay(shuffled)), target);
-  const Remap same = rondel::remap(Partition::voronoi(delaunay(set.sites)), target);
+  const Remap other = rondel::remap(CellSet::voronoi(delaunay(shuffled)), target);
+  const Remap same = rondel::remap(CellSet::voronoi(delaunay(set.sites)), target);
   for (std::size_t j = 0; j < target.num_cells(); ++j) {
     for (auto k = other.offsets[j]; k < other.offsets[j + 1]; ++k) {
       EXPECT_EQ(other.areas[k], piece_of(same, order[other.columns[k]], j));
@@ -257,9 +257,9 @@ TEST(overlay_remap, parts_of_the_sphere) {
     half.rings.push_back(half.corners.size());
     half.cells.push_back(half.rings.size() - 1);
   }
-  const Partition part(half);
+  const CellSet part(half);
   EXPECT_FALSE(part.is_cover());
-  const Partition whole = voronoi_of("uniform", 300, 13);
+  const CellSet whole = voronoi_of("uniform", 300, 13);
   const Remap to_whole = rondel::remap(part, whole);
   const double area = std::accumulate(part.areas().begin(), part.areas().end(), 0.0);
   EXPECT_NEAR(std::accumulate(to_whole.areas.begin(), to_whole.areas.end(), 0.0), area, 1e-13);
@@ -302,19 +302,19 @@ TEST(overlay_remap, cells_with_holes) {
   circle(50, 30, true, rings);
   circle(70, 20, false, rings);
   rings.cells.push_back(3);
-  const Partition ring(rings);
+  const CellSet ring(rings);
   CellRings parts = rings;
   parts.cells = {0, 1, 2, 3};  // without its holes, the hole as a cell turned around, the island
   std::reverse(parts.corners.begin() + 40, parts.corners.begin() + 70);
-  const Partition part(parts);
+  const CellSet part(parts);
   const auto alone = [&](Index i) {
     std::vector<Index> groups(3, no_index);
     groups[i] = 0;
-    return Partition(dissolve(parts, groups, 1));
+    return CellSet(dissolve(parts, groups, 1));
   };
   EXPECT_NEAR(ring.areas()[0], part.areas()[0] - part.areas()[1] + part.areas()[2], 1e-14);
   for (const std::size_t n : {3U, 50U, 5000U}) {
-    const Partition cells = voronoi_of("uniform", n, 14);
+    const CellSet cells = voronoi_of("uniform", n, 14);
     const Remap of_ring = rondel::remap(ring, cells);
     EXPECT_THROW((void)rondel::remap(part, cells), InvalidInput);
     const Remap outer = rondel::remap(alone(0), cells);
@@ -333,8 +333,8 @@ TEST(overlay_remap, cells_with_holes) {
 TEST(overlay_remap, few_cells) {
   for (const std::size_t n : {1U, 2U, 3U, 4U}) {
     for (const std::size_t m : {1U, 2U, 3U, 4U, 40U}) {
-      const Partition source = voronoi_of("uniform", n, 15);
-      const Partition target = voronoi_of("uniform", m, 16);
+      const CellSet source = voronoi_of("uniform", n, 15);
+      const CellSet target = voronoi_of("uniform", m, 16);
       for (const unsigned order : {1U, 2U}) {
         const Remap remap = rondel::remap(source, target, {.order = order});
         EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0),
@@ -346,8 +346,8 @@ TEST(overlay_remap, few_cells) {
 }
 
 TEST(overlay_remap, masked_cells_take_no_part) {
-  const Partition source = voronoi_of("uniform", 300, 17);
-  const Partition target = voronoi_of("uniform", 200, 18);
+  const CellSet source = voronoi_of("uniform", 300, 17);
+  const CellSet target = voronoi_of("uniform", 200, 18);
   const Remap all = rondel::remap(source, target);
   RemapOptions options;
   for (std::size_t i = 0; i < 300; ++i) options.source_mask.push_back(i % 3 == 0 ? 0 : 1);
@@ -376,7 +376,7 @@ TEST(overlay_remap, masked_cells_take_no_part) {
 TEST(overlay_remap, names_what_is_wrong) {
   const auto message_of = [](const CellRings& cells) -> std::string {
     try {
-      const Partition partition(cells);
+      const CellSet cell_set(cells);
     } catch (const InvalidInput& error) {
       return error.what();
     }
@@ -394,7 +394,7 @@ TEST(overlay_remap, names_what_is_wrong) {
   rings = octants();
   rings.cells.back() = 9;
   EXPECT_EQ(message_of(rings), "the offsets of cells and rings do not fit");
-  const Partition source(octants());
+  const CellSet source(octants());
   EXPECT_THROW((void)remap(source, source, {.order = 3}), InvalidInput);
   std::vector<double> out(8);
   EXPECT_THROW(apply_gradients(remap(source, source), out, std::vector<Point>(8), out),
@@ -417,8 +417,8 @@ TEST(overlay_remap, gradients_of_strips_go_along_them) {
       for (int k = 0; k <= 36; ++k) fine.lon_deg.push_back(k * step / 3);
       for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
         if (south + step > 85 && sides == GridSides::great_circles) continue;
-        const Remap there = remap(Partition::lonlat_grid(coarse, sides),
-                                  Partition::lonlat_grid(fine, sides), {.order = 2});
+        const Remap there = remap(CellSet::lonlat_grid(coarse, sides),
+                                  CellSet::lonlat_grid(fine, sides), {.order = 2});
         EXPECT_LT(largest_weight(there), 1.5) << step << ' ' << south;
         // A strip around a pole is no line, and wide cells with other sides stick out of it.
         if (south < -85 || step > 1) continue;
@@ -435,10 +435,10 @@ TEST(overlay_remap, gradients_of_strips_go_along_them) {
 }
 
 TEST(overlay_remap, masks_make_no_gradients_large) {
-  const Partition fine = Partition::voronoi(triangulation_of("uniform", 900, 3));
+  const CellSet fine = CellSet::voronoi(triangulation_of("uniform", 900, 3));
   Random random(12);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Partition cells = Partition::voronoi(triangulation_of("uniform", 200, seed));
+    const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 200, seed));
     std::vector<std::int32_t> mask(cells.num_cells());
     for (std::int32_t& part : mask) part = random.below(10) < 2 + seed % 6 ? 0 : 1;
     EXPECT_LT(largest_weight(remap(cells, fine, {.order = 2, .source_mask = mask})), 8) << seed;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The parts that tests of the overlay share: partitions, and areas of pieces by clipping one cell
+// The parts that tests of the overlay share: sets of cells, and areas of pieces by clipping one cell
 // by another.
 #pragma once
 
@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
-#include "rondel/partition.h"
 #include "rondel/remap.h"
 #include "support/generators.h"
 #include "support/random.h"
@@ -85,7 +85,7 @@ inline LongRing ring_of(const Cells& cells, std::size_t i) {
   return ring;
 }
 
-// The mean of x over the cells of a convex partition.
+// The mean of x over convex cells.
 inline std::vector<LongVector> centers_of(const Triangulation& sites) {
   const Cells all = cells(sites);
   std::vector<LongVector> centers;

@@ -117,7 +117,7 @@ class ThinTriangles {
 void expect_parts(const RingInPlane& ring, const LonLatGrid& grid) {
   const CellRings cells = planar_table({{planar_polygon({ring})}}).cells;
   const double area = areas(cells)[0];
-  const Remap remap = rondel::remap(Partition(cells), Partition::lonlat_grid(grid));
+  const Remap remap = rondel::remap(CellSet(cells), CellSet::lonlat_grid(grid));
   std::vector<double> found(grid.lon_deg.size() * grid.lat_deg.size());
   for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
     for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) found[j] += remap.areas[k];
@@ -173,8 +173,8 @@ TEST(overlay_thin, a_sliver_between_neighbors_is_a_cell_like_others) {
       planar_table({{planar_polygon({west})}, {planar_polygon({east})}, {planar_polygon({sliver})}})
           .cells;
   for (const LonLatGrid& grid : few_cells()) {
-    const Partition boxes = Partition::lonlat_grid(grid);
-    const Remap remap = rondel::remap(boxes, Partition(cells));
+    const CellSet boxes = CellSet::lonlat_grid(grid);
+    const Remap remap = rondel::remap(boxes, CellSet(cells));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(remap.target_fractions[j], 1, 0.02) << j;
   }
 }

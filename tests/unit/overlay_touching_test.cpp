@@ -25,7 +25,7 @@ double sum_of(const std::vector<double>& values) {
 }
 
 // Of the pieces of each cell in all of a cover, by four ways.
-void expect_nothing_lost(const Partition& cells, const Partition& cover, double tolerance,
+void expect_nothing_lost(const CellSet& cells, const CellSet& cover, double tolerance,
                          const std::string& name) {
   const double total = std::accumulate(cells.areas().begin(), cells.areas().end(), 0.0);
   const Remap to = remap(cover, cells);
@@ -63,7 +63,7 @@ constexpr std::array<double, 11> distances = {0,     1e-300, 1e-25, 1e-20, 1e-19
 // A cell north of a part of the equator and one south of it, with corners of their own on it to rounding, and a spike of the
 // first one into a slit of the second one, both no wider than rounding.
 TEST(overlay_touching, corners_on_sides_to_rounding) {
-  const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
+  const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 60, 4));
   Random random(31);
   const auto distance = [&] {
     const double size = distances[random.below(distances.size())];
@@ -93,7 +93,7 @@ TEST(overlay_touching, corners_on_sides_to_rounding) {
       ring.push_back(to);
       return ring;
     };
-    const Partition cells(cells_of_rings(
+    const CellSet cells(cells_of_rings(
         {with_corners(west, east, north, has_spike), with_corners(east, west, south, has_slit)}));
     const std::string name = "trial " + std::to_string(trial);
     EXPECT_TRUE(overlapping_cells(cells.rings()).empty()) << name;
@@ -108,7 +108,7 @@ TEST(overlay_touching, corners_on_sides_to_rounding) {
 
 // With wider gaps, overlaps and crossings either these are found or nothing is lost that is wider.
 TEST(overlay_touching, corners_on_sides_to_more_than_rounding) {
-  const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
+  const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 60, 4));
   Random random(32);
   std::size_t num_refused = 0;
   for (std::size_t trial = 0; trial < 200; ++trial) {
@@ -128,7 +128,7 @@ TEST(overlay_touching, corners_on_sides_to_more_than_rounding) {
         cells_of_rings({{place(0.2, 0.3), west, near(middle), tip, near(middle), east},
                         {place(0.2, -0.3), east, near(middle), near(0.05), west}});
     try {
-      const Partition cells(rings);
+      const CellSet cells(rings);
       expect_nothing_lost(cells, cover, 1e-11, "trial " + std::to_string(trial));
     } catch (const InvalidInput& error) {
       EXPECT_FALSE(overlapping_cells(rings).empty()) << trial << ' ' << error.what();
@@ -158,8 +158,8 @@ std::array<RingOfPoints, 2> halves_of(const RingOfPoints& ring, Random& random) 
 }
 
 // Cells as countries of two files, each with its own corners along borders that they share; and what is joined of them.
-TEST(overlay_touching, partitions_with_corners_of_one_cell_on_sides_of_others) {
-  const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
+TEST(overlay_touching, cell_sets_with_corners_of_one_cell_on_sides_of_others) {
+  const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 60, 4));
   Random random(33);
   for (std::size_t trial = 0; trial < 350; ++trial) {
     std::vector<RingOfPoints> rings = {{above_equator(0.1, 0.1, trial),
@@ -176,19 +176,19 @@ TEST(overlay_touching, partitions_with_corners_of_one_cell_on_sides_of_others) {
     const std::string name = "trial " + std::to_string(trial);
     const CellRings cells = cells_of_rings(rings);
     EXPECT_TRUE(overlapping_cells(cells).empty()) << name;
-    const Partition partition(cells);
-    EXPECT_NEAR(std::accumulate(partition.areas().begin(), partition.areas().end(), 0.0), total,
+    const CellSet cell_set(cells);
+    EXPECT_NEAR(std::accumulate(cell_set.areas().begin(), cell_set.areas().end(), 0.0), total,
                 1e-13)
         << name;
-    expect_nothing_lost(partition, cover, 1e-12, name);
+    expect_nothing_lost(cell_set, cover, 1e-12, name);
     const CellRings joined = dissolve(cells, random_groups(rings.size(), 4, trial + 1), 4);
-    const Partition groups(joined);
+    const CellSet groups(joined);
     EXPECT_TRUE(overlapping_cells(joined).empty()) << name;
     EXPECT_NEAR(std::accumulate(groups.areas().begin(), groups.areas().end(), 0.0), total, 1e-13)
         << name;
     expect_nothing_lost(groups, cover, 1e-12, name + " joined");
     // Each laid over the other one.
-    const Remap both = remap(partition, groups);
+    const Remap both = remap(cell_set, groups);
     for (std::size_t i = 0; i < groups.num_cells(); ++i) {
       EXPECT_NEAR(both.target_fractions[i] * groups.areas()[i], groups.areas()[i], 1e-12) << name;
     }
@@ -273,7 +273,7 @@ std::vector<Point> crossings_of(const RingOfPoints& first, const RingOfPoints& s
 
 // The third one has a corner where sides of the first two cross.
 TEST(overlay_touching, unions_of_stars) {
-  const Partition cover = Partition::voronoi(triangulation_of("uniform", 40, 5));
+  const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 40, 5));
   Random random(77);
   for (std::size_t trial = 0; trial < 250; ++trial) {
     const Point center = random_star({1, 0, 0}, 3, random)[trial % 3];
@@ -300,7 +300,7 @@ TEST(overlay_touching, unions_of_stars) {
     }
     const std::string name = "trial " + std::to_string(trial);
     const double expected = area_of_union(stars, centers);
-    const Partition regions(cells_of_rings(stars));
+    const CellSet regions(cells_of_rings(stars));
     EXPECT_NEAR(sum_of(areas(clip(cover, regions))), expected, 1e-12) << name;
     const Remap first = remap(cover, regions, {.overlap = CellOverlap::first});
     EXPECT_NEAR(sum_of(first.areas), expected, 1e-12) << name;
@@ -308,7 +308,7 @@ TEST(overlay_touching, unions_of_stars) {
     EXPECT_NEAR(sum_of(shared.areas), expected, 1e-12) << name;
     // The union, and what is beyond it, are cells as any others.
     const CellRings inside = dissolve(clip(cover, regions), std::vector<Index>(40, 0), 1);
-    const Partition whole(inside);
+    const CellSet whole(inside);
     EXPECT_NEAR(whole.areas()[0], expected, 1e-12) << name;
     expect_nothing_lost(whole, cover, 1e-12, name);
   }

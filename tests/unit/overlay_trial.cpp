@@ -34,14 +34,14 @@ std::vector<OracleCell> convex_cells(const CellRings& rings, std::vector<Index>&
   return result;
 }
 
-Cover cover_of(const char* name, Partition cells) {
+Cover cover_of(const char* name, CellSet cells) {
   std::vector<Index> owners;
   std::vector<OracleCell> convex = convex_cells(cells.rings(), owners);
   return {name, std::move(cells), std::move(convex), {}, std::move(owners)};
 }
 
 Cover grid_of_parallels(const LonLatGrid& grid) {
-  Cover cover{"parallels", Partition::lonlat_grid(grid), {}, {}, {}};
+  Cover cover{"parallels", CellSet::lonlat_grid(grid), {}, {}, {}};
   for (std::size_t row = 0; row + 1 < grid.lat_deg.size(); ++row) {
     for (std::size_t column = 0; column + 1 < grid.lon_deg.size(); ++column) {
       cover.owners.push_back(static_cast<Index>(cover.boxes.size()));
@@ -54,13 +54,13 @@ Cover grid_of_parallels(const LonLatGrid& grid) {
 
 // Regions of several cells each, with holes and gaps, that do not cover the sphere.
 Cover regions_of(const Triangulation& sites, std::uint64_t seed) {
-  const CellRings all = Partition::voronoi(sites).rings();
-  Cover cover{"regions", Partition(all), {}, {}, {}};
+  const CellRings all = CellSet::voronoi(sites).rings();
+  Cover cover{"regions", CellSet(all), {}, {}, {}};
   const std::vector<Index> groups = random_groups(all.num_cells(), 6, seed, true);
   std::vector<Index> owners;
   cover.convex = convex_cells(all, owners);
   for (const Index cell : owners) cover.owners.push_back(groups[cell]);
-  cover.cells = Partition(dissolve(all, groups, 6));
+  cover.cells = CellSet(dissolve(all, groups, 6));
   return cover;
 }
 
@@ -69,10 +69,9 @@ std::vector<Cover> covers_of(std::uint64_t seed) {
   const LonLatGrid grid = {{-180, -100, 0, 70, 180},
                            {-90, -50 + 5 * static_cast<double>(seed), 0, 45, 90}};
   std::vector<Cover> result;
-  result.push_back(cover_of("voronoi", Partition::voronoi(sites)));
-  result.push_back(cover_of("triangles", Partition::triangles(sites)));
-  result.push_back(
-      cover_of("great_circles", Partition::lonlat_grid(grid, GridSides::great_circles)));
+  result.push_back(cover_of("voronoi", CellSet::voronoi(sites)));
+  result.push_back(cover_of("triangles", CellSet::triangles(sites)));
+  result.push_back(cover_of("great_circles", CellSet::lonlat_grid(grid, GridSides::great_circles)));
   result.push_back(grid_of_parallels(grid));
   result.push_back(regions_of(sites, seed));
   return result;
@@ -141,7 +140,7 @@ void Trial::expect_areas() const {
   const double found = areas(cells_)[0];
   double of_cell = found;
   try {
-    of_cell = Partition(cells_).areas()[0];
+    of_cell = CellSet(cells_).areas()[0];
   } catch (const InvalidInput& error) {
     EXPECT_TRUE(is_questionable()) << error.what();
   }
@@ -159,7 +158,7 @@ void Trial::expect_areas() const {
 
 Trial::Laid Trial::laid_over(const Cover& cover, std::uint64_t way) const {
   const Execution one_thread{.threads = 1};
-  const Partition cell(cells_, one_thread);
+  const CellSet cell(cells_, one_thread);
   const bool is_source = way % 2 == 0;
   const Remap remap = is_source ? rondel::remap(cell, cover.cells, {}, one_thread)
                                 : rondel::remap(cover.cells, cell, {.order = 2}, one_thread);

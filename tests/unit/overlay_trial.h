@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A region laid over partitions of every kind, judged by the oracle of overlay_oracle.h.
+// A region laid over sets of cells of every kind, judged by the oracle of overlay_oracle.h.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 #include "overlay_oracle.h"
 #include "overlay_shapes.h"
-#include "rondel/partition.h"
+#include "rondel/cell_set.h"
 #include "rondel/types.h"
 
 namespace rondel::test {
 
-// A partition, and convex cells or boxes of which its cells are made.
+// A set of cells, and convex cells or boxes of which its cells are made.
 struct Cover {
   std::string name;
-  Partition cells;
+  CellSet cells;
   std::vector<OracleCell> convex;
   std::vector<OracleBox> boxes;
   std::vector<Index> owners;  // of the convex cells or boxes; no_index: none

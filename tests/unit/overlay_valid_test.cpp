@@ -185,7 +185,7 @@ TEST(overlay_valid, bands_of_named_inputs) {
 TEST(overlay_valid, groups_of_named_inputs) {
   for (const char* kind : std::span(kinds).first(4)) {
     const Triangulation t = triangulation_of_kind(kind);
-    const Partition cells = Partition::voronoi(t);
+    const CellSet cells = CellSet::voronoi(t);
     const CellRings joined = dissolve(cells.rings(), random_groups(t.sites().size(), 3, 5), 3);
     const auto regions = drawn_regions(joined);
     for (const PlanarRegion& region : regions) EXPECT_EQ(why_invalid(region), "") << kind;
@@ -240,9 +240,9 @@ TEST(overlay_valid, pieces_of_every_generator) {
   Random random(21);
   std::vector<Point> others(7);
   std::ranges::generate(others, [&] { return random_direction(random); });
-  const Partition regions = Partition::voronoi(delaunay(others));
+  const CellSet regions = CellSet::voronoi(delaunay(others));
   for_each_generator([&](const Triangulation& t, const std::string& name) {
-    const Partition cells = Partition::voronoi(t);
+    const CellSet cells = CellSet::voronoi(t);
     const RegionPieces pieces = intersection(cells, regions);
     expect_valid(regions_of(region_polygons(pieces.rings, 0.5), pieces.num_pieces()), true, name);
     const CellRings joined = dissolve(pieces.rings, random_groups(pieces.num_pieces(), 3, 5), 3);

@@ -26,18 +26,18 @@ CellRings whole_sphere() {
 }
 
 TEST(overlay_whole, the_sphere_has_an_area_and_comes_back) {
-  const Partition sphere_cell(whole_sphere());
+  const CellSet sphere_cell(whole_sphere());
   EXPECT_EQ(sphere_cell.areas()[0], sphere);
   EXPECT_TRUE(sphere_cell.is_cover());
   EXPECT_EQ(sphere_cell.rings().whole, std::vector<Index>{0});
   EXPECT_EQ(areas(whole_sphere())[0], sphere);
-  const Partition one = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
+  const CellSet one = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
   EXPECT_EQ(one.rings().whole, std::vector<Index>{0});
   EXPECT_EQ(areas(one.rings())[0], sphere);
 }
 
 TEST(overlay_whole, cells_that_cover_it_dissolve_to_it) {
-  const CellRings cells = Partition::voronoi(triangulation_of("uniform", 200, 3)).rings();
+  const CellRings cells = CellSet::voronoi(triangulation_of("uniform", 200, 3)).rings();
   const CellRings joined = dissolve(cells, std::vector<Index>(200, 1), 3);
   EXPECT_EQ(joined.whole, std::vector<Index>{1});
   EXPECT_EQ(areas(joined), (std::vector<double>{0, sphere, 0}));
@@ -46,8 +46,8 @@ TEST(overlay_whole, cells_that_cover_it_dissolve_to_it) {
 }
 
 TEST(overlay_whole, clipping_by_it_changes_nothing) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 300, 4));
-  const Partition all(whole_sphere());
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 300, 4));
+  const CellSet all(whole_sphere());
   const CellRings clipped = clip(cells, all);
   EXPECT_TRUE(clipped.whole.empty());
   const std::vector<double> found = areas(clipped);
@@ -71,11 +71,11 @@ TEST(overlay_whole, halves_are_apart) {
   halves.corners = {0, 1, 2, 3, 4, 4, 3, 2, 1, 0};
   halves.rings = {0, 5, 10};
   halves.cells = {0, 1, 2};
-  const Partition cells(halves);
+  const CellSet cells(halves);
   const RegionPieces pieces = intersection(cells, cells);
   EXPECT_EQ(pieces.num_pieces(), 2U);
   EXPECT_TRUE(pieces.rings.whole.empty());
-  const Partition equator = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}, {0, 0, -1}}));
+  const CellSet equator = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}, {0, 0, -1}}));
   const RegionPieces of_equator = intersection(equator, equator);
   EXPECT_TRUE(of_equator.rings.whole.empty());
 }
@@ -84,15 +84,15 @@ TEST(overlay_whole, nothing_is_not_the_sphere) {
   CellRings nothing;
   nothing.cells = {0, 0};
   EXPECT_EQ(areas(nothing)[0], 0);
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 30, 5));
-  EXPECT_TRUE(clip(Partition(nothing), cells).whole.empty());
-  EXPECT_TRUE(clip(Partition(whole_sphere()), Partition(nothing)).whole.empty());
-  EXPECT_EQ(intersection(cells, Partition(nothing)).num_pieces(), 0U);
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 30, 5));
+  EXPECT_TRUE(clip(CellSet(nothing), cells).whole.empty());
+  EXPECT_TRUE(clip(CellSet(whole_sphere()), CellSet(nothing)).whole.empty());
+  EXPECT_EQ(intersection(cells, CellSet(nothing)).num_pieces(), 0U);
 }
 
 TEST(overlay_whole, means_over_it_and_from_it) {
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 100, 6));
-  const Partition all(whole_sphere());
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 100, 6));
+  const CellSet all(whole_sphere());
   for (const unsigned order : {1U, 2U}) {
     const Remap to = remap(cells, all, {.order = order});
     std::vector<double> values(100);
@@ -112,13 +112,13 @@ TEST(overlay_whole, means_over_it_and_from_it) {
 TEST(overlay_whole, a_name_that_does_not_fit_is_refused) {
   CellRings twice = whole_sphere();
   twice.whole = {0, 0};
-  EXPECT_THROW(Partition{twice}, InvalidInput);
+  EXPECT_THROW(CellSet{twice}, InvalidInput);
   CellRings beyond = whole_sphere();
   beyond.whole = {1};
-  EXPECT_THROW(Partition{beyond}, InvalidInput);
-  CellRings with_rings = Partition::voronoi(triangulation_of("uniform", 20, 7)).rings();
+  EXPECT_THROW(CellSet{beyond}, InvalidInput);
+  CellRings with_rings = CellSet::voronoi(triangulation_of("uniform", 20, 7)).rings();
   with_rings.whole = {3};
-  EXPECT_THROW(Partition{with_rings}, InvalidInput);
+  EXPECT_THROW(CellSet{with_rings}, InvalidInput);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ double planar_sum(const std::vector<Ring>& rings) {
 TEST(overlay_written, groups_cover_the_map_once) {
   const std::string path = temporary_path("groups.geojson");
   for (const std::size_t n : {8U, 50U, 2000U}) {
-    const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 3));
+    const CellSet cells = CellSet::voronoi(triangulation_of("uniform", n, 3));
     const CellRings joined = dissolve(cells.rings(), random_groups(n, 3, n), 3);
     write_regions(path, joined);
     const auto document = read_json(path);
@@ -41,7 +41,7 @@ TEST(overlay_written, groups_cover_the_map_once) {
 
 TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
   const std::string path = temporary_path("arrays.geojson");
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 300, 9));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 300, 9));
   const CellRings joined = dissolve(cells.rings(), random_groups(300, 3, 9), 3);
   write_regions(path, joined);
   const LonLatRegions drawn = region_polygons(joined);
@@ -81,8 +81,8 @@ TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
 
 TEST(overlay_written, pieces_cover_the_map_once) {
   const std::string path = temporary_path("pieces.geojson");
-  const Partition cells = Partition::voronoi(triangulation_of("clustered", 500, 3));
-  const Partition others = Partition::voronoi(triangulation_of("uniform", 100, 4));
+  const CellSet cells = CellSet::voronoi(triangulation_of("clustered", 500, 3));
+  const CellSet others = CellSet::voronoi(triangulation_of("uniform", 100, 4));
   write_regions(path, intersection(cells, others).rings);
   EXPECT_NEAR(planar_sum(checked_rings(read_json(path), "pieces")), 360.0 * 180.0, 1e-6);
 }
@@ -108,7 +108,7 @@ TEST(overlay_written, complements_of_tiny_cells_are_the_map) {
 
 TEST(overlay_written, properties_and_cells_without_rings) {
   const std::string path = temporary_path("properties.geojson");
-  const Partition cells = Partition::voronoi(triangulation_of("uniform", 30, 5));
+  const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 30, 5));
   std::vector<Index> groups(30, no_index);
   groups[4] = 1;
   const CellRings joined = dissolve(cells.rings(), groups, 2);
@@ -125,7 +125,7 @@ TEST(overlay_written, properties_and_cells_without_rings) {
 
 TEST(overlay_written, arrays_that_do_not_fit_are_refused) {
   const std::string path = temporary_path("refused.geojson");
-  const CellRings cells = Partition::voronoi(triangulation_of("uniform", 10, 6)).rings();
+  const CellRings cells = CellSet::voronoi(triangulation_of("uniform", 10, 6)).rings();
   EXPECT_THROW(write_regions(path, cells, std::vector{Column{"a", true, "1", {1}}}), InvalidInput);
   CellRings wrong = cells;
   wrong.corners[3] = static_cast<Index>(wrong.points.size());

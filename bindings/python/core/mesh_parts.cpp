@@ -19,9 +19,9 @@
 #include "mesh_sizes.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/cell_set.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/mesh_lines.h"
-#include "rondel/partition.h"
 #include "rondel/regions.h"
 
 namespace rondel::python {
@@ -41,7 +41,7 @@ CullOut cull_mesh(const MeshArrays& arrays, const MaskIn& is_removed, unsigned t
           indices_out(std::move(culled.edges)), indices_out(std::move(culled.vertices))};
 }
 
-ArrayOut<std::uint8_t> points_inside(const PointsIn& points, const Partition& regions,
+ArrayOut<std::uint8_t> points_inside(const PointsIn& points, const CellSet& regions,
                                      unsigned threads) {
   return to_array<std::uint8_t>(
       watched_quietly(points.shape(0), threads, [&](const Execution& execution) {

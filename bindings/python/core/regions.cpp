@@ -18,8 +18,8 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/cell_set.h"
 #include "rondel/feature_cells.h"
-#include "rondel/partition.h"
 
 namespace rondel::python {
 namespace {
@@ -39,7 +39,7 @@ RegionsOut polygons_of(const CellRings& rings, double tolerance_deg, unsigned th
 void add_region_functions(nb::module_& module) {
   module.def(
       "clip",
-      [](const Partition& cells, const Partition& regions, unsigned threads,
+      [](const CellSet& cells, const CellSet& regions, unsigned threads,
          const nb::object& listener) {
         return watched(cells.num_cells(), threads, listener,
                        [&](const Execution& execution) { return clip(cells, regions, execution); });
@@ -49,8 +49,8 @@ void add_region_functions(nb::module_& module) {
   // group of each piece.
   module.def(
       "intersection",
-      [](const Partition& cells, const Partition& regions, const IndicesIn& groups,
-         unsigned threads, const nb::object& listener) {
+      [](const CellSet& cells, const CellSet& regions, const IndicesIn& groups, unsigned threads,
+         const nb::object& listener) {
         RegionPieces pieces =
             watched(cells.num_cells(), threads, listener, [&](const Execution& execution) {
               return dissolve(intersection(cells, regions, execution), {}, rows_of<Index>(groups),
@@ -64,7 +64,7 @@ void add_region_functions(nb::module_& module) {
   module.def(
       "feature_cells",
       [](const std::string& path, double tolerance, nb::handle edges, nb::handle overlap,
-         const Partition* within, unsigned threads, const nb::object& listener) {
+         const CellSet* within, unsigned threads, const nb::object& listener) {
         const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
                                      .overlap = named<PolygonOverlap>("overlap", overlap)};
         return watched(0, threads, listener, [&](const Execution& execution) {
@@ -79,7 +79,7 @@ void add_region_functions(nb::module_& module) {
       nb::arg("within").none(), nb::arg("threads"), nb::arg("progress").none());
   module.def(
       "cell_rings",
-      [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },
+      [](const CellSet& partition) { return unlocked([&] { return partition.rings(); }); },
       nb::arg("partition"));
 }
 
@@ -101,7 +101,7 @@ void add_regions(nb::module_& module) {
       .def(
           "partition",
           [](const CellRings& self, unsigned threads) {
-            return unlocked([&] { return Partition(self, {.threads = threads}); });
+            return unlocked([&] { return CellSet(self, {.threads = threads}); });
           },
           nb::arg("threads"))
       .def(

@@ -24,8 +24,8 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/cell_set.h"
 #include "rondel/mesh_files.h"
-#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 
 namespace rondel::python {
@@ -62,11 +62,11 @@ RingsOut rings_out(CellRings rings) {
 
 // Returns the partition, its mask, its shape, the centers of the file in degrees, the remarks of the
 // reader, and the meridians and parallels between the cells, if it is a grid.
-nb::tuple read_partition(const std::string& path, nb::handle sides, unsigned threads) {
+nb::tuple read_cell_set(const std::string& path, nb::handle sides, unsigned threads) {
   const auto grid_sides = named<GridSides>("sides", sides);
   auto [partition, table] = unlocked([&] {
     CellTable read = read_cells(path);
-    Partition made = partition_of(read, grid_sides, {.threads = threads});
+    CellSet made = partition_of(read, grid_sides, {.threads = threads});
     return std::tuple(std::move(made), std::move(read));
   });
   LonLatGrid lines = table.grid.value_or(LonLatGrid{});
@@ -85,7 +85,7 @@ std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
 // Returns the partition and the properties of its cells; polygons whose group is below 0 are left
 // out.
 // Returns the cells, the properties and the remarks of the reader.
-std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partition(
+std::tuple<CellSet, CellColumns, std::vector<std::string>> read_polygon_cells(
     const std::string& path, nb::handle edges, nb::handle overlap,
     const std::optional<IndicesIn>& groups, unsigned threads) {
   PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
@@ -97,7 +97,7 @@ std::tuple<Partition, CellColumns, std::vector<std::string>> read_polygon_partit
   }
   return unlocked([&] {
     PolygonTable table = read_polygons(path, options, {.threads = threads});
-    return std::tuple(Partition(table.cells, {.threads = threads}),
+    return std::tuple(CellSet(table.cells, {.threads = threads}),
                       CellColumns{std::move(table.columns)}, std::move(table.remarks));
   });
 }
@@ -127,15 +127,15 @@ std::vector<double> numbers_of(const NumbersIn& array) {
 
 // Returns the cells; the number of centers outside of them, of how many, and the first one; and
 // whether most are. There may be no centers.
-std::tuple<Partition, std::array<std::size_t, 3>, bool> corner_partition(const PairsIn& corners,
-                                                                         std::size_t of_each,
-                                                                         const PairsIn& centers,
-                                                                         unsigned threads) {
+std::tuple<CellSet, std::array<std::size_t, 3>, bool> corner_cells(const PairsIn& corners,
+                                                                   std::size_t of_each,
+                                                                   const PairsIn& centers,
+                                                                   unsigned threads) {
   return unlocked([&] {
     const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), of_each);
     CentersOutside found;
     if (centers.shape(0) > 0) found = centers_outside(cells, rows_of<LonLat>(centers));
-    return std::tuple(Partition(cells, {.threads = threads}),
+    return std::tuple(CellSet(cells, {.threads = threads}),
                       std::array{found.number, found.of, found.first}, found.are_most());
   });
 }
@@ -146,7 +146,7 @@ ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 
                                           rows_of<LonLat>(centers), {shape[0], shape[1]}));
 }
 
-RemapOut remap_of(const Partition& source, const Partition& target, unsigned order, nb::handle norm,
+RemapOut remap_of(const CellSet& source, const CellSet& target, unsigned order, nb::handle norm,
                   const IndicesIn& source_mask, const IndicesIn& target_mask, nb::handle overlap,
                   unsigned threads, const nb::object& listener) {
   const RemapOptions options{
@@ -165,18 +165,18 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
           to_array<double>(std::move(found.target_fractions))};
 }
 
-void add_partition(nb::module_& module) {
-  nb::class_<Partition>(module, "Partition")
+void add_cell_set(nb::module_& module) {
+  nb::class_<CellSet>(module, "CellSet")
       .def_static(
           "voronoi",
           [](const Triangulation& t, unsigned threads) {
-            return unlocked([&] { return Partition::voronoi(t, {.threads = threads}); });
+            return unlocked([&] { return CellSet::voronoi(t, {.threads = threads}); });
           },
           nb::arg("triangulation"), nb::arg("threads"))
       .def_static(
           "triangles",
           [](const Triangulation& t, unsigned threads) {
-            return unlocked([&] { return Partition::triangles(t, {.threads = threads}); });
+            return unlocked([&] { return CellSet::triangles(t, {.threads = threads}); });
           },
           nb::arg("triangulation"), nb::arg("threads"))
       .def_static(
@@ -185,7 +185,7 @@ void add_partition(nb::module_& module) {
             const auto grid_sides = named<GridSides>("sides", sides);
             const LonLatGrid grid{numbers_of(lon), numbers_of(lat)};
             return unlocked(
-                [&] { return Partition::lonlat_grid(grid, grid_sides, {.threads = threads}); });
+                [&] { return CellSet::lonlat_grid(grid, grid_sides, {.threads = threads}); });
           },
           nb::arg("lon").noconvert(), nb::arg("lat").noconvert(), nb::arg("sides").none(),
           nb::arg("threads"))
@@ -194,25 +194,25 @@ void add_partition(nb::module_& module) {
           [](const OffsetsIn& cells, const OffsetsIn& rings, const IndicesIn& corners,
              const PointsIn& points, const IndicesIn& whole, unsigned threads) {
             const CellRings all = rings_of(cells, rings, corners, points, whole);
-            return unlocked([&] { return Partition(all, {.threads = threads}); });
+            return unlocked([&] { return CellSet(all, {.threads = threads}); });
           },
           nb::arg("cells").noconvert(), nb::arg("rings").noconvert(),
           nb::arg("corners").noconvert(), nb::arg("points").noconvert(),
           nb::arg("whole").noconvert(), nb::arg("threads"))
-      .def_prop_ro("num_cells", &Partition::num_cells)
-      .def_prop_ro("is_cover", &Partition::is_cover)
+      .def_prop_ro("num_cells", &CellSet::num_cells)
+      .def_prop_ro("is_cover", &CellSet::is_cover)
       .def_prop_ro("areas",
                    [](const nb::object& self) {
-                     return array_of<double>(self, nb::cast<const Partition&>(self).areas());
+                     return array_of<double>(self, nb::cast<const CellSet&>(self).areas());
                    })
-      .def("centers", [](const Partition& self) { return points_out(self.centers()); })
+      .def("centers", [](const CellSet& self) { return points_out(self.centers()); })
       .def("rings",
-           [](const Partition& self) { return rings_out(unlocked([&] { return self.rings(); })); })
+           [](const CellSet& self) { return rings_out(unlocked([&] { return self.rings(); })); })
       .def("given_rings",
-           [](const Partition& self) {
+           [](const CellSet& self) {
              return rings_out(unlocked([&] { return self.given_rings(); }));
            })
-      .def("weight_corners", [](const Partition& self) {
+      .def("weight_corners", [](const CellSet& self) {
         return to_array<double>(unlocked([&] { return weight_corners(self); }));
       });
 }
@@ -223,16 +223,15 @@ void add_remap(nb::module_& module) {
   nb::class_<CellColumns>(module, "CellColumns")
       .def(nb::init<>())
       .def_prop_rw("columns", &texts_of_columns, &set_columns);
-  add_partition(module);
-  module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("sides").none(),
+  add_cell_set(module);
+  module.def("read_cell_set", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
              nb::arg("threads"));
-  module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
-             nb::arg("of_each"), nb::arg("centers").noconvert(), nb::arg("threads"));
+  module.def("corner_cells", &corner_cells, nb::arg("corners").noconvert(), nb::arg("of_each"),
+             nb::arg("centers").noconvert(), nb::arg("threads"));
   module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
              nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
-  module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
-             nb::arg("edges").none(), nb::arg("overlap").none(),
-             nb::arg("groups").noconvert().none(), nb::arg("threads"));
+  module.def("read_polygon_cells", &read_polygon_cells, nb::arg("path"), nb::arg("edges").none(),
+             nb::arg("overlap").none(), nb::arg("groups").noconvert().none(), nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
              nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),

@@ -42,7 +42,7 @@ DynamicTriangulation
     Sites that come, go and move.
 SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
-Partition
+CellSet
     Cells of diagrams, grids, models and polygons, for `remap`.
 Regridder
     In place of `xesmf.Regridder`.
@@ -69,7 +69,7 @@ from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
 from ._netcdf import netcdf_library as _netcdf_library
-from ._partition import Partition
+from ._cell_set import CellSet
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
@@ -99,7 +99,7 @@ __all__ = [
     "Lists",
     "Location",
     "LonLatTriangles",
-    "Partition",
+    "CellSet",
     "PowerDiagram",
     "Regions",
     "Regridder",

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from ._geometries import Edges, PolygonOverlap
-from ._partition import Partition
-from ._partition_files import Sides
+from ._cell_set import CellSet
+from ._cell_set_files import Sides
 from ._types import FloatArray
 
 
 def lonlat_grid(
     nlon: int, nlat: int, *, sides: Sides = "parallels", threads: int | None = None
-) -> Partition:
+) -> CellSet:
     """Makes the cells of a regular longitude-latitude grid of the whole sphere.
 
     Parameters
@@ -35,7 +35,7 @@ def lonlat_grid(
 
     Returns
     -------
-    Partition
+    CellSet
         Cells of the shape (nlat, nlon), in C order. Each line is the exact quotient, rounded once.
 
     Raises
@@ -45,7 +45,7 @@ def lonlat_grid(
 
     See Also
     --------
-    Partition.lonlat_grid : the same with any lines.
+    CellSet.lonlat_grid : the same with any lines.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def lonlat_grid(
             raise ValueError(f"{name} must be at least 1, not {cells}")
         return (2 * np.arange(cells + 1) - cells) * half / cells
 
-    return Partition.lonlat_grid(
+    return CellSet.lonlat_grid(
         lines(nlon, 180, "nlon"), lines(nlat, 90, "nlat"), sides=sides, threads=threads
     )
 
@@ -71,7 +71,7 @@ def polygons(
     edges: Edges = "lonlat",
     overlap: PolygonOverlap = "keep",
     threads: int | None = None,
-) -> Partition:
+) -> CellSet:
     """Makes cells of polygons in a file or of another library.
 
     Parameters
@@ -79,7 +79,7 @@ def polygons(
     areas : path-like, GeoDataFrame, GeoSeries, sequence or mapping
         The polygons, one a cell, which may have holes and several parts: the name of a GeoJSON
         file; or a GeoDataFrame, a GeoSeries, geometries of shapely, mappings of GeoJSON, or a box
-        of west, south, east and north in degrees, as `Partition.from_geometries` takes them.
+        of west, south, east and north in degrees, as `CellSet.from_geometries` takes them.
     edges : {'lonlat', 'geodesic'}, optional
         What joins positions: straight lines in longitude and latitude as in RFC 7946 (default), or
         great circles.
@@ -93,7 +93,7 @@ def polygons(
 
     Returns
     -------
-    Partition
+    CellSet
         A cell for each polygon, for `remap` or `SphericalVoronoi.clip`.
 
     Raises
@@ -109,9 +109,9 @@ def polygons(
     >>> import rondel
     >>> box = [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]
     >>> rondel.polygons({"type": "Polygon", "coordinates": box})
-    <rondel.Partition: 1 cell>
+    <rondel.CellSet: 1 cell>
 
     """
     if isinstance(areas, (str, os.PathLike)):
-        return Partition.read(areas, edges=edges, overlap=overlap, threads=threads)
-    return Partition.from_geometries(areas, edges=edges, overlap=overlap, threads=threads)
+        return CellSet.read(areas, edges=edges, overlap=overlap, threads=threads)
+    return CellSet.from_geometries(areas, edges=edges, overlap=overlap, threads=threads)

@@ -24,7 +24,7 @@ Edges: TypeAlias = Literal["lonlat", "geodesic"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 
 Groups: TypeAlias = np.ndarray[Any, np.dtype[np.int32]] | None
-Polygons: TypeAlias = tuple[_core.Partition, _core.CellColumns]  # and their properties
+Polygons: TypeAlias = tuple[_core.CellSet, _core.CellColumns]  # and their properties
 
 
 def read_polygons(
@@ -33,7 +33,7 @@ def read_polygons(
     """The polygons of a file of GeoJSON; those with a group below 0 are left out."""
     rules = edges, overlap, groups
     partition, columns, remarks = _read(
-        name, lambda file: _core.read_polygon_partition(file, *rules, threads)
+        name, lambda file: _core.read_polygon_cells(file, *rules, threads)
     )
     for remark in remarks:
         warnings.warn(remark, UserWarning, stacklevel=3)
@@ -131,7 +131,7 @@ def _collection(geometries: Any, edges: Edges) -> dict[str, Any]:
         return known
     if not isinstance(geometries, Iterable):
         kind = type(geometries).__name__
-        raise TypeError(f"polygons must be geometries, a file, or a Partition, not {kind}")
+        raise TypeError(f"polygons must be geometries, a file, or a CellSet, not {kind}")
     return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
 
 

@@ -15,7 +15,7 @@ from ._geometries import Edges, features_of, is_file
 from ._lonlat import arcs
 from ._plot import draw_coast_lines, line_options, make_map
 from ._projection import LonLatMap
-from ._regions import as_partition
+from ._regions import as_cell_set
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def removed_cells(
     for regions, value in ((inside, 1), (outside, 0)):
         if regions is None:
             continue
-        polygons = as_partition(regions, edges, "keep", threads)._partition
+        polygons = as_cell_set(regions, edges, "keep", threads)._cells
         found = _core.points_inside(points, polygons, as_threads(threads))
         removed |= found == value
     return removed.astype(np.uint8)

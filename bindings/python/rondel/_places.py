@@ -24,7 +24,7 @@ from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
 from ._masks import mask_of_convention, mask_of_variable
-from ._partition import Partition, axis_lines
+from ._cell_set import CellSet, axis_lines
 from ._types import BoolArray, FloatArray
 from ._values import unpacked
 from ._weight_files import MOST_APART, Side, are_near
@@ -35,7 +35,7 @@ _COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude
 
 
 class Places:
-    """Places of a Dataset, a DataArray, a Partition, a mapping or a tuple (lon, lat) of arrays."""
+    """Places of a Dataset, a DataArray, a CellSet, a mapping or a tuple (lon, lat) of arrays."""
 
     def __init__(
         self,
@@ -48,9 +48,9 @@ class Places:
         are_targets: bool = False,
     ) -> None:
         given = data
-        self._partition = data if isinstance(data, Partition) else None
-        if self._partition is not None:
-            data = _centers(self._partition)
+        self._cells = data if isinstance(data, CellSet) else None
+        if self._cells is not None:
+            data = _centers(self._cells)
         elif isinstance(data, Mapping) and not isinstance(data, xarray.Dataset):
             data = _dataset(dict(data), are_points)
         elif isinstance(data, tuple):
@@ -65,7 +65,7 @@ class Places:
         elif not isinstance(data, (xarray.Dataset, xarray.DataArray)):
             raise TypeError(
                 "places are a Dataset, a DataArray, a dictionary or table with lon and lat, a "
-                f"tuple (lon, lat) or a Partition, not {type(data).__name__}"
+                f"tuple (lon, lat) or a CellSet, not {type(data).__name__}"
             )
         # Places of a Dataset may repeat along time; in arrays each of them counts.
         repeats: Repeats = "drop_times" if are_targets else "drop"
@@ -156,7 +156,7 @@ class Places:
         have along one dimension of any name, both along that.
         """
         n = self.lon.size
-        if self._partition is None or set(self.dims) <= set(data.dims):
+        if self._cells is None or set(self.dims) <= set(data.dims):
             return data, self
         is_array = isinstance(data, xarray.DataArray)
         if is_array and len(self.shape) > 1 and data.shape[-len(self.shape) :] == self.shape:
@@ -173,8 +173,8 @@ class Places:
             )
         if not found:
             return data, self
-        flat = Partition._of(
-            self._partition._partition, self._partition._mask, file_centers=self.pairs()
+        flat = CellSet._of(
+            self._cells._cells, self._cells._mask, file_centers=self.pairs()
         )
         places = Places(flat)
         return with_dimensions(data, {found[0]: places.dims[0]}), places
@@ -228,8 +228,8 @@ class Places:
         """Which take part: those with a place, where no mask of a convention leaves it out and
         `mask` is neither 0 nor missing.
         """
-        if self._partition is not None:
-            return self._partition.mask
+        if self._cells is not None:
+            return self._cells.mask
         mask = mask_of_variable(self._data, self.dims)
         if mask is None or self._used is None:
             return self._used if mask is None else mask
@@ -267,14 +267,14 @@ class Places:
     @property
     def have_cells(self) -> bool:
         """Whether there are cells around the places: bounds, axes, or a partition."""
-        return self.are_axes or self._partition is not None or self._found.have_bounds
+        return self.are_axes or self._cells is not None or self._found.have_bounds
 
-    def cells(self, threads: int | None) -> tuple[Partition, BoolArray | None]:
+    def cells(self, threads: int | None) -> tuple[CellSet, BoolArray | None]:
         """The cells around the places, by their bounds or, of a grid, half way between them; and
         which of them take part.
         """
-        if self._partition is not None:
-            return self._partition, self.mask()
+        if self._cells is not None:
+            return self._cells, self.mask()
         for remark in self._found.remarks:
             warn_caller(remark)
         lon, lat = self._found.bounds()
@@ -286,7 +286,7 @@ class Places:
                     names, self.axes, (lon, lat), (True, False), strict=True
                 )
             ]
-            made = Partition.lonlat_grid(*lines, threads=threads)
+            made = CellSet.lonlat_grid(*lines, threads=threads)
             return made.with_places(self.pairs()), self.mask()
         if lon is None or lat is None:
             raise ValueError(
@@ -373,7 +373,7 @@ def _cells_of_corners(
     mask: BoolArray | None,
     centers: FloatArray,
     threads: int | None,
-) -> tuple[Partition, BoolArray | None, tuple[int, int, int, bool]]:
+) -> tuple[CellSet, BoolArray | None, tuple[int, int, int, bool]]:
     """Cells with a corner that is nowhere are left out, with a warning unless they are masked.
     Tells of centers that are outside, too.
     """
@@ -382,7 +382,7 @@ def _cells_of_corners(
         lon, lat, missing = _filled_up(lon, lat, missing)
     lacking = missing.any(axis=-1).reshape(-1)
     if not lacking.any():
-        made, outside = Partition._around(lon, lat, centers, threads)
+        made, outside = CellSet._around(lon, lat, centers, threads)
         return made, mask, outside
     untold = int(np.count_nonzero(lacking if mask is None else lacking & mask))
     if lacking.all():
@@ -392,7 +392,7 @@ def _cells_of_corners(
             f"{untold} of {lacking.size} cells have corners that are missing and are left out"
         )
     nowhere = lacking.reshape(lon.shape[:-1])[..., None]
-    made, outside = Partition._around(
+    made, outside = CellSet._around(
         np.where(nowhere, 0, lon), np.where(nowhere, 0, lat), centers, threads
     )
     return made, ~lacking if mask is None else mask & ~lacking, outside
@@ -407,7 +407,7 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
     return lon[rows, source], lat[rows, source], missing[rows, source]
 
 
-def _centers(partition: Partition) -> xarray.Dataset:
+def _centers(partition: CellSet) -> xarray.Dataset:
     """The places of the cells: those of the file or the axes, or else the centers of mass."""
     dims = ("y", "x") if len(partition.shape) == 2 else ("cell",)
     degrees = partition._degrees().reshape(*partition.shape, 2)

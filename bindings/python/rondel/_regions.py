@@ -23,7 +23,7 @@ from ._geometries import (
     polygons_of,
     read_polygons,
 )
-from ._partition import Partition
+from ._cell_set import CellSet
 from ._pickled import arrays_of, with_arrays
 from ._plot import plot_regions
 from ._properties import checked_properties, frame_column, is_missing, json_columns
@@ -123,7 +123,7 @@ class Regions(Described):
             raise ValueError(f"radius_km is {radius_km}, not positive with a finite area")
         return self.areas * squared
 
-    def partition(self, *, threads: int | None = None) -> Partition:
+    def partition(self, *, threads: int | None = None) -> CellSet:
         """Returns the regions as cells for `remap`.
 
         Parameters
@@ -133,11 +133,11 @@ class Regions(Described):
 
         Returns
         -------
-        Partition
+        CellSet
             A cell for each region; empty regions have empty cells.
 
         """
-        return Partition._of(self._rings.partition(as_threads(threads)))
+        return CellSet._of(self._rings.partition(as_threads(threads)))
 
     def dissolve(
         self, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
@@ -313,7 +313,7 @@ def clip_cells(
 
     Parameters
     ----------
-    regions : path-like, geometries or Partition
+    regions : path-like, geometries or CellSet
         The regions: a GeoJSON file; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping
         of GeoJSON, any object with `__geo_interface__`, or a sequence of these; a box of west,
         south, east and north in degrees; or a partition.
@@ -364,14 +364,14 @@ def clip_cells(
 
     """
     _require_rules(edges, overlap)
-    cells = Partition.voronoi(self, threads=threads)._partition
+    cells = CellSet.voronoi(self, threads=threads)._cells
     shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
     if values is None:
-        within = as_partition(regions, edges, shared, threads)._partition
+        within = as_cell_set(regions, edges, shared, threads)._cells
         found = _core.clip(cells, within, as_threads(threads), progress)
         return Regions._of(found, np.arange(len(self.points)), "site")
     numbers, names = _numbered(values)
-    within = as_partition(regions, edges, shared, threads, numbers)._partition
+    within = as_cell_set(regions, edges, shared, threads, numbers)._cells
     _require_size(numbers, within.num_cells, "values", "regions")
     found, sites, groups = _core.intersection(cells, within, numbers, as_threads(threads), progress)
     return Regions._of(found, sites, "site", names[groups])
@@ -413,7 +413,7 @@ def dissolve_cells(
     ['side', 'cap']
 
     """
-    rings = _core.cell_rings(Partition.voronoi(self, threads=threads)._partition)
+    rings = _core.cell_rings(CellSet.voronoi(self, threads=threads)._cells)
     return _dissolved(rings, groups, threads, progress)
 
 
@@ -449,7 +449,7 @@ def feature_cells(
     overlap : {'error', 'first'}, optional
         What to do with a place that several polygons contain: 'error' (default) raises an error
         that names two of them, 'first' gives it to the first one.
-    within : path-like, geometries or Partition, optional
+    within : path-like, geometries or CellSet, optional
         Regions to which the cells are clipped, as `SphericalVoronoi.clip` takes them; by default
         cells are not clipped.
     threads : int, optional
@@ -493,7 +493,7 @@ def feature_cells(
             raise ValueError(f"{name} must be positive, not {float(value):g}")
     _require_rules(edges, overlap)
     tolerance = float(tolerance_km) / float(radius_km)
-    area = None if within is None else as_partition(within, edges, "keep", threads)._partition
+    area = None if within is None else as_cell_set(within, edges, "keep", threads)._cells
     found = features_of(
         features,
         edges,
@@ -513,23 +513,23 @@ def _require_rules(edges: str, overlap: str) -> None:
         raise ValueError(f"overlap must be 'error' or 'first', not {overlap!r}")
 
 
-def as_partition(
+def as_cell_set(
     regions: Any,
     edges: Edges,
     overlap: PolygonOverlap,
     threads: int | None,
     groups: Groups = None,
-) -> Partition:
+) -> CellSet:
     """The regions as a partition; polygons whose group is below 0 are left out."""
-    if isinstance(regions, Partition):
+    if isinstance(regions, CellSet):
         return regions
     rules = edges, overlap, as_threads(threads), groups
     if not is_file(regions):
-        return Partition._of_polygons(polygons_of(regions, *rules))
+        return CellSet._of_polygons(polygons_of(regions, *rules))
     name = os.fspath(regions)
     if name.lower().endswith((".geojson", ".json")):
-        return Partition._of_polygons(read_polygons(name, *rules))
-    return Partition.read(regions, edges=edges, overlap=overlap, threads=threads)
+        return CellSet._of_polygons(read_polygons(name, *rules))
+    return CellSet.read(regions, edges=edges, overlap=overlap, threads=threads)
 
 
 def _dissolved(

@@ -49,11 +49,11 @@ class Regridder(Described):
     """Regrids fields from one grid to another; it replaces `xesmf.Regridder`.
 
     It needs xarray. A grid is a Dataset as xESMF or the CF conventions have it, a dictionary of
-    arrays, a tuple (lon, lat) of axes, or a `Partition`, which any mesh can be converted to.
+    arrays, a tuple (lon, lat) of axes, or a `CellSet`, which any mesh can be converted to.
 
     Parameters
     ----------
-    ds_in, ds_out : Dataset, DataArray, dict, tuple or Partition
+    ds_in, ds_out : Dataset, DataArray, dict, tuple or CellSet
         The source and the target grid. Longitudes and latitudes are found by their attributes or
         names (docs/guide/formats.md); they are axes of a grid, curvilinear coordinates, or those of
         points, in degrees, or in radians if the attribute `units` says so. Conservative methods
@@ -218,7 +218,7 @@ class Regridder(Described):
             Fields on the source grid; integers that their attributes call packed are unpacked. The
             last axes of an array have the shape `shape_in`; a
             DataArray has the dimensions of the source, or last dimensions of that shape. Data for
-            the cells of a `Partition` may have them along one dimension of any name.
+            the cells of a `CellSet` may have them along one dimension of any name.
         keep_attrs : bool, optional
             Whether to keep attributes, but for those that say which numbers are missing; by default
             False.

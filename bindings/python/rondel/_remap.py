@@ -15,7 +15,7 @@ from ._arrays import as_mask, as_threads
 from ._delaunay import SphericalDelaunay
 from ._diagram import Diagram
 from ._geo import Path
-from ._partition import Partition
+from ._cell_set import CellSet
 from ._regions import Regions
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Progress
@@ -32,7 +32,7 @@ class Remap(Described):
     weights : Weights
         A sparse matrix with a row for each target cell and a column for each source cell;
         ``weights.apply(means)`` computes the means over target cells.
-    source, target : Partition
+    source, target : CellSet
         The cells of both sides.
     source_areas, target_areas : ndarray of float64, shape (n,) and (m,)
         The areas of the cells in steradians.
@@ -44,8 +44,8 @@ class Remap(Described):
     def __init__(
         self,
         weights: Weights,
-        source: Partition,
-        target: Partition,
+        source: CellSet,
+        target: CellSet,
         measures: Sequence[FloatArray],
         norm: str,
         masks: tuple[IntArray, IntArray],
@@ -91,7 +91,7 @@ class Remap(Described):
                 fractions,
                 cells.shape,
                 mask if np.any(mask == 0) else None,
-                cells._partition.weight_corners() if cells._has_corners else None,
+                cells._cells.weight_corners() if cells._has_corners else None,
                 cells._columns,
             )
             for cells, areas, fractions, mask in (
@@ -133,7 +133,7 @@ def remap(
 
     Parameters
     ----------
-    source, target : Partition, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
+    source, target : CellSet, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
         The n source cells and the m target cells, which cover the sphere or parts of it. The cells
         of a triangulation are its triangles.
     order : {1, 2}, optional
@@ -191,14 +191,14 @@ def remap(
     """
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
-    cells = [_as_partition(side, threads) for side in (source, target)]
+    cells = [_as_cell_set(side, threads) for side in (source, target)]
     masks = (
         _as_mask(source_mask, "source_mask", cells[0]),
         _as_mask(target_mask, "target_mask", cells[1]),
     )
     weights, *measures = _core.remap(
-        cells[0]._partition,
-        cells[1]._partition,
+        cells[0]._cells,
+        cells[1]._cells,
         order,
         norm,
         *masks,
@@ -209,27 +209,27 @@ def remap(
     return Remap(Weights._of(weights), cells[0], cells[1], measures, norm, masks, int(order))
 
 
-def _as_partition(cells: Any, threads: int | None) -> Partition:
+def _as_cell_set(cells: Any, threads: int | None) -> CellSet:
     """The cells of what has cells: of diagrams, the faces of triangulations, those of meshes."""
-    if isinstance(cells, Partition):
+    if isinstance(cells, CellSet):
         return cells
     if isinstance(cells, Mesh):
         each = np.arange(len(cells.offsets))
         points = cells.vertex_points / cells.radius
-        return Partition.polygons(
+        return CellSet.polygons(
             each, cells.offsets, cells.vertices_on_cell, points, threads=threads
         )
     if isinstance(cells, Diagram):
-        return Partition.voronoi(cells, threads=threads)
+        return CellSet.voronoi(cells, threads=threads)
     if isinstance(cells, SphericalDelaunay):
-        return Partition.triangles(cells, threads=threads)
+        return CellSet.triangles(cells, threads=threads)
     if isinstance(cells, Regions):
         return cells.partition(threads=threads)
-    raise TypeError(f"{type(cells).__name__} has no cells: a Partition, diagram or mesh is wanted")
+    raise TypeError(f"{type(cells).__name__} has no cells: a CellSet, diagram or mesh is wanted")
 
 
 # An empty one: all take part.
-def _as_mask(mask: ArrayLike | None, name: str, partition: Partition) -> IntArray:
+def _as_mask(mask: ArrayLike | None, name: str, partition: CellSet) -> IntArray:
     if mask is None:
         return partition._mask
     shape = np.shape(mask)

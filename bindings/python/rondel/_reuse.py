@@ -129,7 +129,7 @@ def _require_places(
             here, there = own[first].tolist(), side.centers[first].tolist()
             _refuse_places(name, f": {what} {first} is at {here} here, at {there} there")
     if cells is not None and len(side.corners):
-        corners = cells._partition.weight_corners() if cells._has_corners else np.zeros((0, 2))
+        corners = cells._cells.weight_corners() if cells._has_corners else np.zeros((0, 2))
         if len(corners):
             shape = places.lon.size, -1, 2
             others = side.corners.reshape(shape)

@@ -250,7 +250,7 @@ class Mesh:
         ----------
         mask : array_like, shape (n,), optional
             1 or True for cells that are removed, 0 or False for others.
-        inside, outside : path_like, geometries or Partition, optional
+        inside, outside : path_like, geometries or CellSet, optional
             Polygons as in `SphericalVoronoi.clip`. Cells are removed if their sites lie inside or
             on the border of `inside`, or if they do not lie in `outside`.
         edges : {'lonlat', 'geodesic'}, optional

@@ -177,8 +177,8 @@ def test_weight_files_are_those_of_the_tool(tmp_path):
     write(tmp_path / "target.nc", axes_file(np.arange(160.0, 210, 10), np.arange(10.0, -50, -20)))
     run("remap", tmp_path / "source.nc", tmp_path / "target.nc", "-o", tmp_path / "tool.nc")
     with pytest.warns(UserWarning, match="1 of 35 cells"):
-        source = rondel.Partition.read(tmp_path / "source.nc")
-    target = rondel.Partition.read(tmp_path / "target.nc")
+        source = rondel.CellSet.read(tmp_path / "source.nc")
+    target = rondel.CellSet.read(tmp_path / "target.nc")
     rondel.remap(source, target).to_netcdf(tmp_path / "python.nc")
     with netCDF4.Dataset(tmp_path / "tool.nc") as a, netCDF4.Dataset(tmp_path / "python.nc") as b:
         assert set(a.variables) == set(b.variables)

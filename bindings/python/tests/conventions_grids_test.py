@@ -179,14 +179,14 @@ def test_of_several_grids_one_is_named(tmp_path):
     path = tmp_path / "several.nc"
     write(path, ds)
     with pytest.warns(UserWarning, match="several grids; that of lon and lat is read"):
-        assert np.allclose(rondel.Partition.read(path).areas, first.ravel())
+        assert np.allclose(rondel.CellSet.read(path).areas, first.ravel())
     lines = np.arange(-45.0, 316, 90), np.array([-90.0, -30, 30, 90])
     second = rectangles(lines[0][:-1], lines[0][1:], lines[1][:-1], lines[1][1:])
     for name in ("slon", "slat", "u"):
         check(path, None, second, tmp_path, name=name)
     check(path, ds[["t", "lon_bnds", "lat_bnds"]], first, tmp_path, name="t")
     with pytest.raises(OSError, match='no variable "nothing"'):
-        rondel.Partition.read(f"{path}:nothing")
+        rondel.CellSet.read(f"{path}:nothing")
 
 
 def test_pretended_axes(tmp_path):
@@ -212,4 +212,4 @@ def test_pretended_axes(tmp_path):
     path = tmp_path / "lost.nc"
     write(path, ds.drop_vars(["corner_lons", "corner_lats"]))
     with pytest.raises(OSError, match="have no bounds, so no cells"):
-        rondel.Partition.read(path)
+        rondel.CellSet.read(path)

@@ -15,7 +15,7 @@ import rondel
 
 
 def mesh_of_voronoi(n=40):
-    cells = rondel.Partition.voronoi(rondel.delaunay(clouds.uniform(n, 3)))
+    cells = rondel.CellSet.voronoi(rondel.delaunay(clouds.uniform(n, 3)))
     offsets, _, corners, points = cells.rings
     return cells, offsets, corners, rondel.lonlat(points)
 
@@ -81,10 +81,10 @@ def test_ugrid_without_fill_or_start(tmp_path):
             file.createVariable("faces", "i4", ("face", "corner"))[:] = rows
         if first == 0:
             with pytest.warns(UserWarning, match=text):
-                assert len(rondel.Partition.read(path).areas) == 2
+                assert len(rondel.CellSet.read(path).areas) == 2
         else:
             with pytest.raises(OSError, match=text):
-                rondel.Partition.read(path)
+                rondel.CellSet.read(path)
 
 
 @pytest.mark.parametrize("unit", ["degrees", "radians"])
@@ -138,7 +138,7 @@ def test_meshes_without_units(tmp_path):
     for name in ds.variables:
         ds[name].attrs.pop("units", None)
     write(tmp_path / "plain.nc", ds, "NETCDF3_64BIT")
-    areas = rondel.Partition.read(tmp_path / "mesh.nc").areas
+    areas = rondel.CellSet.read(tmp_path / "mesh.nc").areas
     assert np.isclose(areas.sum(), 4 * np.pi)
     check(tmp_path / "plain.nc", None, areas, tmp_path)
     found = rondel.Regridder(ds, OTHER, "nearest_s2d")
@@ -187,11 +187,11 @@ def test_esmf_rows_of_different_lengths(tmp_path):
     with netCDF4.Dataset(path, "a") as file:
         file["numElementConn"][39] = sizes[39] - 1
     with pytest.raises(OSError, match=f"has {len(corners)} values instead of {len(corners) - 1}"):
-        rondel.Partition.read(path)
+        rondel.CellSet.read(path)
     with netCDF4.Dataset(path, "a") as file:
         file["numElementConn"][39] = sizes[39] + 1
     with pytest.raises(OSError, match=f"cell 39 has {sizes[39] + 1} corners of {sizes[39]}"):
-        rondel.Partition.read(path)
+        rondel.CellSet.read(path)
 
 
 def test_meshes_tell_what_they_have_not(tmp_path):
@@ -223,7 +223,7 @@ def test_a_variable_on_its_cells_names_a_mesh(tmp_path, kind):
         file.createDimension("lev", 2)
         file.createVariable("t", "f4", ("lev", of_cells))[:] = 0
         file.createVariable("profile", "f4", ("lev",))[:] = 0
-    areas = rondel.Partition.read(path).areas
-    assert rondel.Partition.read(f"{path}:t").areas.tolist() == areas.tolist()
+    areas = rondel.CellSet.read(path).areas
+    assert rondel.CellSet.read(f"{path}:t").areas.tolist() == areas.tolist()
     with pytest.raises(OSError, match='variable "profile"'):
-        rondel.Partition.read(f"{path}:profile")
+        rondel.CellSet.read(f"{path}:profile")

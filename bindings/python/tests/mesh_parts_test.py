@@ -57,13 +57,13 @@ def test_polygons_of_every_kind_remove_the_same_cells(mesh, tmp_path):
     is_inside = (lon > -30) & (lon < 110) & (lat > -40) & (lat < 50)
     path = tmp_path / "square.geojson"
     path.write_text(json.dumps(SQUARE))
-    for polygons in (SQUARE, path, str(path), [SQUARE], rondel.Partition.read(path)):
+    for polygons in (SQUARE, path, str(path), [SQUARE], rondel.CellSet.read(path)):
         assert (mesh.points[~is_inside] == mesh.cull(inside=polygons).mesh.points).all()
         assert (mesh.points[is_inside] == mesh.cull(outside=polygons).mesh.points).all()
     both = mesh.cull(lat > 0, outside=SQUARE).mesh
     assert (both.points == mesh.points[is_inside & ~(lat > 0)]).all()
     with pytest.raises(rondel.InvalidInput, match="between parallels"):
-        mesh.cull(inside=rondel.Partition.lonlat_grid([0, 90, 180], [-90, 0, 90]))
+        mesh.cull(inside=rondel.CellSet.lonlat_grid([0, 90, 180], [-90, 0, 90]))
 
 
 def test_land_of_the_earth_by_shapely(mesh):
@@ -86,7 +86,7 @@ def test_files_of_a_part_come_back(mesh, tmp_path):
         assert (getattr(again, name) == getattr(culled, name)).all(), name
     for write in ("to_ugrid", "to_scrip", "to_esmf"):
         getattr(culled, write)(tmp_path / "other.nc")
-        cells = rondel.Partition.read(tmp_path / "other.nc")
+        cells = rondel.CellSet.read(tmp_path / "other.nc")
         assert np.allclose(cells.areas, culled.cell_areas / 4, rtol=1e-11)
         again = rondel.mesh.read(tmp_path / "other.nc", radius=mesh.radius)
         assert (again.cells_on_cell == culled.cells_on_cell).all()

@@ -55,7 +55,7 @@ def test_files_come_back(tmp_path):
     with pytest.raises(OSError, match=r"exodus\.nc: Exodus without centers of cells"):
         rondel.mesh.read(tmp_path / "exodus.nc")
     # Its blocks have the cells in another order.
-    areas = rondel.Partition.read(tmp_path / "exodus.nc").areas
+    areas = rondel.CellSet.read(tmp_path / "exodus.nc").areas
     assert np.allclose(np.sort(areas), np.sort(mesh.cell_areas))
 
 

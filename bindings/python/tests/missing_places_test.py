@@ -61,7 +61,7 @@ def test_masked_places_are_counted(are_axes):
 def test_masked_lines_of_cells_are_refused():
     gap = masked(LON, LON == 20)
     with pytest.raises(ValueError, match=r"lon\[4\] is masked"):
-        rondel.Partition.lonlat_grid(gap, LAT)
+        rondel.CellSet.lonlat_grid(gap, LAT)
     with pytest.raises(ValueError, match=r"longitude 4 is not finite"):
         regridded({"lon": gap, "lat": LAT}, TARGET, "conservative")
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Files by the conventions, and what the tool, `Partition.read` and Datasets make of them.
+"""Files by the conventions, and what the tool, `CellSet.read` and Datasets make of them.
 
 Held against areas and sums that are computed here.
 """
@@ -89,7 +89,7 @@ def polygon_area(lon, lat):
 
 def check(path, dataset, areas, folder, tolerance=1e-13, name=""):
     """The same from the file and from the Dataset; returns what the tool says."""
-    part = rondel.Partition.read(f"{path}:{name}" if name else path)
+    part = rondel.CellSet.read(f"{path}:{name}" if name else path)
     assert np.allclose(part.areas, areas.ravel(), rtol=1e-9, atol=tolerance)
     if dataset is not None:
         regridder = rondel.Regridder(dataset, OTHER, "conservative")

@@ -72,20 +72,20 @@ def sample(name):
     box = {"type": "Polygon", "coordinates": [[[0, -30], [70, -30], [70, 60], [0, 60], [0, -30]]]}
     points = clouds.uniform(60)
     return {
-        "diagram": lambda: rondel.Partition.voronoi(rondel.SphericalVoronoi(points)),
-        "duplicates": lambda: rondel.Partition.voronoi(
+        "diagram": lambda: rondel.CellSet.voronoi(rondel.SphericalVoronoi(points)),
+        "duplicates": lambda: rondel.CellSet.voronoi(
             rondel.delaunay(np.concatenate([points, points[:3]]))
         ),
-        "power": lambda: rondel.Partition.voronoi(rondel.power_diagram(points, 5.0)),
-        "triangles": lambda: rondel.Partition.triangles(rondel.delaunay(points)),
+        "power": lambda: rondel.CellSet.voronoi(rondel.power_diagram(points, 5.0)),
+        "triangles": lambda: rondel.CellSet.triangles(rondel.delaunay(points)),
         "grid": lambda: rondel.lonlat_grid(12, 6),
         "arcs": lambda: rondel.lonlat_grid(12, 6, sides="great_circles"),
-        "axes": lambda: rondel.Partition.lonlat_centers(np.arange(0.0, 360, 30), [-60, 0, 60]),
-        "corners": lambda: rondel.Partition.corners([[[0, 9, 9, 0]]], [[[0, 0, 7, 7]]]),
+        "axes": lambda: rondel.CellSet.lonlat_centers(np.arange(0.0, 360, 30), [-60, 0, 60]),
+        "corners": lambda: rondel.CellSet.corners([[[0, 9, 9, 0]]], [[[0, 0, 7, 7]]]),
         "polygons": lambda: rondel.polygons(
             [{"type": "Feature", "properties": {"name": "ä", "n": 3}, "geometry": box}]
         ),
-        "whole": lambda: rondel.Partition.polygons([0, 0], [0], [], np.zeros((0, 3)), whole=[0]),
+        "whole": lambda: rondel.CellSet.polygons([0, 0], [0], [], np.zeros((0, 3)), whole=[0]),
         "clipped": lambda: rondel.SphericalVoronoi(points).clip(box).partition(),
         "disks": lambda: rondel.polygons(disks()),
     }[name]
@@ -138,7 +138,7 @@ def test_copies_of_partitions_of_files(make, tmp_path):
         '"Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]}}'
     )
     for name in ("cells.nc", "a.geojson"):
-        cells = rondel.Partition.read(tmp_path / name)
+        cells = rondel.CellSet.read(tmp_path / name)
         copied = make(cells)
         assert copied.areas.tobytes() == cells.areas.tobytes()
         for k, side in enumerate((cells, copied)):

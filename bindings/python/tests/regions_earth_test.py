@@ -73,7 +73,7 @@ def geometries_of(path):
 
 @pytest.mark.parametrize("path", [LAND, COUNTRIES])
 def test_areas_add_up_to_the_polygons(cells, path):
-    own = rondel.Partition.read(path, overlap="first").areas
+    own = rondel.CellSet.read(path, overlap="first").areas
     clipped = cells.clip(path)
     assert np.isclose(clipped.areas.sum(), own.sum(), rtol=1e-12, atol=0)
     # Three countries overlap by some square kilometers, which count once.

@@ -46,7 +46,7 @@ def test_clipped_cells_fill_the_region():
     assert np.array_equal(clipped.labels, np.arange(200))
     assert np.isclose(clipped.areas.sum(), AREA, rtol=WITHIN)
     assert np.all(clipped.areas <= CELLS.areas + 1e-14)
-    region = rondel.Partition.from_geometries([ISLANDS])
+    region = rondel.CellSet.from_geometries([ISLANDS])
     assert np.isclose(clipped.areas.sum(), region.areas[0], rtol=1e-13)
     geodesic = CELLS.clip(ISLANDS, edges="geodesic")
     assert abs(geodesic.areas.sum() / clipped.areas.sum() - 1) > 1e-3
@@ -153,9 +153,9 @@ def test_cells_of_features_may_be_clipped():
     ring = [[-10, -20], [30, -20], [30, 20], [-10, 20], [-10, -20]]
     sea = {"type": "Polygon", "coordinates": [ring]}
     within = rondel.feature_cells([island, coast], 50, within=sea)
-    whole = rondel.Partition.from_geometries([sea]).areas[0]
+    whole = rondel.CellSet.from_geometries([sea]).areas[0]
     assert abs(within.areas.sum() - whole) < 1e-13
-    assert (within.areas > rondel.Partition.from_geometries([island]).areas[0]).all()
+    assert (within.areas > rondel.CellSet.from_geometries([island]).areas[0]).all()
     alone = rondel.feature_cells([coast], 50, within=sea)
     assert abs(alone.areas[0] - whole) < 1e-13
 
@@ -195,7 +195,7 @@ def test_geojson(tmp_path):
         assert properties["name"] == f"site {properties['site']}"
         assert properties["area"] == clipped.areas[properties["site"]]
     clipped.to_geojson(tmp_path / "cells.geojson")
-    again = rondel.Partition.read(tmp_path / "cells.geojson", edges="geodesic")
+    again = rondel.CellSet.read(tmp_path / "cells.geojson", edges="geodesic")
     assert np.isclose(again.areas.sum(), AREA, rtol=1e-5)
     with pytest.raises(ValueError, match="'area' is taken"):
         clipped.to_geojson(properties={"area": range(200)})
@@ -263,7 +263,7 @@ def test_geometries_of_other_libraries():
         series.to_arrow(geometry_encoding="geoarrow"),
     ]
     for geometries in given:
-        areas = rondel.Partition.from_geometries(geometries).areas
+        areas = rondel.CellSet.from_geometries(geometries).areas
         assert np.allclose(areas, expected, rtol=WITHIN)
     assert np.isclose(CELLS.clip(boxes[0]).areas.sum(), expected[0], rtol=WITHIN)
 
@@ -288,17 +288,17 @@ def test_partitions_of_corners():
     west, south = lon[..., None], lat[..., None]
     lons = np.concatenate([west, west + 30, west + 30, west], axis=-1)
     lats = np.concatenate([south, south, south + 30, south + 30], axis=-1)
-    cells = rondel.Partition.corners(lons, lats)
+    cells = rondel.CellSet.corners(lons, lats)
     assert cells.shape == (4, 12)
-    turned = rondel.Partition.corners(lons[..., ::-1], lats[..., ::-1])
+    turned = rondel.CellSet.corners(lons[..., ::-1], lats[..., ::-1])
     assert np.array_equal(turned.areas, cells.areas)
     # 360 degrees are 0: neighbors across the date line share their corners.
     assert len(cells.rings[3]) == 5 * 12
     with pytest.raises(rondel.InvalidInput, match=r"cell 1 has a corner at .* no place") as error:
-        rondel.Partition.corners([[0, 1, 2], [0, np.nan, 2]], [[0, 1, 0], [0, 1, 0]])
+        rondel.CellSet.corners([[0, 1, 2], [0, np.nan, 2]], [[0, 1, 0], [0, 1, 0]])
     assert error.value.index == 1
     with pytest.raises(ValueError, match="must have shape"):
-        rondel.Partition.corners([0, 1, 2], [0, 1, 2])
+        rondel.CellSet.corners([0, 1, 2], [0, 1, 2])
 
 
 def test_cells_are_cut_by_values():

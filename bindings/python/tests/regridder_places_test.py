@@ -244,7 +244,7 @@ def test_masked_arrays_keep_their_type():
 
 
 def test_the_cells_of_a_partition_are_a_dimension_by_name_or_length():
-    cells = rondel.Partition.voronoi(
+    cells = rondel.CellSet.voronoi(
         rondel.delaunay(rondel.unit_vectors([0, 90, 200, 10], [0, 5, 0, 70]))
     )
     regridder = rondel.Regridder(cells, rondel.lonlat_grid(6, 3), "conservative")

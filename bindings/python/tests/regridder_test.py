@@ -58,7 +58,7 @@ def test_constants_and_smooth_fields(method):
 @pytest.mark.parametrize("method", CONSERVATIVE)
 def test_integrals_are_kept(method):
     regridder = rondel.Regridder(FINE, COARSE, method)
-    cells = [rondel.Partition.lonlat_centers(axes["lon"], axes["lat"]) for axes in (FINE, COARSE)]
+    cells = [rondel.CellSet.lonlat_centers(axes["lon"], axes["lat"]) for axes in (FINE, COARSE)]
     values = np.random.default_rng(0).normal(size=(36, 72))
     before = values.ravel() @ cells[0].areas
     assert np.isclose(regridder(values).ravel() @ cells[1].areas, before, atol=1e-13)
@@ -156,7 +156,7 @@ def test_cells_of_corners():
         rondel.Regridder(bounds, COARSE, "conservative_normed")(values), found, equal_nan=True
     )
     lines = {"lon": lon[0], "lat": lat[:, 0], "lon_b": lon_b[0], "lat_b": lat_b[:, 0]}
-    expected = rondel.Partition.lonlat_grid(lon_b[0], lat_b[:, 0])
+    expected = rondel.CellSet.lonlat_grid(lon_b[0], lat_b[:, 0])
     regridder = rondel.Regridder(lines, expected, "conservative")
     assert np.array_equal(regridder(values), values)
     pairs = {**lines, "lon_b": np.stack([lon_b[0, :-1], lon_b[0, 1:]], -1)}
@@ -169,9 +169,9 @@ def test_cells_of_corners():
 
 def test_partitions_are_grids():
     tri = rondel.delaunay(clouds.uniform(400, 1))
-    cells = rondel.Partition.voronoi(tri)
+    cells = rondel.CellSet.voronoi(tri)
     regridder = rondel.Regridder(cells, COARSE, "conservative")
-    expected = rondel.remap(cells, rondel.Partition.lonlat_centers(COARSE["lon"], COARSE["lat"]))
+    expected = rondel.remap(cells, rondel.CellSet.lonlat_centers(COARSE["lon"], COARSE["lat"]))
     values = np.random.default_rng(5).normal(size=400)
     assert np.array_equal(regridder(values).ravel(), expected.weights.apply(values))
     back = rondel.Regridder(COARSE, cells, "sibson")

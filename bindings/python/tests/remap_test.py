@@ -12,21 +12,21 @@ import rondel
 import rondel.mesh
 
 TRI = rondel.delaunay(clouds.uniform(300, 3))
-CELLS = rondel.Partition.voronoi(TRI)
+CELLS = rondel.CellSet.voronoi(TRI)
 LON = np.linspace(-180, 180, 25)
 LAT = np.linspace(-90, 90, 13)
-GRID = rondel.Partition.lonlat_grid(LON, LAT)
+GRID = rondel.CellSet.lonlat_grid(LON, LAT)
 
 
 def test_partitions_are_those_of_their_owners():
     voronoi = rondel.SphericalVoronoi(TRI.points)
     for owner in (TRI, voronoi):
-        assert np.allclose(rondel.Partition.voronoi(owner).areas, voronoi.areas, atol=1e-14)
+        assert np.allclose(rondel.CellSet.voronoi(owner).areas, voronoi.areas, atol=1e-14)
     assert CELLS.is_cover
     assert CELLS.shape == (300,)
-    assert rondel.Partition.triangles(TRI).num_cells == np.count_nonzero(~TRI.ghost)
+    assert rondel.CellSet.triangles(TRI).num_cells == np.count_nonzero(~TRI.ghost)
     with pytest.raises(TypeError, match="not ndarray"):
-        rondel.Partition.voronoi(TRI.points)
+        rondel.CellSet.voronoi(TRI.points)
     assert np.allclose(np.linalg.norm(CELLS.centers, axis=1), 1)
 
 
@@ -34,7 +34,7 @@ def test_a_grid_has_the_areas_between_its_lines():
     assert GRID.shape == (12, 24)
     expected = np.outer(np.diff(np.sin(np.radians(LAT))), np.diff(np.radians(LON)))
     assert np.allclose(GRID.areas.reshape(GRID.shape), expected, rtol=1e-13)
-    arcs = rondel.Partition.lonlat_grid(LON, LAT, sides="great_circles")
+    arcs = rondel.CellSet.lonlat_grid(LON, LAT, sides="great_circles")
     assert arcs.is_cover
     assert abs(arcs.areas.sum() - 4 * np.pi) < 1e-13
     assert not np.allclose(arcs.areas, GRID.areas, rtol=1e-4)
@@ -59,10 +59,10 @@ def test_integrals_and_constants_are_kept(source, target, order):
 
 
 def test_rings_come_back():
-    again = rondel.Partition.polygons(*CELLS.rings)
+    again = rondel.CellSet.polygons(*CELLS.rings)
     assert np.allclose(again.areas, CELLS.areas, rtol=1e-14, atol=0)
     with pytest.raises(rondel.InvalidInput, match="cell 0 has a ring of 2 corners"):
-        rondel.Partition.polygons([0, 1], [0, 2], [0, 1], np.eye(3))
+        rondel.CellSet.polygons([0, 1], [0, 2], [0, 1], np.eye(3))
 
 
 def test_masks():
@@ -92,7 +92,7 @@ def test_files(tmp_path):
     box = [[[10, 20], [40, 20], [40, 50], [10, 50], [10, 20]]]
     geometry = {"type": "Polygon", "coordinates": box}
     (tmp_path / "box.geojson").write_text(json.dumps(geometry), "utf-8")
-    polygons = rondel.Partition.read(tmp_path / "box.geojson")
+    polygons = rondel.CellSet.read(tmp_path / "box.geojson")
     assert polygons.num_cells == 1
     assert not polygons.is_cover
     height = np.sin(np.radians(50)) - np.sin(np.radians(20))
@@ -100,10 +100,10 @@ def test_files(tmp_path):
     found = rondel.remap(polygons, GRID, norm="fracarea")
     assert np.isnan(found.weights.apply([5.0])[0])
     assert np.nanmax(found.weights.apply([5.0])) == 5
-    arcs = rondel.Partition.read(tmp_path / "box.geojson", edges="geodesic")
+    arcs = rondel.CellSet.read(tmp_path / "box.geojson", edges="geodesic")
     assert arcs.areas[0] != polygons.areas[0]
     with pytest.raises(FileNotFoundError):
-        rondel.Partition.read(tmp_path / "none.nc")
+        rondel.CellSet.read(tmp_path / "none.nc")
 
 
 def test_meshes_of_xarray(tmp_path):
@@ -117,7 +117,7 @@ def test_meshes_of_xarray(tmp_path):
         }
     )
     grid.to_netcdf(tmp_path / "grid.nc", engine="scipy")
-    read = rondel.Partition.read(tmp_path / "grid.nc")
+    read = rondel.CellSet.read(tmp_path / "grid.nc")
     assert read.shape == GRID.shape
     assert np.array_equal(read.areas, GRID.areas)
     assert read.mask.all()
@@ -144,7 +144,7 @@ def test_cells_are_those_of_their_owners():
 def test_a_grid_by_its_size():
     grid = rondel.lonlat_grid(360, 180)
     assert grid.shape == (180, 360)
-    lines = rondel.Partition.lonlat_grid(np.arange(-180, 181), np.arange(-90, 91))
+    lines = rondel.CellSet.lonlat_grid(np.arange(-180, 181), np.arange(-90, 91))
     assert np.array_equal(grid.areas, lines.areas)
     with pytest.raises(ValueError, match="nlat must be at least 1"):
         rondel.lonlat_grid(4, 0)
@@ -161,7 +161,7 @@ def test_polygons_of_files_and_mappings(tmp_path):
 @pytest.mark.parametrize("norm", ["destarea", "fracarea"])
 def test_files_of_weights_have_what_they_are_of(tmp_path, norm):
     netcdf = pytest.importorskip("scipy.io").netcdf_file
-    land = rondel.Partition.from_geometries(
+    land = rondel.CellSet.from_geometries(
         {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]}
     )
     remap = rondel.remap(land, GRID, norm=norm)
@@ -187,7 +187,7 @@ def test_files_of_weights_have_what_they_are_of(tmp_path, norm):
 
 
 def test_parts_of_the_sphere():
-    part = rondel.Partition.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
+    part = rondel.CellSet.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
     assert rondel.remap(part, part).weights.data.tolist() == [1]
 
 
@@ -198,13 +198,13 @@ def test_uxarray_applies_weights(tmp_path):
     source = rondel.SphericalVoronoi(sites)
     target = rondel.SphericalVoronoi(clouds.uniform(60, seed=1))
     around = np.flatnonzero(source.points @ target.points[-1] < 0.5)
-    _, rings, corners, points = rondel.Partition.voronoi(source).rings
+    _, rings, corners, points = rondel.CellSet.voronoi(source).rings
     kept = [corners[rings[i] : rings[i + 1]] for i in around]
     offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in kept])])
-    part = rondel.Partition.polygons(
+    part = rondel.CellSet.polygons(
         np.arange(len(kept) + 1), offsets, np.concatenate(kept), points
     )
-    weights = rondel.remap(part, rondel.Partition.voronoi(target), norm="fracarea").weights
+    weights = rondel.remap(part, rondel.CellSet.voronoi(target), norm="fracarea").weights
     values = np.random.default_rng(2).normal(size=len(kept))
     expected = weights.apply(values)
     assert np.isnan(expected[-1])
@@ -223,7 +223,7 @@ def test_cells_that_overlap():
         np.array([0.0, 20, 20, 0, 10, 30, 30, 10]),
         np.array([0.0, 0, 20, 20, 10, 10, 30, 30]),
     )
-    twice = rondel.Partition.polygons(
+    twice = rondel.CellSet.polygons(
         [0, 1, 2], [0, 4, 8], np.arange(8), rondel.unit_vectors(lon, lat)
     )
     grid = rondel.lonlat_grid(36, 18)
@@ -249,9 +249,9 @@ def test_what_is_refused():
     with pytest.raises(ValueError, match="order must be 1 or 2"):
         rondel.remap(CELLS, GRID, order=3)
     with pytest.raises(ValueError, match="sides must be"):
-        rondel.Partition.lonlat_grid(LON, LAT, sides="straight")
+        rondel.CellSet.lonlat_grid(LON, LAT, sides="straight")
     with pytest.raises(rondel.InvalidInput, match="meridian 1"):
-        rondel.Partition.lonlat_grid([0, 0], LAT)
+        rondel.CellSet.lonlat_grid([0, 0], LAT)
 
 
 def test_cells_that_are_the_whole_sphere():
@@ -259,13 +259,13 @@ def test_cells_that_are_the_whole_sphere():
     world = [[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]
     cells = rondel.polygons([box, {"type": "Polygon", "coordinates": [world]}, box])
     assert cells.whole.tolist() == [1]
-    again = rondel.Partition.polygons(*cells.rings, whole=cells.whole)
+    again = rondel.CellSet.polygons(*cells.rings, whole=cells.whole)
     assert again.areas.tolist() == cells.areas.tolist()
     assert np.isclose(again.areas[1], 4 * np.pi)
     assert again.whole.tolist() == [1]
-    assert rondel.Partition.polygons(*cells.rings).areas[1] == 0
+    assert rondel.CellSet.polygons(*cells.rings).areas[1] == 0
     with pytest.raises(rondel.InvalidInput, match="whole"):
-        rondel.Partition.polygons(*cells.rings, whole=[0])
+        rondel.CellSet.polygons(*cells.rings, whole=[0])
 
 
 @pytest.mark.parametrize("radius", [2.0, 6371229.0])

@@ -114,7 +114,7 @@ def test_files_with_centers_of_mass_are_of_the_same_cells(tmp_path):
     path = tmp_path / "w.nc"
     made = rondel.Regridder(SOURCE, TARGET, "conservative")
     made.to_netcdf(path)
-    cells = rondel.Partition.lonlat_centers(LON, LAT)
+    cells = rondel.CellSet.lonlat_centers(LON, LAT)
 
     def as_before(data):
         data["xc_a"][:], data["yc_a"][:] = rondel.lonlat(cells.centers).T
@@ -172,7 +172,7 @@ def test_curved_cells_have_their_coordinates(tmp_path):
 
 def test_empty_cells_need_no_center(tmp_path):
     lon = np.array([[0.0, 90, 90, 0], [10, 10, 10, 10], [90, 180, 180, 90]])
-    cells = rondel.Partition.corners(lon, np.array([[0.0, 0, 50, 50]] * 3))
+    cells = rondel.CellSet.corners(lon, np.array([[0.0, 0, 50, 50]] * 3))
     made = rondel.Regridder(SOURCE, cells, "conservative")
     made.to_netcdf(tmp_path / "w.nc")
 
@@ -260,7 +260,7 @@ def test_axes_out_of_order_are_refused(name, axis, match):
     with pytest.raises(ValueError, match=rf"{name}\[2\] is .* after"):
         rondel.Regridder(wrong, TARGET, "bilinear")
     with pytest.raises(rondel.InvalidInput, match=match):
-        rondel.Partition.lonlat_centers(wrong["lon"], wrong["lat"])
+        rondel.CellSet.lonlat_centers(wrong["lon"], wrong["lat"])
 
 
 @pytest.mark.parametrize("name", ["w.csv", "w.npz", "w", "w.nc.txt"])

@@ -122,7 +122,7 @@ def test_netcdf4_by_the_library_of_the_wheel(tmp_path):
     code = (
         "import sys, rondel; from rondel._netcdf import netcdf_library; "
         "assert netcdf_library() is not None and 'netCDF4' not in sys.modules; "
-        "print(rondel.Partition.read(sys.argv[1]).areas.sum())"
+        "print(rondel.CellSet.read(sys.argv[1]).areas.sum())"
     )
     done = subprocess.run(
         [sys.executable, "-c", code, str(tmp_path / "grid.nc")],

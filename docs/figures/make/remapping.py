@@ -29,9 +29,9 @@ def main():
     points = random.normal(size=(1200, 3))
     points /= np.linalg.norm(points, axis=1, keepdims=True)
     cells = rondel.SphericalVoronoi(points)
-    source = rondel.Partition.voronoi(cells)
+    source = rondel.CellSet.voronoi(cells)
     lon, lat = np.arange(-180, 180 + STEP, STEP), np.arange(-90, 90 + STEP, STEP)
-    grid = rondel.Partition.lonlat_grid(lon, lat)
+    grid = rondel.CellSet.lonlat_grid(lon, lat)
     values = field_of(points)
     found = {order: rondel.remap(source, grid, order=order).weights.apply(values) for order in (1, 2)}
     middles = np.meshgrid(lon[:-1] + STEP / 2, lat[:-1] + STEP / 2)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "rondel/partition.h"
+#include "rondel/cell_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "exact/vector.h"
+#include "overlay/cell_set_data.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
-#include "overlay/partition_data.h"
 #include "overlay/sound_cells.h"
 #include "overlay/tidy_rings.h"
 #include "rondel/diagram.h"
@@ -50,8 +50,8 @@ double area_of(const Subdivision& cells, Index cell, std::span<const BorderArc> 
 
 }  // namespace
 
-PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
-                             bool are_apart)
+CellSetData::CellSetData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
+                         bool are_apart)
     : subdivision_(std::move(subdivision)),
       all_whole_(std::move(whole)),
       areas_(subdivision_.num_cells()),
@@ -86,7 +86,7 @@ PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, 
   are_apart_ = are_apart || (is_cover_ && all_whole_.empty());
 }
 
-PartitionData::PartitionData(Graticule grid)
+CellSetData::CellSetData(Graticule grid)
     : subdivision_({}, false, 1),
       grid_(std::move(grid)),
       is_cover_(grid_->is_cover()),
@@ -95,21 +95,21 @@ PartitionData::PartitionData(Graticule grid)
       moments_(grid_->moments()),
       lengths_(grid_->lengths()) {}
 
-const std::vector<CrossingCells>& PartitionData::overlaps(const Execution& execution) const {
+const std::vector<CrossingCells>& CellSetData::overlaps(const Execution& execution) const {
   std::call_once(are_overlaps_known_, [&] {
     if (!are_apart_) overlaps_ = overlaps_of(subdivision_, all_whole_, execution);
   });
   return overlaps_;
 }
 
-void PartitionData::require_simple_cells() const {
+void CellSetData::require_simple_cells() const {
   std::call_once(is_crossing_known_, [&] {
     if (!are_apart_) crossing_ = first_crossing_itself(subdivision_, {.threads = 1});
   });
   if (crossing_) throw InvalidInput(message_of(*crossing_), crossing_->first);
 }
 
-CellRings rings_of(const PartitionData& data) {
+CellRings rings_of(const CellSetData& data) {
   CellRings result = rings_of(data.subdivision());
   result.whole = data.all_whole();
   return result;
@@ -129,7 +129,7 @@ CellRings rings_of(const Subdivision& cells) {
   return result;
 }
 
-CellRings given_rings_of(const PartitionData& data) {
+CellRings given_rings_of(const CellSetData& data) {
   CellRings result = rings_of(data);
   const Subdivision& cells = data.subdivision();
   if (cells.given_starts.empty()) return result;
@@ -144,7 +144,7 @@ CellRings given_rings_of(const PartitionData& data) {
   return result;
 }
 
-void require_arcs(const PartitionData& cells) {
+void require_arcs(const CellSetData& cells) {
   if (cells.grid() == nullptr) return;
   throw InvalidInput("cells between parallels have no sides on great circles");
 }
@@ -153,7 +153,7 @@ void require_arcs(const PartitionData& cells) {
 
 namespace {
 
-using overlay::PartitionData;
+using overlay::CellSetData;
 using overlay::Subdivision;
 
 // Returns the cells of a diagram as CellRings.
@@ -238,18 +238,18 @@ std::string_view name_of(GridSides sides) noexcept {
   return system::name_in({"parallels", "great_circles"}, sides);
 }
 
-Partition::Partition(std::shared_ptr<const PartitionData> data) : data_(std::move(data)) {}
+CellSet::CellSet(std::shared_ptr<const CellSetData> data) : data_(std::move(data)) {}
 
-Partition::Partition(const CellRings& cells, const Execution& execution) {
+CellSet::CellSet(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
   std::vector<Index> whole = cells.whole;
   Subdivision subdivision = overlay::sound_cells(cells, whole, execution);
-  data_ = std::make_shared<const PartitionData>(std::move(subdivision), std::move(whole),
-                                                execution.threads);
+  data_ = std::make_shared<const CellSetData>(std::move(subdivision), std::move(whole),
+                                              execution.threads);
 }
 
-Partition Partition::voronoi(const Triangulation& triangulation, const Execution& execution) {
+CellSet CellSet::voronoi(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
   std::vector<Index> whole;
   if (triangulation.num_vertices() == 1) {
@@ -264,19 +264,19 @@ Partition Partition::voronoi(const Triangulation& triangulation, const Execution
       cells = Subdivision(*tidy, true, execution.threads);
     }
   }
-  return Partition(std::make_shared<const PartitionData>(std::move(cells), std::move(whole),
-                                                         execution.threads, true));
+  return CellSet(std::make_shared<const CellSetData>(std::move(cells), std::move(whole),
+                                                     execution.threads, true));
 }
 
-Partition Partition::of_apart(const CellRings& cells, const Execution& execution) {
+CellSet CellSet::of_apart(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
   Subdivision subdivision(cells, false, execution.threads);
-  return Partition(std::make_shared<const PartitionData>(
-      std::move(subdivision), std::vector<Index>{}, execution.threads, true));
+  return CellSet(std::make_shared<const CellSetData>(std::move(subdivision), std::vector<Index>{},
+                                                     execution.threads, true));
 }
 
-Partition Partition::triangles(const Triangulation& triangulation, const Execution& execution) {
+CellSet CellSet::triangles(const Triangulation& triangulation, const Execution& execution) {
   CellRings rings;
   rings.points = directions(triangulation);
   if (triangulation.dimension() == 2) {
@@ -289,35 +289,34 @@ Partition Partition::triangles(const Triangulation& triangulation, const Executi
   return of_apart(rings, execution);
 }
 
-Partition Partition::lonlat_grid(const LonLatGrid& grid, GridSides sides,
-                                 const Execution& execution) {
+CellSet CellSet::lonlat_grid(const LonLatGrid& grid, GridSides sides, const Execution& execution) {
   const system::Call call(execution);
   if (sides == GridSides::great_circles) {
     return of_apart(overlay::rings_of(grid), execution);
   }
-  return Partition(std::make_shared<const PartitionData>(overlay::Graticule(grid)));
+  return CellSet(std::make_shared<const CellSetData>(overlay::Graticule(grid)));
 }
 
-std::size_t Partition::num_cells() const { return data_->areas().size(); }
-std::span<const double> Partition::areas() const {
+std::size_t CellSet::num_cells() const { return data_->areas().size(); }
+std::span<const double> CellSet::areas() const {
   data_->require_simple_cells();
   return data_->areas();
 }
-std::vector<Point> Partition::centers() const {
+std::vector<Point> CellSet::centers() const {
   data_->require_simple_cells();
   std::vector<Point> centers;
   centers.reserve(num_cells());
   for (const Point& moment : data_->moments()) centers.push_back(normalized(moment));
   return centers;
 }
-CellRings Partition::rings() const {
+CellRings CellSet::rings() const {
   overlay::require_arcs(*data_);
   return overlay::rings_of(*data_);
 }
-CellRings Partition::given_rings() const {
+CellRings CellSet::given_rings() const {
   overlay::require_arcs(*data_);
   return overlay::given_rings_of(*data_);
 }
-bool Partition::is_cover() const { return data_->is_cover(); }
+bool CellSet::is_cover() const { return data_->is_cover(); }
 
 }  // namespace rondel

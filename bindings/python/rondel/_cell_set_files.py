@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The part of `Partition` that reads cells from files and from other libraries."""
+"""The part of `CellSet` that reads cells from files and from other libraries."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ Made = TypeVar("Made", bound="FileCells")
 
 
 class FileCells:
-    """The data of a `Partition`, and the functions that read it."""
+    """The data of a `CellSet`, and the functions that read it."""
 
-    _partition: _core.Partition
+    _cells: _core.CellSet
     _mask: IntArray
     _shape: tuple[int, ...]
     _axes: tuple[FloatArray, FloatArray] | None
@@ -38,7 +38,7 @@ class FileCells:
     @classmethod
     def _of(
         cls: type[Made],
-        partition: _core.Partition,
+        partition: _core.CellSet,
         mask: IntArray | None = None,
         shape: tuple[int, ...] = (),
         axes: tuple[FloatArray, FloatArray] | None = None,
@@ -48,7 +48,7 @@ class FileCells:
         origin: tuple[Any, ...] | None = None,
     ) -> Made:
         self = cls.__new__(cls)
-        self._partition = partition
+        self._cells = partition
         self._mask = np.zeros(0, np.int32) if mask is None else mask
         self._shape = shape
         self._axes = axes
@@ -61,7 +61,7 @@ class FileCells:
     # Cells of a triangulation or a grid are made again, so that they are the same bit by bit.
     def __getstate__(self) -> dict[str, Any]:
         state = dict(self.__dict__)
-        state["_partition"] = None if self._origin else self._partition.given_rings()
+        state["_cells"] = None if self._origin else self._cells.given_rings()
         state["_columns"] = self._columns and arrays_of(self._columns)
         return state
 
@@ -70,13 +70,13 @@ class FileCells:
         columns = state["_columns"]
         self._columns = columns and with_arrays(_core.CellColumns(), columns)
         if self._origin is None:
-            cells, rings, corners, points, whole = state["_partition"]
-            self._partition = _core.Partition.from_rings(cells, rings, corners, points, whole, 0)
+            cells, rings, corners, points, whole = state["_cells"]
+            self._cells = _core.CellSet.from_rings(cells, rings, corners, points, whole, 0)
             return
         name, *given = self._origin
         if name != "lonlat_grid":
             given = [given[0]._triangulation]
-        self._partition = getattr(_core.Partition, name)(*given, 0)
+        self._cells = getattr(_core.CellSet, name)(*given, 0)
 
     @classmethod
     def _of_polygons(cls: type[Made], polygons: Polygons) -> Made:
@@ -116,7 +116,7 @@ class FileCells:
 
         Returns
         -------
-        Partition
+        CellSet
             The cells, in the order of the file.
 
         Raises
@@ -139,7 +139,7 @@ class FileCells:
         found: list[Any] = []
         write_named(
             name,
-            lambda name: found.extend(_core.read_partition(name, sides, count_of_threads)),
+            lambda name: found.extend(_core.read_cell_set(name, sides, count_of_threads)),
         )
         partition, mask, shape, centers, remarks, *lines = found
         origin = ("lonlat_grid", *lines, sides) if len(lines[0]) else None
@@ -175,7 +175,7 @@ class FileCells:
 
         Returns
         -------
-        Partition
+        CellSet
             A cell for each geometry.
 
         Raises

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Partitions of the sphere, or of parts of it, into cells: with sides on great circles, or between
+/// Sets of cells on the sphere, prepared for overlays: with sides on great circles, or between
 /// meridians and parallels.
 #pragma once
 
@@ -19,7 +19,7 @@
 #include "rondel/types.h"
 
 namespace rondel::overlay {
-class PartitionData;
+class CellSetData;
 }  // namespace rondel::overlay
 
 namespace rondel {
@@ -42,21 +42,21 @@ enum class GridSides : std::uint8_t {
 RONDEL_API std::string_view name_of(GridSides sides) noexcept;
 
 /// Cells prepared for overlays with others. Copies share the memory; several threads may use one.
-class RONDEL_API Partition {
+class RONDEL_API CellSet {
  public:
   /// Makes the Voronoi cells of the sites, or the power cells in the weighted model. Corners are
   /// circumcenters, rounded to doubles. Corners that rounding has put into the wrong order are
   /// merged, so cells narrower than that may vanish.
-  static Partition voronoi(const Triangulation& triangulation, const Execution& execution = {});
+  static CellSet voronoi(const Triangulation& triangulation, const Execution& execution = {});
   /// Makes the solid faces into cells in dimension 2; there are none in other dimensions.
-  static Partition triangles(const Triangulation& triangulation, const Execution& execution = {});
+  static CellSet triangles(const Triangulation& triangulation, const Execution& execution = {});
   /// Makes the cells of a grid. With GridSides::parallels, areas in the overlay are exact areas
-  /// between parallels and arcs, not those of polygons near them; such a partition has no rings(),
+  /// between parallels and arcs, not those of polygons near them; such cells have no rings(),
   /// and regions.h refuses it.
   /// \throws InvalidInput with the line that is out of order or no longitude or latitude; with
   ///         great circles also with a cell that is 180 degrees wide.
-  static Partition lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
-                               const Execution& execution = {});
+  static CellSet lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
+                             const Execution& execution = {});
   /// Prepares any cells. In cells that are neither convex nor nearly convex, sides that lead back
   /// and forth between two corners cancel, and so do paths that turn back on themselves.
   /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three
@@ -66,7 +66,7 @@ class RONDEL_API Partition {
   /// rounding of their corners are dropped.) Cells that cross or overlap themselves are refused by
   /// areas(), by centers(), and, as cells that overlap each other, by the functions that use them
   /// (remap.h, regions.h).
-  explicit Partition(const CellRings& cells, const Execution& execution = {});
+  explicit CellSet(const CellRings& cells, const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;
   /// Returns the area of each cell in steradians, computed from its corners.
@@ -78,19 +78,19 @@ class RONDEL_API Partition {
   [[nodiscard]] std::vector<Point> centers() const;
   /// Returns the cells. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
-  /// Returns the same as rings(), but rings begin where those of the input did: Partition() of them
+  /// Returns the same as rings(), but rings begin where those of the input did: CellSet() of them
   /// has the same areas and centers, bit by bit, which depend on it in the last digit.
   [[nodiscard]] CellRings given_rings() const;
   /// True if the cells cover the sphere, each with one ring that is convex or nearly so, and share
   /// their edges; or if they are a grid of parallels that covers the sphere. An overlay in which
-  /// one partition is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).
+  /// one side is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).
   [[nodiscard]] bool is_cover() const;
 
  private:
-  friend class overlay::PartitionData;
-  explicit Partition(std::shared_ptr<const overlay::PartitionData> data);
-  static Partition of_apart(const CellRings& cells, const Execution& execution);
-  std::shared_ptr<const overlay::PartitionData> data_;
+  friend class overlay::CellSetData;
+  explicit CellSet(std::shared_ptr<const overlay::CellSetData> data);
+  static CellSet of_apart(const CellRings& cells, const Execution& execution);
+  std::shared_ptr<const overlay::CellSetData> data_;
 };
 
 }  // namespace rondel

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The content of a Partition: cells prepared for an overlay, or a grid, with areas and moments.
+// The content of a CellSet: cells prepared for an overlay, or a grid, with areas and moments.
 //
 // in    a subdivision or a grid
 // out   areas, moments and border lengths of the cells, and whether they cover the sphere
@@ -17,27 +17,25 @@
 #include "overlay/graticule.h"
 #include "overlay/pieces.h"
 #include "overlay/subdivision.h"
-#include "rondel/partition.h"
+#include "rondel/cell_set.h"
 #include "rondel/regions.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
-class PartitionData {
+class CellSetData {
  public:
   // `whole` has the cells that are the whole sphere, in ascending order. `are_apart` says that the
   // caller knows that no cells overlap.
-  PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
-                bool are_apart = false);
-  explicit PartitionData(Graticule grid);
+  CellSetData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
+              bool are_apart = false);
+  explicit CellSetData(Graticule grid);
 
-  [[nodiscard]] static const PartitionData& of(const Partition& partition) {
-    return *partition.data_;
-  }
+  [[nodiscard]] static const CellSetData& of(const CellSet& cells) { return *cells.data_; }
   // Returns cells that are known not to overlap each other or themselves, as they are.
-  [[nodiscard]] static Partition of_apart(const CellRings& cells, const Execution& execution) {
-    return Partition(std::make_shared<const PartitionData>(
-        Subdivision(cells, false, execution.threads), cells.whole, execution.threads, true));
+  [[nodiscard]] static CellSet of_apart(const CellRings& cells, const Execution& execution) {
+    return CellSet(std::make_shared<const CellSetData>(Subdivision(cells, false, execution.threads),
+                                                       cells.whole, execution.threads, true));
   }
 
   // Returns the grid, or null if the cells are not between meridians and parallels.
@@ -77,12 +75,12 @@ class PartitionData {
 };
 
 // Returns the cells in the order of the input.
-CellRings rings_of(const PartitionData& data);
+CellRings rings_of(const CellSetData& data);
 CellRings rings_of(const Subdivision& cells);
 // Returns the same with rings that begin where those of the input did.
-CellRings given_rings_of(const PartitionData& data);
+CellRings given_rings_of(const CellSetData& data);
 
 // Throws InvalidInput if the cells are those of a grid, whose sides are no great circles.
-void require_arcs(const PartitionData& cells);
+void require_arcs(const CellSetData& cells);
 
 }  // namespace rondel::overlay

@@ -12,12 +12,12 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of
 from ._errors import InvalidInput, warn_caller
-from ._partition_files import FileCells, Sides
+from ._cell_set_files import FileCells, Sides
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 
-class Partition(FileCells, Described):
+class CellSet(FileCells, Described):
     """Cells on the sphere: of a diagram, a triangulation, a grid, a model's mesh, or polygons.
 
     The class methods make it; `remap` and `SphericalVoronoi.clip` use it. Cells may cover the whole
@@ -40,16 +40,16 @@ class Partition(FileCells, Described):
     --------
     >>> import numpy as np
     >>> import rondel
-    >>> grid = rondel.Partition.lonlat_grid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
+    >>> grid = rondel.CellSet.lonlat_grid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
     >>> grid
-    <rondel.Partition: 648 cells, a cover of the sphere>
+    <rondel.CellSet: 648 cells, a cover of the sphere>
     >>> grid.shape
     (18, 36)
 
     """
 
     @classmethod
-    def voronoi(cls, sites: Any, *, threads: int | None = None) -> Partition:
+    def voronoi(cls, sites: Any, *, threads: int | None = None) -> CellSet:
         """Makes the Voronoi cells, or power cells, of sites.
 
         Parameters
@@ -62,7 +62,7 @@ class Partition(FileCells, Described):
 
         Returns
         -------
-        Partition
+        CellSet
             Cell i belongs to site i; duplicates and hidden sites have empty cells. Corners are
             circumcenters rounded to doubles.
 
@@ -73,11 +73,11 @@ class Partition(FileCells, Described):
 
         """
         owner = _triangulated_of(sites)
-        made = _core.Partition.voronoi(owner._triangulation, as_threads(threads))
+        made = _core.CellSet.voronoi(owner._triangulation, as_threads(threads))
         return cls._of(made, has_corners=False, origin=("voronoi", owner))
 
     @classmethod
-    def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
+    def triangles(cls, sites: Any, *, threads: int | None = None) -> CellSet:
         """Makes the triangles of a triangulation: its faces without ghosts, in their order.
 
         Parameters
@@ -90,7 +90,7 @@ class Partition(FileCells, Described):
 
         Returns
         -------
-        Partition
+        CellSet
             A cell for each face that is no ghost.
 
         Raises
@@ -100,7 +100,7 @@ class Partition(FileCells, Described):
 
         """
         owner = _triangulated_of(sites)
-        made = _core.Partition.triangles(owner._triangulation, as_threads(threads))
+        made = _core.CellSet.triangles(owner._triangulation, as_threads(threads))
         return cls._of(made, has_corners=False, origin=("triangles", owner))
 
     @classmethod
@@ -111,7 +111,7 @@ class Partition(FileCells, Described):
         *,
         sides: Sides = "parallels",
         threads: int | None = None,
-    ) -> Partition:
+    ) -> CellSet:
         """Makes the cells of a grid from its lines.
 
         Parameters
@@ -129,7 +129,7 @@ class Partition(FileCells, Described):
 
         Returns
         -------
-        Partition
+        CellSet
             Cells of the shape (nlat, nlon), in C order.
 
         Raises
@@ -140,14 +140,14 @@ class Partition(FileCells, Described):
         Examples
         --------
         >>> import rondel
-        >>> cells = rondel.Partition.lonlat_grid([0, 90, 180], [-90, 0, 90])
+        >>> cells = rondel.CellSet.lonlat_grid([0, 90, 180], [-90, 0, 90])
         >>> cells.shape, (cells.areas / 3.141592653589793).round(9).tolist()
         ((2, 2), [0.5, 0.5, 0.5, 0.5])
 
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
         lines = meridians, parallels, sides
-        made = _core.Partition.lonlat_grid(*lines, as_threads(threads))
+        made = _core.CellSet.lonlat_grid(*lines, as_threads(threads))
         axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
         shape = len(axes[1]), len(axes[0])
         return cls._of(made, shape=shape, axes=axes, origin=("lonlat_grid", *lines))
@@ -160,7 +160,7 @@ class Partition(FileCells, Described):
         *,
         sides: Sides = "parallels",
         threads: int | None = None,
-    ) -> Partition:
+    ) -> CellSet:
         """Makes the cells of a grid from the coordinates of their centers.
 
         Cells end half way between neighboring centers.
@@ -198,7 +198,7 @@ class Partition(FileCells, Described):
         *,
         whole: ArrayLike = (),
         threads: int | None = None,
-    ) -> Partition:
+    ) -> CellSet:
         """Makes cells from flat arrays of rings; they may have holes and several parts.
 
         Parameters
@@ -222,7 +222,7 @@ class Partition(FileCells, Described):
 
         Returns
         -------
-        Partition
+        CellSet
             The n cells.
 
         Raises
@@ -233,7 +233,7 @@ class Partition(FileCells, Described):
 
         """
         return cls._of(
-            _core.Partition.from_rings(
+            _core.CellSet.from_rings(
                 as_indices(cells, "cells").astype(np.int64),
                 as_indices(rings, "rings").astype(np.int64),
                 as_indices(corners, "corners"),
@@ -244,7 +244,7 @@ class Partition(FileCells, Described):
         )
 
     @classmethod
-    def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:
+    def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> CellSet:
         """Makes cells from the coordinates of their corners, like bounds of the CF conventions.
 
         Parameters
@@ -258,7 +258,7 @@ class Partition(FileCells, Described):
 
         Returns
         -------
-        Partition
+        CellSet
             Cells of the shape of `lon` without its last axis. Their sides are great circles.
 
         Raises
@@ -272,7 +272,7 @@ class Partition(FileCells, Described):
     @classmethod
     def _around(
         cls, lon: ArrayLike, lat: ArrayLike, centers: FloatArray, threads: int | None
-    ) -> tuple[Partition, tuple[int, int, int, bool]]:
+    ) -> tuple[CellSet, tuple[int, int, int, bool]]:
         """Cells with these corners; and how many centers (n, 2), if there are some, are outside of
         them, of how many, the first of these cells, and whether most centers are.
         """
@@ -280,7 +280,7 @@ class Partition(FileCells, Described):
         shape = np.shape(lon)
         if len(shape) < 2:
             raise ValueError(f"lon must have shape (..., k), not {shape}")
-        made, (number, of, first), are_most = _core.corner_partition(
+        made, (number, of, first), are_most = _core.corner_cells(
             degrees, shape[-1], centers, as_threads(threads)
         )
         cells = cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
@@ -289,28 +289,28 @@ class Partition(FileCells, Described):
     @property
     def num_cells(self) -> int:
         """int: the number of cells."""
-        return self._partition.num_cells
+        return self._cells.num_cells
 
     @property
     def areas(self) -> FloatArray:
         """Ndarray of float64, shape (n,): the areas of the cells in steradians, read-only.
         `InvalidInput` is raised if a cell crosses or overlaps itself.
         """
-        return self._partition.areas
+        return self._cells.areas
 
     @property
     def centers(self) -> FloatArray:
         """Ndarray of float64, shape (n, 3): unit vectors to the centers of mass; (0, 0, 0) for
         empty cells. `InvalidInput` is raised if a cell crosses or overlaps itself.
         """
-        return self._partition.centers()
+        return self._cells.centers()
 
     @property
     def is_cover(self) -> bool:
         """bool: whether the cells cover the sphere and share their sides. Remapping is faster if
         this is true for one of the two sides.
         """
-        return self._partition.is_cover
+        return self._cells.is_cover
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -334,7 +334,7 @@ class Partition(FileCells, Described):
             If the cells have parallels as sides, so that they are no polygons.
 
         """
-        return self._partition.rings()[:4]
+        return self._cells.rings()[:4]
 
     @property
     def whole(self) -> IntArray:
@@ -346,9 +346,9 @@ class Partition(FileCells, Described):
             If the cells have parallels as sides.
 
         """
-        return self._partition.rings()[4]
+        return self._cells.rings()[4]
 
-    def with_places(self, pairs: FloatArray) -> Partition:
+    def with_places(self, pairs: FloatArray) -> CellSet:
         """The same cells, whose coordinates are those, shape (n, 2), in files of weights."""
         self._file_centers = pairs
         return self

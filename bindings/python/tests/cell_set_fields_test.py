@@ -17,7 +17,7 @@ LON, LAT = np.arange(-157.5, 180, 45), np.array([-67.5, -22.5, 22.5, 67.5])
 TARGET = {"lon": LON, "lat": LAT}
 SOURCES = {
     "grid": rondel.lonlat_grid(8, 4),
-    "centers": rondel.Partition.lonlat_centers(LON, LAT),
+    "centers": rondel.CellSet.lonlat_centers(LON, LAT),
     "two dimensions": dict(zip(("lon", "lat"), np.meshgrid(LON, LAT), strict=True)),
     "axes": TARGET,
 }
@@ -69,7 +69,7 @@ def mesh_file(path, kind):
     lon, lat = names[kind]
     (dim,) = made[lon].dims
     degrees = rondel.lonlat(mesh.points)
-    assert np.abs(degrees - rondel.lonlat(rondel.Partition.read(path).centers)).max() > 0.1
+    assert np.abs(degrees - rondel.lonlat(rondel.CellSet.read(path).centers)).max() > 0.1
     made = made.assign(t=(("lev", dim), np.stack([degrees[:, 1], degrees[:, 0]])))
     return made, dim, (lon, lat)
 
@@ -77,7 +77,7 @@ def mesh_file(path, kind):
 @pytest.mark.parametrize("kind", ["mpas", "scrip"])
 def test_fields_of_the_file_of_a_partition_are_taken(tmp_path, kind):
     ds, dim, (lon, lat) = mesh_file(tmp_path / "mesh.nc", kind)
-    partition = rondel.Partition.read(tmp_path / "mesh.nc")
+    partition = rondel.CellSet.read(tmp_path / "mesh.nc")
     for method in ("conservative", "nearest_s2d"):
         regridder = rondel.Regridder(partition, TARGET, method)
         plain = regridder(ds.t.values)
@@ -105,7 +105,7 @@ def test_cells_of_a_grid_along_one_dimension(tmp_path):
     encoding = {name: {"_FillValue": None} for name in ds.variables}
     ds.to_netcdf(tmp_path / "grid.nc", format="NETCDF3_CLASSIC", encoding=encoding)
     regridder = rondel.Regridder(
-        rondel.Partition.read(tmp_path / "grid.nc"), TARGET, "conservative"
+        rondel.CellSet.read(tmp_path / "grid.nc"), TARGET, "conservative"
     )
     assert regridder.shape_in == (6, 12)
     plain = regridder(ds.h.values.reshape(3, 6, 12))
