@@ -96,7 +96,7 @@ CellSet some_of(const CellSet& cells, const IsIn& is_in, const rondel::Execution
     }
     some.cells.push_back(some.rings.size() - 1);
   }
-  return CellSet(some, execution);
+  return CellSet::polygons(some, execution);
 }
 
 constexpr std::size_t grid_rows = 500;

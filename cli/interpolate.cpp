@@ -239,7 +239,10 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
   file.source.mask = grid.mask;
   file.target = std::move(targets.side);
-  if (options.target.starts_with("grid:")) add_grid_cells(file.target);
+  if (options.target.starts_with("grid:")) {
+    file.target.corners = CellSet::lonlat_grid(grid_of(options.target)).corners();
+    file.target.areas = grid_of(options.target).areas();
+  }
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
     if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
   }

@@ -82,8 +82,8 @@ void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool 
                       const mesh::MeshArrays& arrays, const Execution& execution,
                       std::vector<std::uint8_t>& is_removed) {
   if (file.empty()) return;
-  const PolygonTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
-  tell(table.name, table.remarks);
+  const CellTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
+  tell(table.facts.name, table.facts.remarks);
   std::vector<std::uint8_t> found;
   try {
     found = mesh::inside(arrays.cell_points, table.cells, execution);

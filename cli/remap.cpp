@@ -16,99 +16,56 @@
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_files.h"
-#include "rondel/weight_files.h"
 
 namespace rondel::cli {
 namespace {
 
-// The cells of one side, and what the file of weights contains of them.
-struct CellSide {
-  CellSet partition;
-  WeightSide side;
-};
-
-// The cells of grid:DEG or grid:NLONxNLAT, whose corners and areas are computed here.
-CellSide side_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
-  WeightSide side = grid_side(name);
-  add_grid_cells(side);
+// Returns the cells of grid:DEG or grid:NLONxNLAT.
+CellSet cells_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
   try {
-    return {CellSet::lonlat_grid(lonlat_grid(name), options.sides, job.execution()),
-            std::move(side)};
+    return CellSet::lonlat_grid(grid_of(name), options.cells.sides, job.execution());
   } catch (const InvalidInput& error) {
     throw UsageError(name + ": " + error.what());
   }
 }
 
-// The cells of netCDF in any convention that the library reads.
-CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, const Job& job) {
-  const CellTable table = read_cells(file);
-  tell(table.name, table.remarks);
-  CellSet partition = partition_of(table, options.sides, job.execution());
-  WeightSide side = weight_side(table, partition);
-  return {std::move(partition), std::move(side)};
-}
-
-CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& options,
-                          const Job& job) {
-  // Errors name features by their names, and cells by their numbers.
-  const bool is_refused = options.remap.overlap == CellOverlap::error;
-  PolygonTable table =
-      read_polygons(file,
-                    {.edges = options.edges,
-                     .overlap = is_refused ? PolygonOverlap::error : PolygonOverlap::keep},
-                    job.execution());
-  tell(table.name, table.remarks);
-  try {
-    CellSet partition(table.cells, job.execution());
-    WeightSide side;
-    side.points = lonlats(partition.centers());
-    side.columns = std::move(table.columns);
-    return {std::move(partition), std::move(side)};
-  } catch (const InvalidInput& error) {
-    throw FileError(table.name + ": " + error.what());
-  }
+// Returns the cells of netCDF or polygons. Errors name features by their names, and cells by their
+// numbers.
+CellSet cells_of_file(const FileName& file, const RemapCommandOptions& options, const Job& job) {
+  CellFileOptions read = options.cells;
+  if (options.remap.overlap == CellOverlap::error) read.overlap = PolygonOverlap::error;
+  CellSet cells = CellSet::read(file, read, job.execution());
+  tell(cells.facts().name, cells.facts().remarks);
+  return cells;
 }
 
 // Sites are read as points and have the cells of their Voronoi diagram, or with weights power
-// cells.
-CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
+// cells. The places of the cells are the sites, as given or as they are seen from the center.
+CellSet cells_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
   ReadOptions read = options.common.read;
   read.keep_columns = false;
   const SiteTable table = job.read(file, read);
   const Triangulation triangulation = job.triangulate(table);
-  WeightSide side;
-  side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
-  return {CellSet::voronoi(triangulation, job.execution()), std::move(side)};
+  const CellSet cells = CellSet::voronoi(triangulation, job.execution());
+  CellFacts facts = cells.facts();
+  facts.name = table.name;
+  const Point& center = triangulation.sphere().center;
+  if (table.is_lonlat() && center == Point{}) {
+    facts.centers = table.positions;
+  } else {
+    std::vector<Point> seen = table.sites;
+    for (Point& site : seen) site = {site.x - center.x, site.y - center.y, site.z - center.z};
+    facts.centers = lonlats(seen);
+  }
+  return cells.with_facts(std::move(facts));
 }
 
 // Reads the cells of a side in the form that its file has.
-CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
-  switch (form_of(file)) {
-    case CellForm::grid:
-      return side_of_grid(file.path, options, job);
-    case CellForm::netcdf:
-      return side_of_mesh(file, options, job);
-    case CellForm::polygons:
-      return side_of_polygons(file, options, job);
-    case CellForm::sites:
-      break;
-  }
-  return side_of_sites(file, options, job);
-}
-
-// Errors name the file that has the cell.
-Remap remapped(const RemapCommandOptions& options, const CellSide& source, const CellSide& target,
-               const RemapOptions& remap_options, const Job& job) {
-  try {
-    return rondel::remap(source.partition, target.partition, remap_options, job.execution());
-  } catch (const InvalidInput& error) {
-    const std::string text = error.what();
-    const std::string& input = options.common.input;
-    const std::string file = text.starts_with("source")   ? input
-                             : text.starts_with("target") ? options.target
-                                                          : input + " to " + options.target;
-    throw FileError(file + ": " + text);
-  }
+CellSet cells_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
+  const CellForm form = form_of(file);
+  if (form == CellForm::grid) return cells_of_grid(file.path, options, job);
+  return form == CellForm::sites ? cells_of_sites(file, options, job)
+                                 : cells_of_file(file, options, job);
 }
 
 // Prints the numbers of cells and weights; `missing` counts target cells without any source.
@@ -156,30 +113,16 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   require_output(common, std::ranges::find(formats, format) != std::end(formats), ".nc .nc4 .npz",
                  {{"TARGET", options.target}});
   Job job(common);
-  std::optional<CellSide> source;
-  std::optional<CellSide> target;
+  CellSet source;
+  CellSet target;
   job.time(Stage::dual, [&] {
-    source = side_of(options.source_file(), options, job);
-    target = side_of(options.target_file(), options, job);
+    source = cells_of(options.source_file(), options, job);
+    target = cells_of(options.target_file(), options, job);
   });
-  // Masks come from the files, and cells that they leave out take no part.
-  RemapOptions remap_options = options.remap;
-  remap_options.source_mask = source->side.mask;
-  remap_options.target_mask = target->side.mask;
   WeightFile file;
   job.time(Stage::query, [&] {
-    Remap remap = remapped(options, *source, *target, remap_options, job);
-    file.weights = std::move(remap.weights);
-    file.source = std::move(source->side);
-    file.target = std::move(target->side);
-    file.source.areas = std::move(remap.source_areas);
-    file.target.areas = std::move(remap.target_areas);
-    file.source.fractions = std::move(remap.source_fractions);
-    file.target.fractions = std::move(remap.target_fractions);
+    file = weight_file(rondel::remap(source, target, options.remap, job.execution()));
   });
-  file.method =
-      options.remap.order == 2 ? "Conservative remapping, second order" : "Conservative remapping";
-  file.normalization = name_of(options.remap.norm);
   job.time(Stage::write, [&] { write_weights(common.target(), file, options.netcdf); });
   report(job, file, common.output);
   return done;

@@ -69,14 +69,9 @@ struct Targets {
 /// Reads the targets of a command. `read` says how tables are read.
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read
 Targets read_targets(const FileName& target, const ReadOptions& read);
-// Returns the centers of a grid's cells, and the shape of the grid.
-WeightSide grid_side(const std::string& name);
-/// Adds the corners and areas of the cells, if the targets are a grid.
-void add_grid_cells(WeightSide& side);
-/// Returns the lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError for an impossible grid
-LonLatGrid lonlat_grid(const std::string& name);
-/// Returns the four corners of each cell, counterclockwise.
-std::vector<LonLat> corners_of(const LonLatGrid& grid);
+/// Returns the grid that "grid:DEG" or "grid:NLONxNLAT" names. \throws UsageError for an impossible
+/// grid
+GlobalGrid grid_of(const std::string& text);
 
 /// Returns the weights of --method bilinear or nearest_d2s; sources that are masked take no part.
 /// \throws FileError for a source of bilinear weights that is no grid with axes
@@ -85,12 +80,11 @@ Weights regrid_weights(Job& job, RegridMethod method, const NetcdfSites& grid,
 
 /// The options of `rondel remap`.
 struct RemapCommandOptions {
-  CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights
-  std::string target;    ///< TARGET; "-": standard input
-  RemapOptions remap;    ///< --order --norm --overlap
-  GridSides sides = GridSides::parallels;
-  PolygonEdges edges = PolygonEdges::lonlat;
-  NetcdfOptions netcdf;  ///< --kind --deflate
+  CommonOptions common;   ///< INPUT: the source's cells; OUTPUT: the weights
+  std::string target;     ///< TARGET; "-": standard input
+  RemapOptions remap;     ///< --order --norm --overlap
+  CellFileOptions cells;  ///< --sides --edges
+  NetcdfOptions netcdf;   ///< --kind --deflate
 
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }

@@ -260,12 +260,12 @@ Command add_interpolate_command(CLI::App& tool) {
 // Adds the options of grids and polygons, and of cells that are computed.
 void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
   const CLI::Option* const sides = add_word<GridSides>(
-      parser, "--sides", options.sides,
+      parser, "--sides", options.cells.sides,
       {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},
       "What cells of grids have in the north and south: parallels (default) or\n"
       "great-circles (ESMF's)");
   const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.edges, named_values<PolygonEdges>(),
+      parser, "--edges", options.cells.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
   const auto has_side = [&options](CellForm form) {

@@ -140,7 +140,7 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
 
 // The polygons of --clip, and the groups of their values.
 struct Regions {
-  CellSet partition;
+  CellSet cells;
   Groups values;  ///< by --clip-value
 };
 // Reads the polygons of --clip.
@@ -154,14 +154,14 @@ Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
       return column == columns.end() || !column->cell(feature).empty();
     };
   }
-  const PolygonTable polygons = read_polygons({options.clip, {}}, rules, execution);
-  tell(polygons.name, polygons.remarks);
+  const CellTable polygons = read_polygons({options.clip, {}}, rules, execution);
+  const CellFacts& facts = polygons.facts;
+  tell(facts.name, facts.remarks);
   Groups values;
   if (!options.clip_value.empty()) {
-    values =
-        groups_of(column_of(polygons.columns, polygons.name, options.clip_value, "--clip-value"));
+    values = groups_of(column_of(facts.columns, facts.name, options.clip_value, "--clip-value"));
   }
-  return {CellSet(polygons.cells, execution), std::move(values)};
+  return {CellSet::polygons(polygons.cells, execution), std::move(values)};
 }
 
 // Writes the features as GeoJSON, or by GDAL in one of its formats.
@@ -217,9 +217,9 @@ Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& trian
   Regions regions = regions_of(options, execution);
   try {
     if (options.clip_value.empty()) {
-      cut.cells = clip(all, regions.partition, execution);
+      cut.cells = clip(all, regions.cells, execution);
     } else {
-      cut.pieces = intersection(all, regions.partition, execution);
+      cut.pieces = intersection(all, regions.cells, execution);
     }
   } catch (const InvalidInput& error) {
     throw FileError(options.clip + ": " + error.what());
@@ -265,14 +265,14 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
     if (!regions) {
       cut.cells = feature_cells(table.lines, table.polygons, tolerance, execution);
     } else if (options.clip_value.empty()) {
-      cut.cells = clipped_feature_cells(table.lines, table.polygons, tolerance, regions->partition,
-                                        execution);
+      cut.cells =
+          clipped_feature_cells(table.lines, table.polygons, tolerance, regions->cells, execution);
     } else {
       cut.pieces =
-          feature_pieces(table.lines, table.polygons, tolerance, regions->partition, execution);
+          feature_pieces(table.lines, table.polygons, tolerance, regions->cells, execution);
     }
   } catch (const InvalidInput& error) {
-    throw FileError(table.name + ": " + error.what());
+    throw FileError(table.facts.name + ": " + error.what());
   }
   if (regions) cut.values = std::move(regions->values);
   return cut;
@@ -305,8 +305,9 @@ std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, b
   if (without > 0) {
     remarks.push_back(count(without, "feature has", "features have") +
                       " no cell, as others before have all of their places" +
-                      (table.remarks.empty() ? "" : " or rounding leaves nothing of them") + " (" +
-                      (without > 1 ? "first " : "") + feature_name(table.columns, first) + ")");
+                      (table.facts.remarks.empty() ? "" : " or rounding leaves nothing of them") +
+                      " (" + (without > 1 ? "first " : "") +
+                      feature_name(table.facts.columns, first) + ")");
   }
   return remarks;
 }
@@ -320,16 +321,18 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
     const Execution execution = job.execution();
     table = read_features(options.common.source(),
                           {.edges = options.edges, .overlap = options.overlap}, execution);
-    tell(table.name, table.remarks);
+    tell(table.facts.name, table.facts.remarks);
     Groups groups;
     if (!options.group.empty()) {
-      groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
+      groups =
+          groups_of(column_of(table.facts.columns, table.facts.name, options.group, "--group"));
     }
     Cut cut = cut_cells_of_features(options, table, execution);
-    tell(table.name, remarks_on(table, cut, !options.clip.empty(), options.common.quiet));
-    made = features_of(options, std::move(cut), groups,
-                       numbered("feature", table.lines.num_features(), std::move(table.columns)),
-                       table.ids, execution);
+    tell(table.facts.name, remarks_on(table, cut, !options.clip.empty(), options.common.quiet));
+    made =
+        features_of(options, std::move(cut), groups,
+                    numbered("feature", table.lines.num_features(), std::move(table.facts.columns)),
+                    table.ids, execution);
   });
   write(job, options, made);
   const std::size_t count_of_features = table.lines.num_features();

@@ -43,7 +43,7 @@ void divide_island() {
 
   const auto stations = spiral(500);
   const auto cells = rondel::CellSet::voronoi(rondel::delaunay(stations));
-  const rondel::CellRings clipped = rondel::clip(cells, rondel::CellSet(island));
+  const rondel::CellRings clipped = rondel::clip(cells, rondel::CellSet::polygons(island));
   std::vector<rondel::Index> offices;
   offices.reserve(stations.size());
   for (const rondel::Point& p : stations) offices.push_back(p.z < 0 ? 0 : 1);

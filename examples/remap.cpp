@@ -46,11 +46,8 @@ void carry_rain() {
 
 // Onto a grid of 30 degrees, whose cells are between meridians and parallels.
 void carry_to_grid() {
-  rondel::LonLatGrid lines;
-  for (int k = 0; k <= 12; ++k) lines.lon_deg.push_back(-180 + 30 * k);
-  for (int k = 0; k <= 6; ++k) lines.lat_deg.push_back(-90 + 30 * k);
   const auto cells = rondel::CellSet::voronoi(rondel::delaunay(spiral(500)));
-  const auto grid = rondel::CellSet::lonlat_grid(lines);
+  const auto grid = rondel::CellSet::lonlat_grid(rondel::GlobalGrid{12, 6});
   const rondel::Remap remap = rondel::remap(cells, grid);
   double least = 1;
   for (const double fraction : remap.target_fractions) least = std::min(least, fraction);

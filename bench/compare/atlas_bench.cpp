@@ -138,8 +138,8 @@ int main(int argc, char** argv) {
     }));
     std::vector<rondel::CellSet> cell_sets;
     partition_seconds.push_back(seconds_of([&] {
-      cell_sets.emplace_back(sources.rings, one_thread);
-      cell_sets.emplace_back(targets.rings, one_thread);
+      cell_sets.push_back(rondel::CellSet::polygons(sources.rings, one_thread));
+      cell_sets.push_back(rondel::CellSet::polygons(targets.rings, one_thread));
     }));
     rondel::Remap remap;
     rondel_seconds.push_back(

@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Cells as polygons of arcs with corners of their own: the form in which files have them and from
-/// which sets of cells are made.
+/// Cells as polygons of arcs with corners of their own, and what is known of them: the form in which
+/// files have cells and from which sets of cells (rondel/cell_set.h) are made.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "rondel/io.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -64,6 +67,60 @@ struct CellRings {
     if (others.is_whole(cell)) whole.push_back(static_cast<Index>(num_cells()));
     append_rings(others, cell);
     end_cell();
+  }
+};
+
+/// A grid in longitude and latitude, given by its lines. Cell `row * (lon_deg.size() - 1) + column`
+/// is between the parallels row and row + 1 and the meridians column and column + 1.
+struct LonLatGrid {
+  std::vector<double> lon_deg;  ///< meridians, ascending or descending, over at most 360 degrees
+  std::vector<double> lat_deg;  ///< parallels, ascending or descending
+};
+
+/// The axes of a regular grid, in degrees. Its places are all pairs of a longitude and a latitude;
+/// place `row * lon_deg.size() + column` has lat_deg[row] and lon_deg[column].
+struct LonLatAxes {
+  std::vector<double> lon_deg;
+  std::vector<double> lat_deg;
+
+  [[nodiscard]] std::vector<LonLat> places() const {
+    std::vector<LonLat> places;
+    places.reserve(lon_deg.size() * lat_deg.size());
+    for (const double lat : lat_deg) {
+      for (const double lon : lon_deg) places.push_back({lon, lat});
+    }
+    return places;
+  }
+};
+
+/// What is known of cells beside their borders. Any of the arrays may be empty.
+struct CellFacts {
+  std::string name = {};  ///< the file, for messages
+  std::string convention =
+      {};  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON", "OASIS", "Exodus" or "CF"
+  std::vector<LonLat> centers = {};  ///< one for each cell, as given
+  /// The centers of a grid along lines, if `centers` is empty. Without both, the center of a cell
+  /// is its center of mass.
+  LonLatAxes axes = {};
+  std::vector<std::int32_t> mask = {};  ///< 0: the cell takes no part; empty: all cells do
+  /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
+  std::vector<std::uint64_t> shape = {};
+  std::vector<Column> columns =
+      {};                   ///< texts and numbers for each cell: the properties of polygons
+  bool has_corners = true;  ///< whether files of weights get the corners of the cells
+  /// Sentences for who reads the file: what is masked, left out or without an area, and which grid
+  /// of several was read.
+  std::vector<std::string> remarks = {};
+};
+
+/// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.
+struct CellTable {
+  CellRings cells;
+  std::optional<LonLatGrid> grid;
+  CellFacts facts;
+
+  [[nodiscard]] std::size_t num_cells() const {
+    return grid ? (grid->lon_deg.size() - 1) * (grid->lat_deg.size() - 1) : cells.num_cells();
   }
 };
 

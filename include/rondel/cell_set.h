@@ -3,7 +3,7 @@
 
 /// \file
 /// Sets of cells on the sphere, prepared for overlays: with sides on great circles, or between
-/// meridians and parallels.
+/// meridians and parallels (target rondel::geo).
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,7 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/export.h"
+#include "rondel/polygon_files.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -23,13 +24,6 @@ class CellSetData;
 }  // namespace rondel::overlay
 
 namespace rondel {
-
-/// A grid in longitude and latitude, given by its lines. Cell `row * (lon_deg.size() - 1) + column`
-/// is between the parallels row and row + 1 and the meridians column and column + 1.
-struct LonLatGrid {
-  std::vector<double> lon_deg;  ///< meridians, ascending or descending, over at most 360 degrees
-  std::vector<double> lat_deg;  ///< parallels, ascending or descending
-};
 
 /// The northern and southern sides of a grid's cells.
 enum class GridSides : std::uint8_t {
@@ -41,21 +35,49 @@ enum class GridSides : std::uint8_t {
 /// Returns the name of a value: "parallels", "great_circles"; empty for other numbers.
 RONDEL_API std::string_view name_of(GridSides sides) noexcept;
 
-/// Cells prepared for overlays with others. Copies share the memory; several threads may use one.
+/// A grid of the whole sphere with equal steps: from longitude -180 eastward and from the south pole
+/// northward. Every line and center is an exact quotient that is rounded once.
+struct GlobalGrid {
+  std::uint64_t num_lon = 0;  ///< cells along a parallel
+  std::uint64_t num_lat = 0;  ///< cells along a meridian
+
+  [[nodiscard]] RONDEL_API LonLatGrid lines() const;
+  [[nodiscard]] RONDEL_API LonLatAxes centers() const;
+  /// Returns the area of each cell between parallels, in steradians.
+  [[nodiscard]] RONDEL_API std::vector<double> areas() const;
+};
+
+/// How the cells of a file are read.
+struct CellFileOptions {
+  GridSides sides = GridSides::parallels;         ///< for coordinates along axes
+  PolygonEdges edges = PolygonEdges::lonlat;      ///< for polygons
+  PolygonOverlap overlap = PolygonOverlap::keep;  ///< for polygons
+  FeatureChoice is_taken = {};                    ///< for polygons, as in PolygonOptions
+};
+
+/// Cells prepared for overlays with others, and what is known of them. Copies share the memory;
+/// several threads may use one.
 class RONDEL_API CellSet {
  public:
+  /// Makes the set of no cells.
+  CellSet();
   /// Makes the Voronoi cells of the sites, or the power cells in the weighted model. Corners are
   /// circumcenters, rounded to doubles. Corners that rounding has put into the wrong order are
-  /// merged, so cells narrower than that may vanish.
+  /// merged, so cells narrower than that may vanish. Files of weights do not get the corners.
   static CellSet voronoi(const Triangulation& triangulation, const Execution& execution = {});
-  /// Makes the solid faces into cells in dimension 2; there are none in other dimensions.
+  /// Makes the solid faces into cells in dimension 2; there are none in other dimensions. Files of
+  /// weights do not get the corners.
   static CellSet triangles(const Triangulation& triangulation, const Execution& execution = {});
-  /// Makes the cells of a grid. With GridSides::parallels, areas in the overlay are exact areas
-  /// between parallels and arcs, not those of polygons near them; such cells have no rings(),
-  /// and regions.h refuses it.
+  /// Makes the cells of a grid, whose centers are half way between its lines. With
+  /// GridSides::parallels, areas in the overlay are exact areas between parallels and arcs, not
+  /// those of polygons near them; such cells have no rings(), and regions.h refuses them.
   /// \throws InvalidInput with the line that is out of order or no longitude or latitude; with
   ///         great circles also with a cell that is 180 degrees wide.
   static CellSet lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
+                             const Execution& execution = {});
+  /// Makes the cells of a grid of the whole sphere.
+  /// \throws InvalidInput if there is no cell or too many, or as for other grids
+  static CellSet lonlat_grid(const GlobalGrid& grid, GridSides sides = GridSides::parallels,
                              const Execution& execution = {});
   /// Prepares any cells. In cells that are neither convex nor nearly convex, sides that lead back
   /// and forth between two corners cancel, and so do paths that turn back on themselves.
@@ -66,7 +88,15 @@ class RONDEL_API CellSet {
   /// rounding of their corners are dropped.) Cells that cross or overlap themselves are refused by
   /// areas(), by centers(), and, as cells that overlap each other, by the functions that use them
   /// (remap.h, regions.h).
-  explicit CellSet(const CellRings& cells, const Execution& execution = {});
+  static CellSet polygons(const CellRings& cells, const Execution& execution = {});
+  /// Prepares the cells of a file, which read_cells() or read_polygons() has read.
+  /// \throws FileError with the file's name for cells that polygons() or lonlat_grid() refuses
+  static CellSet of(CellTable table, GridSides sides = GridSides::parallels,
+                    const Execution& execution = {});
+  /// Reads the cells of a file: netCDF in any convention of read_cells(), or the polygons of
+  /// .geojson or .json. \throws what of(), read_cells() and read_polygons() throw
+  static CellSet read(const FileName& file, const CellFileOptions& options = {},
+                      const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;
   /// Returns the area of each cell in steradians, computed from its corners.
@@ -78,19 +108,36 @@ class RONDEL_API CellSet {
   [[nodiscard]] std::vector<Point> centers() const;
   /// Returns the cells. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
-  /// Returns the same as rings(), but rings begin where those of the input did: CellSet() of them
+  /// Returns the same as rings(), but rings begin where those of the input did: polygons() of them
   /// has the same areas and centers, bit by bit, which depend on it in the last digit.
   [[nodiscard]] CellRings given_rings() const;
+  /// Returns the lines between the cells of a grid, or null for other cells.
+  [[nodiscard]] const LonLatGrid* lines() const;
+  /// True if the cells are between parallels, so that they have no rings().
+  [[nodiscard]] bool has_parallels() const;
   /// True if the cells cover the sphere, each with one ring that is convex or nearly so, and share
   /// their edges; or if they are a grid of parallels that covers the sphere. An overlay in which
   /// one side is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).
   [[nodiscard]] bool is_cover() const;
 
+  /// Returns what is known of the cells.
+  [[nodiscard]] const CellFacts& facts() const { return *facts_; }
+  /// Returns the same cells with other facts.
+  /// \throws InvalidInput if an array, or the shape, has not one element for each cell
+  [[nodiscard]] CellSet with_facts(CellFacts facts) const;
+  /// Returns the place of each cell in degrees: the centers of facts(), or else those of its axes,
+  /// or else the centers of mass, NaN for an empty cell. \throws InvalidInput as areas() does
+  [[nodiscard]] std::vector<LonLat> places() const;
+  /// Returns the corners as files of weights have them: the same number for each cell, of which the
+  /// last one may be repeated, and (0, 0) for a cell without ring. The result is empty if facts()
+  /// say so, or if a cell has several rings or more than 16 corners.
+  [[nodiscard]] std::vector<LonLat> corners() const;
+
  private:
   friend class overlay::CellSetData;
-  explicit CellSet(std::shared_ptr<const overlay::CellSetData> data);
-  static CellSet of_apart(const CellRings& cells, const Execution& execution);
+  explicit CellSet(std::shared_ptr<const overlay::CellSetData> data, CellFacts facts = {});
   std::shared_ptr<const overlay::CellSetData> data_;
+  std::shared_ptr<const CellFacts> facts_;
 };
 
 }  // namespace rondel

@@ -85,13 +85,11 @@ RONDEL_API RegionPieces feature_pieces(const FeatureLines& lines, const CellRing
 
 /// The features that a file has.
 struct FeatureTable {
-  std::string name;              ///< the file's name, for messages
   FeatureLines lines;            ///< lines and points; a polygon has none here
   CellRings polygons;            ///< a cell for each feature, without rings where it has no polygon
-  std::vector<Column> columns;   ///< the properties of the features
   Column ids;                    ///< their members `id`, as in SiteTable
   std::vector<bool> is_located;  ///< which features have a geometry with positions
-  std::vector<std::string> remarks;  ///< as those of a PolygonTable
+  CellFacts facts;               ///< with the name of the file, the properties and remarks
 };
 
 /// Reads a .geojson or .json file as read_polygons() does, with points, lines and collections of

@@ -8,35 +8,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "rondel/cell_rings.h"
-#include "rondel/cell_set.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
-#include "rondel/weight_files.h"
 
 namespace rondel {
-
-/// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.
-struct CellTable {
-  std::string name;        ///< the file, for messages
-  std::string convention;  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON", "OASIS", "Exodus" or "CF"
-  CellRings cells;
-  std::optional<LonLatGrid> grid;
-  std::vector<LonLat> centers;     ///< as in the file; empty if it has none
-  std::vector<std::int32_t> mask;  ///< 0: the cell takes no part; empty: all cells do
-  /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
-  std::vector<std::uint64_t> shape;
-  std::vector<std::string>
-      remarks;  ///< sentences: what is masked or left out, and which grid of several was read
-
-  [[nodiscard]] RONDEL_API std::size_t num_cells() const;
-};
 
 /// Returns the grid whose cells have these centers, by rule 3 of read_cells(). Longitudes ascend or
 /// descend, except for jumps by 360 degrees.
@@ -151,19 +132,5 @@ struct NetcdfSites {
 ///               at each site, it is a column of the table
 RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
                                          bool keep_columns);
-
-/// Returns the partition of the cells. \throws FileError with the file's name for cells that
-/// CellSet refuses.
-RONDEL_API CellSet partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
-                                const Execution& execution = {});
-
-/// Returns the description of these cells for a file of weights: the centers (those of the file, or
-/// else the centers of mass), the mask, the shape of the grid, and the corners.
-RONDEL_API WeightSide weight_side(const CellTable& table, const CellSet& partition);
-
-/// Returns the corners of cells that have one ring and at most 16 corners each. All cells get the
-/// same number of corners: the last one is repeated, and a cell without ring has (0, 0). The result
-/// is empty for other cells.
-RONDEL_API std::vector<LonLat> weight_corners(const CellSet& partition);
 
 }  // namespace rondel

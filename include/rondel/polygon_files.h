@@ -56,16 +56,7 @@ struct PolygonOptions {
   FeatureChoice is_taken = {};
 };
 
-/// The polygons of a file. Cell i is feature i.
-struct PolygonTable {
-  std::string name;  ///< the file, for messages
-  CellRings cells;
-  std::vector<Column> columns;  ///< the properties of the features
-  std::vector<std::string>
-      remarks;  ///< sentences: which features rounding has left without an area
-};
-
-/// Reads polygons from .geojson or .json: Polygon, MultiPolygon, and collections of them, in
+/// Reads polygons as cells from .geojson or .json; cell i is feature i, whose properties are columns: Polygon, MultiPolygon, and collections of them, in
 /// features or bare. "-" is standard input.
 ///
 /// 1. A feature without a geometry is a cell without rings. A feature that covers the sphere (-180
@@ -93,8 +84,8 @@ struct PolygonTable {
 ///         area, holes that leave nothing, with feature, ring and place; for features that overlap
 ///         if options say so.
 /// \throws InvalidInput if the tolerance is not positive.
-RONDEL_API PolygonTable read_polygons(const FileName& file, const PolygonOptions& options = {},
-                                      const Execution& execution = {});
+RONDEL_API CellTable read_polygons(const FileName& file, const PolygonOptions& options = {},
+                                   const Execution& execution = {});
 
 /// Returns a feature's name for messages: its index, and its property `name` if it has one, "14
 /// (Sudan)".

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/cell_rings.h"
 #include "rondel/export.h"
 #include "rondel/interpolate.h"
 #include "rondel/types.h"
@@ -26,13 +27,6 @@ enum class RegridMethod : std::uint8_t { bilinear, nearest_d2s };
 /// Returns the name of a method in the tool, in files of weights and in Python, which is that of
 /// ESMF and xESMF: "bilinear", "nearest_d2s"; empty for other numbers.
 RONDEL_API std::string_view name_of(RegridMethod method) noexcept;
-
-/// The axes of a regular grid, in degrees. Its places are all pairs of a longitude and a latitude;
-/// place `row * lon_deg.size() + column` has lat_deg[row] and lon_deg[column].
-struct LonLatAxes {
-  std::vector<double> lon_deg;
-  std::vector<double> lat_deg;
-};
 
 /// Returns the axes of places that are a grid of this shape, or nothing if the places of a row
 /// differ in latitude or those of a column in longitude, or if the shape is not nlat, nlon.

@@ -13,7 +13,9 @@
 
 #include "rondel/cell_set.h"
 #include "rondel/export.h"
+#include "rondel/io.h"
 #include "rondel/types.h"
+#include "rondel/weight_files.h"
 #include "rondel/weights.h"
 
 namespace rondel {
@@ -48,8 +50,8 @@ struct RemapOptions {
   /// mean.
   unsigned order = 1;
   RemapNorm norm = RemapNorm::destarea;
-  /// For each cell 0 if it takes no part, as if it were no cell of its side. If a mask is
-  /// empty, all cells take part.
+  /// For each cell 0 if it takes no part, as if it were no cell of its side. If a mask is empty,
+  /// that of the cells' facts() counts.
   std::vector<std::int32_t> source_mask = {};
   std::vector<std::int32_t> target_mask = {};
   /// The rule for cells that take part and overlap by more than rounding of their corners. A cell
@@ -59,6 +61,10 @@ struct RemapOptions {
 };
 
 struct Remap {
+  CellSet source;  ///< the cells, whose facts() have the mask that counts
+  CellSet target;
+  unsigned order = 1;  ///< as in the options
+  RemapNorm norm = RemapNorm::destarea;
   /// Rows are targets, columns sources. A target that no source covers has an empty row, and gets
   /// NaN.
   Weights weights;
@@ -93,11 +99,24 @@ struct Remap {
 /// side is_cover() and neither is a grid of parallels, the one with fewer sides (the source if
 /// both have as many) is completed by triangles, whose sides leave no trace in the pieces; if its
 /// cells overlap each other, the other one is. That takes longer.
-/// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its
-///         side, cells of a side overlap and the options have no rule for it (with the
-///         cells and a place), or a cell crosses or overlaps itself.
+/// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its side,
+///         cells of a side overlap and the options have no rule for it (with the cells and a place),
+///         or a cell crosses or overlaps itself. The message begins with the name that the facts()
+///         of that side have, if any.
 RONDEL_API Remap remap(const CellSet& source, const CellSet& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
+
+/// Returns the description of cells for a file of weights: the places, the mask, the shape of a grid,
+/// the corners and the columns.
+RONDEL_API WeightSide weight_side(const CellSet& cells);
+
+/// Returns the content of the file that write_weights() writes. The pieces are dropped.
+RONDEL_API WeightFile weight_file(Remap remap);
+
+/// Writes the weights, and what is known of the cells of both sides, as write_weights() of
+/// rondel/weight_files.h does. \throws what that throws
+RONDEL_API void write_weights(const FileName& file, const Remap& remap,
+                              const NetcdfOptions& netcdf = {});
 
 /// Computes the target means of order 2 with given gradients, for which linear fields are
 /// reproduced up to rounding.

@@ -51,7 +51,6 @@ constexpr double same_place = 1e-10;
 // The distance for nodes in single precision.
 constexpr double same_single_place = 1e-6;
 
-// Rings with the inside to the left, without corners that repeat the one before.
 // Makes rings with the inside to the left, without repeated corners. Nodes within a distance are
 // one corner.
 class RingsOfNodes {
@@ -144,10 +143,11 @@ void require_centers(formats::MeshContent& mesh) {
 // of the cells do not contain their center, the corners are those of other places: throws BadValue.
 // For other conventions require_own_centers() does this.
 void require_centers_in_cells(const formats::MeshContent& mesh, CellTable& table) {
-  if (table.convention != "CF" || table.grid || table.centers.empty()) return;
-  const CentersOutside outside = centers_outside(table.cells, table.centers, table.mask);
+  CellFacts& facts = table.facts;
+  if (facts.convention != "CF" || table.grid || facts.centers.empty()) return;
+  const CentersOutside outside = centers_outside(table.cells, facts.centers, facts.mask);
   if (outside.number == 0) return;
-  const LonLat& center = table.centers[outside.first];
+  const LonLat& center = facts.centers[outside.first];
   const std::string text = std::to_string(outside.number) + " of " + std::to_string(outside.of) +
                            " cells with the corners " + mesh.names +
                            " do not contain their centers, the first one cell " +
@@ -157,14 +157,10 @@ void require_centers_in_cells(const formats::MeshContent& mesh, CellTable& table
   if (outside.are_most()) {
     throw io::BadValue(text + ": corners and centers are of different places or orders");
   }
-  table.remarks.push_back(text);
+  facts.remarks.push_back(text);
 }
 
 }  // namespace
-
-std::size_t CellTable::num_cells() const {
-  return grid ? (grid->lon_deg.size() - 1) * (grid->lat_deg.size() - 1) : cells.num_cells();
-}
 
 CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each) {
   const system::ArithmeticScope arithmetic;
@@ -199,19 +195,15 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
                             const std::string& part) {
   formats::MeshContent mesh = read_by_convention(file, io::full_name(file.variables(), part));
   CellTable table;
-  table.name = file_name;
   if (!mesh.grid) table.cells = cells_of(mesh);
   require_centers(mesh);
   if (!mesh.center_names.empty() && !mesh.centers.empty()) {
     std::string remark = require_own_centers(mesh, table.cells);
     if (!remark.empty()) mesh.remarks.push_back(std::move(remark));
   }
-  table.convention = std::move(mesh.convention);
   table.grid = std::move(mesh.grid);
-  table.centers = std::move(mesh.centers);
-  table.mask = std::move(mesh.mask);
-  table.shape = std::move(mesh.shape);
-  table.remarks = std::move(mesh.remarks);
+  table.facts = std::move(static_cast<CellFacts&>(mesh));
+  table.facts.name = file_name;
   require_centers_in_cells(mesh, table);
   return table;
 }
@@ -229,13 +221,14 @@ CellTable read_cells(const FileName& file) {
   });
 }
 
-CellSet partition_of(const CellTable& table, GridSides sides, const Execution& execution) {
-  try {
-    return table.grid ? CellSet::lonlat_grid(*table.grid, sides, execution)
-                      : CellSet(table.cells, execution);
-  } catch (const InvalidInput& error) {
-    throw FileError(table.name + ": " + error.what());
-  }
+CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
+                      const Execution& execution) {
+  const std::string ending = io::ending(file);
+  const bool are_polygons = (ending == ".geojson" || ending == ".json") && !can_read_cells(file);
+  const PolygonOptions rules{
+      .edges = options.edges, .overlap = options.overlap, .is_taken = options.is_taken};
+  return of(are_polygons ? read_polygons(file, rules, execution) : read_cells(file), options.sides,
+            execution);
 }
 
 }  // namespace rondel

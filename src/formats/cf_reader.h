@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads variables of netCDF files by the rules of rondel/conventions.h and io/cf_values.h.
+// Reads variables of netCDF files by the rules of rondel/conventions.h and formats/cf_values.h.
 //
 // in    an open netCDF file and its variables
 // out   numbers and coordinates in degrees, as the conventions mean them

@@ -27,22 +27,14 @@
 namespace rondel::formats {
 
 // The cells as a file has them: corners may be repeated, and rings may have either direction.
-struct MeshContent {
-  std::string convention;
+struct MeshContent : CellFacts {
   std::vector<LonLat> nodes;  // as in the file; both numbers of a missing node are NaN
   std::string names;          // the quoted names of the variables of the nodes, for messages
   bool is_single = false;     // true if the nodes have single precision
   CellRings cells;            // its corners are indices of nodes, and it has no points
   // Set if the cells are between meridians and parallels; then there are no nodes.
   std::optional<LonLatGrid> grid;
-  // One for each cell, or none at all.
-  std::vector<LonLat> centers;
   std::string center_names;  // the quoted names of the variables of the centers
-  // 0 for a masked cell; empty if no cell is masked
-  std::vector<std::int32_t> mask;
-  // The lengths nlat and nlon of a logically rectangular grid, or empty.
-  std::vector<std::uint64_t> shape;
-  std::vector<std::string> remarks;  // what the file contains that the cells cannot represent
 };
 
 // Returns what read_cells() returns for a file, or for the grid that the variable `part` is on.

@@ -59,11 +59,12 @@ NamedVariable named_variable(const FileName& file, std::span<const std::string> 
 std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::string& variable) {
   try {
     io::FileBytes bytes(file.path, true);
-    CellTable cells = io::in_file(bytes.name(), [&] {
+    CellTable table = io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
       return formats::cells_in(reader, bytes.name(), variable);
     });
-    if (cells.centers.empty() || cells.centers.size() != cells.num_cells()) return std::nullopt;
+    CellFacts& cells = table.facts;
+    if (cells.centers.empty() || cells.centers.size() != table.num_cells()) return std::nullopt;
     for (std::size_t i = 0; i < cells.mask.size(); ++i) {
       // read_cells() puts missing centers to (0, 0).
       if (cells.mask[i] == 0 && cells.centers[i] == LonLat{0, 0}) return std::nullopt;

@@ -77,30 +77,31 @@ std::string_view name_of(PolygonOverlap overlap) noexcept {
   return system::name_in({"keep", "error", "first"}, overlap);
 }
 
-PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
-                           const Execution& execution) {
+CellTable read_polygons(const FileName& file, const PolygonOptions& options,
+                        const Execution& execution) {
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
-  std::vector<std::string> remarks;
-  CellRings cells = overlay::cells_of_features(features, options, remarks, execution);
-  return {std::move(features.name), std::move(cells), std::move(features.columns),
-          std::move(remarks)};
+  CellTable table;
+  table.cells = overlay::cells_of_features(features, options, table.facts.remarks, execution);
+  table.facts.name = std::move(features.name);
+  table.facts.columns = std::move(features.columns);
+  return table;
 }
 
 FeatureTable read_features(const FileName& file, const PolygonOptions& options,
                            const Execution& execution) {
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
-  std::vector<bool> is_located;
+  FeatureTable table;
   for (std::size_t f = 0; f < features.rings.size(); ++f) {
-    is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
+    table.is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
   }
-  FeatureLines lines = lines_of_features(features, options);
-  std::vector<std::string> remarks;
-  CellRings polygons = overlay::cells_of_features(features, options, remarks, execution);
-  return {std::move(features.name),    std::move(lines),        std::move(polygons),
-          std::move(features.columns), std::move(features.ids), std::move(is_located),
-          std::move(remarks)};
+  table.lines = lines_of_features(features, options);
+  table.polygons = overlay::cells_of_features(features, options, table.facts.remarks, execution);
+  table.ids = std::move(features.ids);
+  table.facts.name = std::move(features.name);
+  table.facts.columns = std::move(features.columns);
+  return table;
 }
 
 }  // namespace rondel

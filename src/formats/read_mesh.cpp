@@ -151,41 +151,43 @@ std::string remark_on_fields(const io::NetcdfReader& file) {
 
 // Removes the cells that the file masks, and adds a remark with the number of the others.
 void leave_out_masked(CellTable& table) {
-  if (table.mask.empty() || table.grid || table.centers.size() != table.num_cells()) return;
+  CellFacts& facts = table.facts;
+  if (facts.mask.empty() || table.grid || facts.centers.size() != table.num_cells()) return;
   CellRings kept;
   kept.points = std::move(table.cells.points);
   std::vector<LonLat> centers;
-  for (std::size_t i = 0; i < table.mask.size(); ++i) {
-    if (table.mask[i] == 0) continue;
+  for (std::size_t i = 0; i < facts.mask.size(); ++i) {
+    if (facts.mask[i] == 0) continue;
     kept.append_cell(table.cells, i);
-    centers.push_back(table.centers[i]);
+    centers.push_back(facts.centers[i]);
   }
   table.cells = std::move(kept);
-  table.centers = std::move(centers);
-  if (table.centers.empty()) throw FileError(table.name + ": all cells are masked");
-  table.remarks.push_back("the mesh has the other " + std::to_string(table.centers.size()) +
+  facts.centers = std::move(centers);
+  if (facts.centers.empty()) throw FileError(facts.name + ": all cells are masked");
+  facts.remarks.push_back("the mesh has the other " + std::to_string(facts.centers.size()) +
                           " cells, in their order");
 }
 
 // Returns the mesh of cells with centers: with a border, or of the whole sphere.
 MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
                            const Execution& execution) {
-  if (table.grid) throw FileError(table.name + ": a grid of longitudes and latitudes is no mesh");
-  if (table.centers.size() != table.num_cells()) {
-    throw FileError(table.name + ": " + table.convention +
+  const CellFacts& facts = table.facts;
+  if (table.grid) throw FileError(facts.name + ": a grid of longitudes and latitudes is no mesh");
+  if (facts.centers.size() != table.num_cells()) {
+    throw FileError(facts.name + ": " + facts.convention +
                     " without centers of cells, of which the mesh is made");
   }
   try {
-    return io::in_file(table.name, [&] {
+    return io::in_file(facts.name, [&] {
       require_rings(table);
-      const std::vector<Point> sites = unit_vectors(table.centers);
+      const std::vector<Point> sites = unit_vectors(facts.centers);
       const Triangulation triangulation = delaunay(sites, {}, execution);
       std::optional<MeshArrays> part =
           part_of_mesh(table, triangulation, sites, options, execution);
       return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
     });
   } catch (const InvalidInput& error) {
-    throw FileError(table.name + ": cell " + std::to_string(error.index()) + ": " + error.what());
+    throw FileError(facts.name + ": cell " + std::to_string(error.index()) + ": " + error.what());
   }
 }
 
@@ -212,8 +214,8 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
       }
     });
     leave_out_masked(table);
-    if (!remark.empty()) table.remarks.push_back(std::move(remark));
-    if (remarks != nullptr) *remarks = table.remarks;
+    if (!remark.empty()) table.facts.remarks.push_back(std::move(remark));
+    if (remarks != nullptr) *remarks = table.facts.remarks;
     if (arrays) return std::move(*arrays);
   }
   return mesh_of_centers(table, options, execution);

@@ -13,6 +13,7 @@
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "rondel/error.h"
+#include "rondel/remap.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -90,6 +91,10 @@ WeightFile read_weights(const FileName& file) {
     if (ending == ".npz") return formats::read_weights_npz(bytes.text());
     return formats::read_weights_netcdf(io::NetcdfReader(bytes));  // throws with the reason
   });
+}
+
+void write_weights(const FileName& file, const Remap& remap, const NetcdfOptions& netcdf) {
+  write_weights(file, weight_file(remap), netcdf);
 }
 
 }  // namespace rondel

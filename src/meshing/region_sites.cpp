@@ -269,7 +269,7 @@ std::vector<std::uint8_t> inside(std::span<const Point> points, const CellRings&
       throw InvalidInput("point " + std::to_string(i) + " is not finite or the center", i);
     }
   }
-  (void)CellSet(regions, execution);  // throws for invalid rings
+  (void)CellSet::polygons(regions, execution);  // throws for invalid rings
   const RegionSites sites(regions);
   std::vector<std::uint8_t> result(points.size());
   system::parallel_for(execution.threads, points.size(), points_at_a_time,

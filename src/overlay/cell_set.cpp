@@ -232,21 +232,40 @@ void validate(const CellRings& cells) {
   }
 }
 
+// Prepares cells that are known not to overlap each other or themselves.
+std::shared_ptr<CellSetData> data_of_apart(const CellRings& cells, const Execution& execution) {
+  validate(cells);
+  return std::make_shared<CellSetData>(Subdivision(cells, false, execution.threads),
+                                       std::vector<Index>{}, execution.threads, true);
+}
+
+// Returns the numbers half way between consecutive ones.
+std::vector<double> middles(const std::vector<double>& lines) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    result.push_back((lines[k + 1] + lines[k]) / 2);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::string_view name_of(GridSides sides) noexcept {
   return system::name_in({"parallels", "great_circles"}, sides);
 }
 
-CellSet::CellSet(std::shared_ptr<const CellSetData> data) : data_(std::move(data)) {}
+CellSet::CellSet() : CellSet(polygons({})) {}
 
-CellSet::CellSet(const CellRings& cells, const Execution& execution) {
+CellSet::CellSet(std::shared_ptr<const CellSetData> data, CellFacts facts)
+    : data_(std::move(data)), facts_(std::make_shared<const CellFacts>(std::move(facts))) {}
+
+CellSet CellSet::polygons(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
   std::vector<Index> whole = cells.whole;
   Subdivision subdivision = overlay::sound_cells(cells, whole, execution);
-  data_ = std::make_shared<const CellSetData>(std::move(subdivision), std::move(whole),
-                                              execution.threads);
+  return CellSet(std::make_shared<const CellSetData>(std::move(subdivision), std::move(whole),
+                                                     execution.threads));
 }
 
 CellSet CellSet::voronoi(const Triangulation& triangulation, const Execution& execution) {
@@ -265,18 +284,12 @@ CellSet CellSet::voronoi(const Triangulation& triangulation, const Execution& ex
     }
   }
   return CellSet(std::make_shared<const CellSetData>(std::move(cells), std::move(whole),
-                                                     execution.threads, true));
-}
-
-CellSet CellSet::of_apart(const CellRings& cells, const Execution& execution) {
-  const system::Call call(execution);
-  validate(cells);
-  Subdivision subdivision(cells, false, execution.threads);
-  return CellSet(std::make_shared<const CellSetData>(std::move(subdivision), std::vector<Index>{},
-                                                     execution.threads, true));
+                                                     execution.threads, true),
+                 {.has_corners = false});
 }
 
 CellSet CellSet::triangles(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
   CellRings rings;
   rings.points = directions(triangulation);
   if (triangulation.dimension() == 2) {
@@ -286,15 +299,30 @@ CellSet CellSet::triangles(const Triangulation& triangulation, const Execution& 
       rings.end_cell();
     }
   }
-  return of_apart(rings, execution);
+  return CellSet(data_of_apart(rings, execution), {.has_corners = false});
 }
 
 CellSet CellSet::lonlat_grid(const LonLatGrid& grid, GridSides sides, const Execution& execution) {
   const system::Call call(execution);
-  if (sides == GridSides::great_circles) {
-    return of_apart(overlay::rings_of(grid), execution);
+  const auto data = sides == GridSides::great_circles
+                        ? data_of_apart(overlay::rings_of(grid), execution)
+                        : std::make_shared<CellSetData>(overlay::Graticule(grid));
+  data->keep_lines(grid);
+  CellFacts facts;
+  facts.axes = {middles(grid.lon_deg), middles(grid.lat_deg)};
+  facts.shape = {facts.axes.lat_deg.size(), facts.axes.lon_deg.size()};
+  return CellSet(data, std::move(facts));
+}
+
+CellSet CellSet::lonlat_grid(const GlobalGrid& grid, GridSides sides, const Execution& execution) {
+  if (grid.num_lon == 0 || grid.num_lat == 0 || grid.num_lon >= no_index / grid.num_lat) {
+    throw InvalidInput("a grid of " + std::to_string(grid.num_lon) + " by " +
+                       std::to_string(grid.num_lat) + " cells has none or too many");
   }
-  return CellSet(std::make_shared<const CellSetData>(overlay::Graticule(grid)));
+  CellSet cells = lonlat_grid(grid.lines(), sides, execution);
+  CellFacts facts = cells.facts();
+  facts.axes = grid.centers();
+  return cells.with_facts(std::move(facts));
 }
 
 std::size_t CellSet::num_cells() const { return data_->areas().size(); }
@@ -317,6 +345,8 @@ CellRings CellSet::given_rings() const {
   overlay::require_arcs(*data_);
   return overlay::given_rings_of(*data_);
 }
+const LonLatGrid* CellSet::lines() const { return data_->lines(); }
+bool CellSet::has_parallels() const { return data_->grid() != nullptr; }
 bool CellSet::is_cover() const { return data_->is_cover(); }
 
 }  // namespace rondel

@@ -40,6 +40,9 @@ class CellSetData {
 
   // Returns the grid, or null if the cells are not between meridians and parallels.
   [[nodiscard]] const Graticule* grid() const { return grid_ ? &*grid_ : nullptr; }
+  // The lines of a grid, whatever the sides of its cells are; null for other cells.
+  [[nodiscard]] const LonLatGrid* lines() const { return lines_ ? &*lines_ : nullptr; }
+  void keep_lines(const LonLatGrid& lines) { lines_ = lines; }
   // Returns the cells. If there is a grid, the subdivision has no cells.
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
   // Returns the first cell that is the whole sphere, or no_index.
@@ -62,6 +65,7 @@ class CellSetData {
  private:
   Subdivision subdivision_;
   std::optional<Graticule> grid_;
+  std::optional<LonLatGrid> lines_;
   std::vector<Index> all_whole_;
   bool is_cover_ = false;
   bool are_apart_ = false;

@@ -30,7 +30,7 @@ std::vector<std::size_t> layers_of(const CellRings& cells, std::span<const Cross
   const std::size_t num_cells = cells.num_cells();
   std::vector<std::size_t> layers(num_cells, no_layer);
   for (const CrossingCells& pair : overlaps) layers[pair.first] = layers[pair.second] = 0;
-  const CellSet cell_set(cells, execution);
+  const CellSet cell_set = CellSet::polygons(cells, execution);
   std::vector<std::vector<Index>> earlier(num_cells);
   for (const CrossingCells& pair : overlaps) earlier[pair.second].push_back(pair.first);
   for (const auto& [a, b] :

@@ -15,6 +15,7 @@
 #include "overlay/arc_bulge.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 #include "system/shortest_text.h"
 
 namespace rondel::overlay {
@@ -248,3 +249,53 @@ CellRings rings_of(const LonLatGrid& grid) {
 }
 
 }  // namespace rondel::overlay
+
+namespace rondel {
+namespace {
+
+// Returns the position after `halves` of the 2 n half cells that divide [-half, half]. Numerator
+// and denominator are integers, so that only one division rounds.
+double place(std::uint64_t halves, std::uint64_t n, std::int64_t half) {
+  const auto count = static_cast<std::int64_t>(n);
+  const std::int64_t numerator = (static_cast<std::int64_t>(halves) - count) * half;
+  return static_cast<double>(numerator) / static_cast<double>(count);
+}
+
+// Returns the places after each second of the half cells.
+std::vector<double> places(std::uint64_t first, std::uint64_t n, std::int64_t half) {
+  std::vector<double> result;
+  result.reserve(n + 1);
+  for (std::uint64_t k = first; k <= 2 * n; k += 2) result.push_back(place(k, n, half));
+  return result;
+}
+
+}  // namespace
+
+LonLatGrid GlobalGrid::lines() const {
+  const system::ArithmeticScope arithmetic;
+  return {places(0, num_lon, 180), places(0, num_lat, 90)};
+}
+
+LonLatAxes GlobalGrid::centers() const {
+  const system::ArithmeticScope arithmetic;
+  return {places(1, num_lon, 180), places(1, num_lat, 90)};
+}
+
+// Cells between the parallels at b - h and b + h have as a difference of sines 2 cos b sin h, which
+// is twice the y of the place at longitude h and latitude b.
+std::vector<double> GlobalGrid::areas() const {
+  const system::ArithmeticScope arithmetic;
+  std::vector<LonLat> middles;
+  for (const double lat : centers().lat_deg) {
+    middles.push_back({place(num_lat + 1, num_lat, 90), lat});
+  }
+  std::vector<double> areas;
+  areas.reserve(num_lon * num_lat);
+  const double width = 2 * std::numbers::pi / static_cast<double>(num_lon);
+  for (const Point& point : unit_vectors(middles)) {
+    areas.insert(areas.end(), num_lon, width * 2 * point.y);
+  }
+  return areas;
+}
+
+}  // namespace rondel

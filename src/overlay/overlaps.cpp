@@ -348,7 +348,7 @@ namespace rondel {
 
 std::vector<CrossingCells> overlapping_cells(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
-  const CellSet cell_set(cells, execution);
+  const CellSet cell_set = CellSet::polygons(cells, execution);
   const overlay::CellSetData& data = overlay::CellSetData::of(cell_set);
   return overlay::overlaps_of(data.subdivision(), data.all_whole(), execution);
 }

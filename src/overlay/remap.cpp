@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "exact/vector.h"
@@ -92,8 +93,10 @@ PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool 
 
 // Removes the pieces of masked cells, and the sums of rows and columns, which are not valid any
 // more.
-void drop_masked(const RemapOptions& options, PieceRows& pieces) {
-  if (options.source_mask.empty() && options.target_mask.empty()) return;
+void drop_masked(const CellSet& source, const CellSet& target, PieceRows& pieces) {
+  const std::vector<std::int32_t>& source_mask = source.facts().mask;
+  const std::vector<std::int32_t>& target_mask = target.facts().mask;
+  if (source_mask.empty() && target_mask.empty()) return;
   const auto is_out = [](const std::vector<std::int32_t>& mask, std::size_t cell) {
     return !mask.empty() && mask[cell] == 0;
   };
@@ -102,8 +105,7 @@ void drop_masked(const RemapOptions& options, PieceRows& pieces) {
   for (std::size_t j = 0; j + 1 < pieces.offsets.size(); ++j) {
     const std::uint64_t end = pieces.offsets[j + 1];
     for (std::uint64_t k = begin; k < end; ++k) {
-      if (is_out(options.target_mask, j) || is_out(options.source_mask, pieces.columns[k]))
-        continue;
+      if (is_out(target_mask, j) || is_out(source_mask, pieces.columns[k])) continue;
       pieces.columns[kept] = pieces.columns[k];
       pieces.areas[kept] = pieces.areas[k];
       if (!pieces.moments.empty()) pieces.moments[kept] = pieces.moments[k];
@@ -118,12 +120,18 @@ void drop_masked(const RemapOptions& options, PieceRows& pieces) {
   pieces.row_sums.clear();
 }
 
-// Throws InvalidInput unless the mask is empty or has a value for each cell.
-void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::size_t num_cells) {
-  if (mask.empty() || mask.size() == num_cells) return;
-  throw InvalidInput(std::string("the mask of the ") + name + " has " +
-                     std::to_string(mask.size()) + " values for " + std::to_string(num_cells) +
-                     " cells");
+// Returns the cells with another mask, unless it is empty. Throws InvalidInput if it has not a value
+// for each cell.
+CellSet masked(const CellSet& cells, const std::vector<std::int32_t>& mask, const char* name) {
+  if (mask.empty()) return cells;
+  if (mask.size() != cells.num_cells()) {
+    throw InvalidInput(std::string("the mask of the ") + name + " has " +
+                       std::to_string(mask.size()) + " values for " +
+                       std::to_string(cells.num_cells()) + " cells");
+  }
+  CellFacts facts = cells.facts();
+  facts.mask = mask;
+  return cells.with_facts(std::move(facts));
 }
 
 // Prefetches the value that a loop over pieces will need soon. Columns are anywhere in memory.
@@ -218,39 +226,23 @@ Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas
   return weights;
 }
 
-}  // namespace
-
-std::string_view name_of(RemapNorm norm) noexcept {
-  return system::name_in({"destarea", "fracarea"}, norm);
-}
-
-std::string_view name_of(CellOverlap overlap) noexcept {
-  return system::name_in({"error", "first", "share"}, overlap);
-}
-
-Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& options,
-            const Execution& execution) {
-  const system::Call call(execution);
-  if (options.order != 1 && options.order != 2) {
-    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2");
-  }
-  const CellSetData& sources = CellSetData::of(source);
-  const CellSetData& targets = CellSetData::of(target);
-  const bool is_second = options.order == 2;
-  require_mask("source", options.source_mask, source.num_cells());
-  require_mask("target", options.target_mask, target.num_cells());
+// Computes the weights of the sides, the order and the norm of a result, with all that it has.
+void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
+  const CellSetData& sources = CellSetData::of(result.source);
+  const CellSetData& targets = CellSetData::of(result.target);
+  const std::vector<std::int32_t>& source_mask = result.source.facts().mask;
+  const bool is_second = result.order == 2;
   const overlay::TakingPart of_sources =
-      overlay::taking_part(sources, options.source_mask, options.overlap, "source", execution);
+      overlay::taking_part(sources, source_mask, overlap, "source", execution);
   const overlay::TakingPart of_targets =
-      overlay::taking_part(targets, options.target_mask, options.overlap, "target", execution);
+      overlay::taking_part(targets, result.target.facts().mask, overlap, "target", execution);
+  const std::size_t num_sources = result.source.num_cells();
   PieceRows pieces =
       overlay::joined_parts(overlay_of(*of_sources.data, *of_targets.data, is_second, execution),
-                            of_targets, target.num_cells(), of_sources);
+                            of_targets, result.target.num_cells(), of_sources);
   const overlay::CountedSizes source_sizes(sources, of_sources);
-  const std::size_t num_sources = source.num_cells();
-  drop_masked(options, pieces);
+  drop_masked(result.source, result.target, pieces);
   if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
-  Remap result;
   if (!is_second) pieces.moments.clear();
   const std::vector<Point> moments_of_sources = column_moments(pieces, num_sources);
   result.offsets = std::move(pieces.offsets);
@@ -271,14 +263,53 @@ Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& op
         centers[i] = source_sizes.moments()[i] / source_sizes.areas()[i];
     }
     result.moments = moments_around(means, result, std::move(pieces.moments));
-    gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);
+    gradients = cell_gradients(sources, centers, source_mask, execution.threads);
   }
   const std::vector<double>& areas =
-      options.norm == RemapNorm::fracarea ? pieces.row_sums : result.target_areas;
+      result.norm == RemapNorm::fracarea ? pieces.row_sums : result.target_areas;
   result.weights = is_second ? linear_weights(result, gradients, areas, spatial_order_of(targets),
                                               execution.threads)
                              : mean_weights(result, areas, execution.threads);
   result.weights.num_columns = num_sources;
+}
+
+// Returns the name of the file that a message is about, or those of both sides; empty if one of them
+// has no name.
+std::string file_of(std::string_view message, const std::string& source,
+                    const std::string& target) {
+  if (message.starts_with("source")) return source;
+  if (message.starts_with("target")) return target;
+  return source.empty() || target.empty() ? std::string() : source + " to " + target;
+}
+
+}  // namespace
+
+std::string_view name_of(RemapNorm norm) noexcept {
+  return system::name_in({"destarea", "fracarea"}, norm);
+}
+
+std::string_view name_of(CellOverlap overlap) noexcept {
+  return system::name_in({"error", "first", "share"}, overlap);
+}
+
+Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& options,
+            const Execution& execution) {
+  const system::Call call(execution);
+  if (options.order != 1 && options.order != 2) {
+    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2");
+  }
+  Remap result;
+  result.source = masked(source, options.source_mask, "source");
+  result.target = masked(target, options.target_mask, "target");
+  result.order = options.order;
+  result.norm = options.norm;
+  try {
+    complete(result, options.overlap, execution);
+  } catch (const InvalidInput& error) {
+    const std::string file = file_of(error.what(), source.facts().name, target.facts().name);
+    if (file.empty()) throw;
+    throw InvalidInput(file + ": " + error.what(), error.index());
+  }
   return result;
 }
 

@@ -31,11 +31,11 @@ std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
   std::vector<OwnedPart> parts = {{one_cell(cells, cell), {cell}}};
   for (const Index other : others) {
     const CellRings there = one_cell(cells, other);
-    const CellSet inside(there);
-    const CellSet outside(beyond_cell(there));
+    const CellSet inside = CellSet::polygons(there);
+    const CellSet outside = CellSet::polygons(beyond_cell(there));
     std::vector<OwnedPart> cut;
     for (const OwnedPart& part : parts) {
-      const CellSet whole_part(part.rings);
+      const CellSet whole_part = CellSet::polygons(part.rings);
       CellRings left = clip(whole_part, outside, execution);
       if (has_any(left)) cut.push_back({std::move(left), part.owners});
       if (other < cell) continue;

@@ -21,7 +21,7 @@ namespace {
 CellSet both_sides(const CellRings& one) {
   CellRings both = one;
   append(beyond_cell(one), both);
-  return CellSet(both);
+  return CellSet::polygons(both);
 }
 
 // Throws InvalidInput if the pieces of a cell, which are those with number 0, do not add up to it.
@@ -83,7 +83,7 @@ std::optional<CellSet> united(const CellSetData& cells, const char* what,
   CellRings result;
   for (const CellRings& one : unions) append(one, result);
   merge_equal_points(result);
-  return CellSet(result, told);
+  return CellSet::polygons(result, told);
 }
 
 }  // namespace rondel::overlay

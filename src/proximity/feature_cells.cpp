@@ -93,14 +93,14 @@ OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, dou
   CellSet cells = CellSet::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
   if (!has_polygons) return {std::move(cells), std::move(found.features), std::nullopt};
   const RegionPieces pieces = intersection(
-      cells, CellSet(overlay::with_outside(polygons, execution), execution), execution);
+      cells, CellSet::polygons(overlay::with_outside(polygons, execution), execution), execution);
   std::vector<Index> owners(pieces.num_pieces());
   for (std::size_t k = 0; k < owners.size(); ++k) {
     const bool is_outside = pieces.regions[k] == n;
     owners[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
   }
   CellRings joined = dissolve(pieces.rings, owners, n, execution);
-  return {CellSet(pieces.rings, execution), std::move(owners), std::move(joined)};
+  return {CellSet::polygons(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 
 // Returns execution options without a progress callback if owned_cells() has already reported its

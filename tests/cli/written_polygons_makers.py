@@ -120,7 +120,7 @@ class Bindings(Tool):
             made["projected"] = self.rondel.delaunay_lonlat(*places.T, threads=1)
         return made, [row.get("value") for row in rows], [row.get("owner") for row in rows]
 
-    def partition(self, regions, **rules):
+    def cell_set(self, regions, **rules):
         read = self.rondel.CellSet.read
         return self.once(regions, lambda _: read(self.folder / regions, threads=1, **rules))
 
@@ -151,7 +151,7 @@ class Bindings(Tool):
     def clip(self, sites, out, tolerance, model, regions, is_grouped):
         def make():
             cells = self.triangulation(sites, model).voronoi()
-            clipped = cells.clip(self.partition(regions), threads=1)
+            clipped = cells.clip(self.cell_set(regions), threads=1)
             return clipped.dissolve(self.columns(sites)[1], threads=1) if is_grouped else clipped
 
         return self.written(out, make, tolerance_deg=tolerance)
@@ -159,7 +159,7 @@ class Bindings(Tool):
     def cut(self, sites, out, tolerance, model, regions, owners, edges, is_grouped):
         def make():
             cells = self.triangulation(sites, model).voronoi()
-            within = self.partition(regions, edges=edges, overlap="error")
+            within = self.cell_set(regions, edges=edges, overlap="error")
             pieces = cells.clip(within, values=owners, threads=1)
             if not is_grouped:
                 return pieces

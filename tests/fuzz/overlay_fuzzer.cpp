@@ -107,6 +107,7 @@ void test_grid(const CellSet& cells, ByteSource& source) {
   lines.lat_deg = next_lines(source, source.below(2) == 0 ? -90 : -37.5, 90);
   if (source.below(2) == 0) std::ranges::reverse(lines.lat_deg);
   const CellSet grid = CellSet::lonlat_grid(lines);
+  require(grid.has_parallels() && !cells.has_parallels(), "the grid has no rings");
   const bool is_sound =
       cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9;
   if (!is_sound) return;
@@ -191,7 +192,7 @@ void test_regions(const CellSet& cells, const CellSet& others, Index num_groups)
   const CellRings all = dissolve(cells.rings(), std::vector<Index>(cells.num_cells(), 0), 1);
   require(all.is_whole(0), "all cells together are the whole sphere");
   const CellRings regions = dissolve(cells.rings(), groups, num_groups);
-  const CellRings inside = clip(others, CellSet(regions));
+  const CellRings inside = clip(others, CellSet::polygons(regions));
   require(std::abs(sum_of(areas(inside)) - sum_of(areas(regions))) < 1e-8,
           "what is clipped has the area of the regions");
 }
@@ -247,7 +248,7 @@ CellSet without_some(const CellSet& cells, Index step) {
     require(std::ranges::equal(all.corners_of(r), corners_by_offsets(all, r)),
             "a ring has its corners");
   }
-  return CellSet(result);
+  return CellSet::polygons(result);
 }
 
 // Of two diagrams with gaps the pieces are those of the diagrams without any.
@@ -292,11 +293,12 @@ void test_shares(const Remap& there, const CellSet& cells, const CellSet& cover)
 
 void test_any_cells(const CellRings& rings, const CellSet& target) {
   try {
-    const CellSet cells(rings);
+    const CellSet cells = CellSet::polygons(rings);
     const std::vector<CrossingCells> overlaps = overlapping_cells(rings);
     require(cells.num_cells() == rings.num_cells() && cells.areas().size() == cells.num_cells(),
             "an area for each cell");
-    require(CellSet(cells.given_rings()).num_cells() == cells.num_cells(), "the same cells again");
+    require(CellSet::polygons(cells.given_rings()).num_cells() == cells.num_cells(),
+            "the same cells again");
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
     require(overlaps.empty(), "cells that overlap are refused");

@@ -20,7 +20,7 @@
 namespace rondel::fuzz {
 namespace {
 
-void test_cells(const PolygonTable& table) {
+void test_cells(const CellTable& table) {
   const CellRings& cells = table.cells;
   require(
       cells.rings.back() == cells.corners.size() && cells.cells.back() + 1 == cells.rings.size(),
@@ -28,11 +28,11 @@ void test_cells(const PolygonTable& table) {
   for (const Index corner : cells.corners) {
     require(corner < cells.points.size(), "corners are points");
   }
-  for (const Column& column : table.columns) {
+  for (const Column& column : table.facts.columns) {
     require(column.ends.size() == cells.num_cells(), "a property of each cell");
   }
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    require(feature_name(table.columns, i).starts_with(std::to_string(i)), "a name");
+    require(feature_name(table.facts.columns, i).starts_with(std::to_string(i)), "a name");
   }
   for (const double area : areas(cells)) {
     require(area > -1e-12 && area < 4 * std::numbers::pi + 1e-9, "an area");
@@ -48,9 +48,10 @@ void test_cells(const PolygonTable& table) {
   }
   const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
   try {
-    const CellRings clipped = clip(CellSet::voronoi(delaunay(sites)), CellSet(cells));
+    const CellRings clipped = clip(CellSet::voronoi(delaunay(sites)), CellSet::polygons(cells));
     require(clipped.num_cells() == sites.size(), "a part of each cell");
-    require(clip(CellSet(clipped), CellSet(cells)).num_cells() == sites.size(), "and again");
+    require(clip(CellSet::polygons(clipped), CellSet::polygons(cells)).num_cells() == sites.size(),
+            "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
   }
 }
@@ -62,14 +63,14 @@ double sum_of_areas(const CellRings& cells) {
 }
 
 void test_overlaps(const std::string& path, PolygonOptions options) {
-  const PolygonTable kept = read_polygons(path, options);
+  const CellTable kept = read_polygons(path, options);
   options.overlap = PolygonOverlap::first;
-  const PolygonTable first = read_polygons(path, options);
+  const CellTable first = read_polygons(path, options);
   require(first.cells.num_cells() == kept.cells.num_cells(), "a cell of each feature");
   require(sum_of_areas(first.cells) < 4 * std::numbers::pi + 1e-6, "not more than the sphere");
   require(sum_of_areas(first.cells) < sum_of_areas(kept.cells) + 1e-6, "not more than all of them");
   options.overlap = PolygonOverlap::error;
-  const PolygonTable apart = read_polygons(path, options);
+  const CellTable apart = read_polygons(path, options);
   require(apart.cells.corners == kept.cells.corners, "what does not overlap is as it was");
 }
 
@@ -86,8 +87,8 @@ void test_features(const FeatureTable& table) {
         delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}));
     const RegionPieces pieces = feature_pieces(table.lines, table.polygons, tolerance, octants);
     require(areas(pieces.rings).size() == pieces.num_pieces(), "a ring for each piece");
-    const CellRings clipped =
-        clipped_feature_cells(table.lines, table.polygons, tolerance, CellSet(table.polygons));
+    const CellRings clipped = clipped_feature_cells(table.lines, table.polygons, tolerance,
+                                                    CellSet::polygons(table.polygons));
     require(clipped.num_cells() == cells.num_cells(), "a part of each cell");
   } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
   }

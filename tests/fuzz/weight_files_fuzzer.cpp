@@ -20,6 +20,7 @@
 #include "rondel/fields.h"
 #include "rondel/io.h"
 #include "rondel/mesh_files.h"
+#include "rondel/remap.h"
 #include "rondel/weight_check.h"
 #include "rondel/weight_files.h"
 
@@ -69,7 +70,7 @@ void test_corners(std::string_view bytes) {
     const CentersOutside outside = centers_outside(cells, centers);
     require(outside.number <= outside.of && outside.of <= cells.num_cells(), "centers are counted");
     require(outside.number > 0 || !outside.are_most(), "no most of none");
-    require(CellSet(cells).num_cells() == cells.num_cells(), "which can be prepared");
+    require(CellSet::polygons(cells).num_cells() == cells.num_cells(), "which can be prepared");
   } catch (const InvalidInput&) {
   }
   try {
@@ -129,7 +130,37 @@ void test_slices(const ScratchFolder& folder, const std::string& path, const Fie
   require(content(in_slices) == content(at_once), "slices are written as the whole is");
 }
 
+// The cells of a file have what the file says of them.
+void test_cells(const CellSet& cells, const CellTable& table) {
+  const std::size_t size = table.num_cells();
+  require(cells.num_cells() == size, "cells are kept");
+  require(cells.centers().size() == size, "a cell has a center");
+  require((cells.lines() != nullptr) == table.grid.has_value(), "a grid has lines");
+  const WeightSide side = weight_side(cells.with_facts(cells.facts()));
+  require(side.points == cells.places() && side.points.size() == size, "a cell has a place");
+  const std::size_t num_corners = cells.corners().size();
+  require(side.corners.size() == num_corners && (num_corners == 0 || num_corners % size == 0),
+          "a cell has as many corners as others");
+}
+
+// The centers of a grid of the sphere are between its lines.
+void test_global_grid(std::string_view bytes) {
+  if (bytes.size() < 2) return;
+  const GlobalGrid grid{1U + static_cast<unsigned char>(bytes[0]) % 64,
+                        1U + static_cast<unsigned char>(bytes[1]) % 32};
+  const CellSet cells = CellSet::lonlat_grid(grid);
+  require(cells.places() == grid.centers().places(), "places are the centers");
+  require(cells.lines()->lon_deg == grid.lines().lon_deg, "lines are kept");
+  const std::vector<double> exact = grid.areas();
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    require(std::abs(cells.areas()[i] - exact[i]) <= 1e-14 * exact[i], "areas are those of lines");
+  }
+  const Remap same = remap(cells, cells);
+  require(weight_file(same).target.areas == same.target_areas, "a file has the areas");
+}
+
 void test(std::string_view bytes) {
+  test_global_grid(bytes);
   test_lonlats(bytes);
   test_corners(bytes);
   static const ScratchFolder folder;
@@ -165,16 +196,11 @@ void test(std::string_view bytes) {
   });
   expect_answer([&] {
     const CellTable table = read_cells(path);
-    require(table.mask.empty() || table.mask.size() == table.num_cells(), "a mask has all cells");
+    const std::vector<std::int32_t>& mask = table.facts.mask;
+    require(mask.empty() || mask.size() == table.num_cells(), "a mask has all cells");
     require(can_read_cells(path), "a file of cells has an ending of cells");
-    const CellSet cell_set = partition_of(table);
-    require(cell_set.num_cells() == table.num_cells(), "cells are kept");
-    require(cell_set.centers().size() == table.num_cells(), "a cell has a center");
-    const WeightSide side = weight_side(table, cell_set);
-    const std::size_t num_corners = weight_corners(cell_set).size();
-    require(side.points.size() == table.num_cells() && side.corners.size() == num_corners &&
-                (num_corners == 0 || num_corners % table.num_cells() == 0),
-            "a cell has a center and as many corners as others");
+    test_cells(CellSet::of(table), table);
+    test_cells(CellSet::read(path), table);
   });
   expect_answer([&] {
     const FieldSet fields = read_fields(path, {}, 4);

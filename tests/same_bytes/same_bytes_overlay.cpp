@@ -134,7 +134,7 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
     half.rings.resize(half.cells.back() + 1);
     half.corners.resize(half.rings.back());
     std::erase_if(half.whole, [&](Index cell) { return cell >= half.num_cells(); });
-    return CellSet(half);
+    return CellSet::polygons(half);
   };
   record_remaps("parts", half_of(cells), half_of(others));
   record("clip", [&](unsigned threads) {

@@ -262,7 +262,7 @@ TEST(feature_cells, may_be_clipped) {
   CellRings around;
   add_square(around, 0, 40);
   add_square(around, 90, 5);
-  const CellSet regions(around);
+  const CellSet regions = CellSet::polygons(around);
   FeatureLines lines;
   lines.points = {unit_vector({35, 20})};
   lines.lines = {0, 1};
@@ -272,7 +272,7 @@ TEST(feature_cells, may_be_clipped) {
   const std::vector<double> found = areas(clipped_feature_cells(lines, squares, 0.005, regions));
   EXPECT_NEAR(sum(found), sum(areas(around)), 1e-13);
   EXPECT_GT(found[3], 0.01);
-  const RegionPieces pieces = intersection(CellSet(whole), regions);
+  const RegionPieces pieces = intersection(CellSet::polygons(whole), regions);
   const std::vector<double> of_pieces = areas(pieces.rings);
   std::vector<double> expected(4);
   for (std::size_t k = 0; k < of_pieces.size(); ++k) expected[pieces.cells[k]] += of_pieces[k];

@@ -18,6 +18,7 @@
 
 #include "exact/vector.h"
 #include "io/netcdf_reader.h"
+#include "rondel/cell_set.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "rondel/mesh_io.h"
@@ -213,7 +214,7 @@ TEST_F(CulledFiles, cells_of_every_format_are_those_that_are_left) {
     mesh::write(path("m.nc"), culled, {.format = format});
     const CellTable table = read_cells({path("m.nc"), {}});
     ASSERT_EQ(table.num_cells(), culled.num_cells());
-    const CellSet cell_set = partition_of(table);
+    const CellSet cell_set = CellSet::of(table);
     for (std::size_t i = 0; i < culled.num_cells(); ++i) {
       EXPECT_NEAR(cell_set.areas()[i], culled.cell_areas[i], 1e-12);
     }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
   overlay_arcs_test.cpp
+  overlay_cell_set_test.cpp
   overlay_filling_test.cpp
   overlay_flips_test.cpp
   overlay_graticule_test.cpp

@@ -201,8 +201,7 @@ TEST(overlay_flips, the_map_may_have_a_hole_along_its_edge) {
   for (const double pole : {-90.0, 90.0}) {
     const RingInPlane cap =
         planar_box(-180, std::min(pole, pole * 2 / 3), 180, std::max(pole, pole * 2 / 3));
-    const PolygonTable table =
-        planar_table({{planar_polygon({planar_box(-180, -90, 180, 90), cap})}});
+    const CellTable table = planar_table({{planar_polygon({planar_box(-180, -90, 180, 90), cap})}});
     const double area = 4 * std::numbers::pi - area_in_plane(cap);
     EXPECT_NEAR(areas(table.cells)[0], area, 1e-5);
   }

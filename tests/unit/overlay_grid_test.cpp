@@ -234,7 +234,7 @@ TEST(overlay_grid, borders_through_the_poles) {
     halves.corners = {0, 1, 2, 3, 0, 3, 2, 1};
     halves.rings = {0, 4, 8};
     halves.cells = {0, 1, 2};
-    const CellSet cells(halves);
+    const CellSet cells = CellSet::polygons(halves);
     for (const unsigned order : {1U, 2U}) {
       const Remap remap = rondel::remap(cells, grid, {.order = order});
       for (std::size_t j = 0; j < 32; ++j) {
@@ -258,7 +258,7 @@ TEST(overlay_grid, sides_over_the_pole) {
   triangle.corners = {0, 1, 2};
   triangle.rings = {0, 3};
   triangle.cells = {0, 1};
-  const CellSet cell(triangle);
+  const CellSet cell = CellSet::polygons(triangle);
   for (const std::size_t num_lon : {1U, 2U, 4U, 12U}) {
     for (const double west : {-180.0, -170.0, 0.0}) {
       const Remap remap =
@@ -318,7 +318,7 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
     const CellSet boxes = CellSet::lonlat_grid(grid);
     for (const double noise : {0.0, 1e-16, 2e-16, 1e-15}) {
       SCOPED_TRACE(std::to_string(step) + ' ' + std::to_string(noise));
-      const CellSet mesh(cells_of_corners_of(grid, noise, random));
+      const CellSet mesh = CellSet::polygons(cells_of_corners_of(grid, noise, random));
       const bool is_source = random.below(2) == 0;
       const Remap remap = is_source ? rondel::remap(mesh, boxes) : rondel::remap(boxes, mesh);
       std::size_t num_pieces = 0;

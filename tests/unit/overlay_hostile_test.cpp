@@ -106,7 +106,7 @@ TEST(overlay_hostile, cells_of_many_corners_are_those_of_clipping) {
   for (const Index num_corners : {10U, 64U, 302U}) {
     for (const auto& [even, odd] : {std::pair{0.2, 0.2}, {0.9, 0.9}, {0.3, 0.7}, {0.1, 0.15}}) {
       const CellRings rings = caps(num_corners, even, odd);
-      const CellSet two(rings);
+      const CellSet two = CellSet::polygons(rings);
       const Remap there = rondel::remap(two, others);
       const Remap back = rondel::remap(others, two);
       LongRing cap;

@@ -97,7 +97,7 @@ TEST(overlay_inside, loops_that_balance_are_refused) {
     cells.cells = {0, 1};
     for (const Cover& cover : known_covers(0)) {
       SCOPED_TRACE(cover.name);
-      EXPECT_THROW((void)remap(CellSet(cells), cover.cells), InvalidInput);
+      EXPECT_THROW((void)remap(CellSet::polygons(cells), cover.cells), InvalidInput);
     }
     // The loops now have a corner where they meet.
     cells.points.push_back({1, 0, 0});
@@ -105,7 +105,7 @@ TEST(overlay_inside, loops_that_balance_are_refused) {
     cells.rings = {0, 6};
     for (const Cover& cover : known_covers(0)) {
       SCOPED_TRACE(cover.name);
-      EXPECT_THROW((void)remap(CellSet(cells), cover.cells), InvalidInput);
+      EXPECT_THROW((void)remap(CellSet::polygons(cells), cover.cells), InvalidInput);
     }
   }
 }
@@ -114,7 +114,7 @@ TEST(overlay_inside, a_loop_at_a_corner_on_a_side_is_refused) {
   for (const double share : {0.1, 0.5, 0.9}) {
     const Point beyond = {-share, -std::sqrt(1 - share * share), 0};
     const RingOfPoints ring = {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}, beyond, {-1, 0, 0}, {0, 0, -1}};
-    const CellSet cell(one_cell_of({ring}));
+    const CellSet cell = CellSet::polygons(one_cell_of({ring}));
     EXPECT_EQ(overlapping_cells(one_cell_of({ring})).size(), 1U);
     for (const Cover& cover : known_covers(1)) {
       EXPECT_THROW((void)remap(cell, cover.cells), InvalidInput) << cover.name;
@@ -133,7 +133,7 @@ TEST(overlay_inside, sides_that_end_on_a_parallel) {
       const RingOfPoints ring = {unit_vector({0, lat}), unit_vector({lon / 2, lat - sign * 60}),
                                  unit_vector({lon, lat - sign * 3})};
       const RegionOracle oracle({ring});
-      const Remap pieces = remap(CellSet(one_cell_of({ring})), boxes);
+      const Remap pieces = remap(CellSet::polygons(one_cell_of({ring})), boxes);
       for (std::size_t row = 0; row < 6; ++row) {
         for (std::size_t column = 0; column < 3; ++column) {
           const OracleBox box = {grid.lon_deg[column], grid.lat_deg[row], grid.lon_deg[column + 1],
@@ -158,7 +158,7 @@ TEST(overlay_inside, small_cells_on_a_parallel_keep_their_pieces) {
       ring.push_back(normalized(p + x * size * east + y * size * north));
     }
     const RegionOracle oracle({ring});
-    const Remap pieces = remap(CellSet(one_cell_of({ring})), boxes);
+    const Remap pieces = remap(CellSet::polygons(one_cell_of({ring})), boxes);
     EXPECT_NEAR(piece_of(pieces, 0, 1), oracle.piece(OracleBox{0, -90, 180, 30}, true).area,
                 1e-14 * size);
     EXPECT_NEAR(piece_of(pieces, 0, 3), oracle.piece(OracleBox{0, 30, 180, 90}, true).area,
@@ -173,7 +173,7 @@ TEST(overlay_inside, sides_that_all_run_to_and_fro_are_refused) {
   RingOfPoints back = ring;
   std::ranges::reverse(back);
   try {
-    (void)CellSet(one_cell_of({ring, back}));
+    (void)CellSet::polygons(one_cell_of({ring, back}));
     ADD_FAILURE();
   } catch (const InvalidInput& error) {
     EXPECT_EQ(std::string(error.what()),
@@ -181,7 +181,9 @@ TEST(overlay_inside, sides_that_all_run_to_and_fro_are_refused) {
               "which has no rings");
   }
   // What has no width is nothing.
-  EXPECT_EQ(CellSet(one_cell_of({{ring[0], ring[1], normalized(Point{1, 1, 0})}})).areas()[0], 0);
+  EXPECT_EQ(
+      CellSet::polygons(one_cell_of({{ring[0], ring[1], normalized(Point{1, 1, 0})}})).areas()[0],
+      0);
 }
 
 // The border of a cell is next to that of a half of the sphere.
@@ -197,7 +199,7 @@ TEST(overlay_inside, rings_within_rounding_of_a_half) {
       for (Point& p : ring) p = normalized(p);
       for (const bool is_turned : {false, true}) {
         if (is_turned) std::ranges::reverse(ring);
-        const CellSet cell(one_cell_of({ring}));
+        const CellSet cell = CellSet::polygons(one_cell_of({ring}));
         const Remap pieces = remap(cell, halves);
         const double sum = pieces.areas.empty()
                                ? 0
@@ -216,7 +218,7 @@ TEST(overlay_inside, a_spike_at_the_westernmost_corner) {
     const double plain = 0.5 * 10 * 6 * std::pow(std::numbers::pi / 180, 2);
     for (const bool is_turned : {false, true}) {
       if (is_turned) std::ranges::reverse(ring);
-      const PolygonTable table =
+      const CellTable table =
           planar_table({{planar_polygon({ring})}}, {.edges = PolygonEdges::geodesic});
       EXPECT_NEAR(areas(table.cells)[0], plain, 0.01 * plain) << lat;
     }
@@ -235,7 +237,8 @@ TEST(overlay_inside, belts_have_their_areas) {
       }
       std::ranges::reverse(north);
       expect_right({south, north}, 2);
-      EXPECT_GT(CellSet(one_cell_of({south, north})).areas()[0], 0) << lat << ' ' << width;
+      EXPECT_GT(CellSet::polygons(one_cell_of({south, north})).areas()[0], 0)
+          << lat << ' ' << width;
     }
   }
 }

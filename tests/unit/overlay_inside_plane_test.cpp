@@ -347,7 +347,7 @@ bool has_crossing_in_plane(const std::vector<PolygonInPlane>& polygons) {
 
 std::string text_of_polygon(const PolygonInPlane& polygon) { return planar_polygon(polygon); }
 
-PolygonTable table_of(const ShapeInPlane& shape, PolygonEdges edges) {
+CellTable table_of(const ShapeInPlane& shape, PolygonEdges edges) {
   std::vector<std::string> parts;
   std::ranges::transform(shape.polygons, std::back_inserter(parts), text_of_polygon);
   return planar_table({parts}, {.edges = edges});
@@ -387,7 +387,7 @@ void expect_pieces_of_cells(const CellRings& cells, std::uint64_t seed) {
 
 void expect_lines(const ShapeInPlane& shape, std::uint64_t seed) {
   SCOPED_TRACE("lines");
-  std::optional<PolygonTable> table;
+  std::optional<CellTable> table;
   try {
     table = table_of(shape, PolygonEdges::lonlat);
   } catch (const FileError& error) {
@@ -395,7 +395,8 @@ void expect_lines(const ShapeInPlane& shape, std::uint64_t seed) {
     return;
   }
   // Corners within rounding of a side become its corners, so lines may cross in what is told to be nothing.
-  EXPECT_TRUE(!has_crossing_in_plane(shape.polygons) || !table->remarks.empty()) << "lines cross";
+  EXPECT_TRUE(!has_crossing_in_plane(shape.polygons) || !table->facts.remarks.empty())
+      << "lines cross";
   double area = 0;
   for (const RingInPlane& ring : shape.plus) area += area_in_plane(ring);
   for (const RingInPlane& ring : shape.minus) area -= area_in_plane(ring);
@@ -432,7 +433,7 @@ void expect_arcs(const ShapeInPlane& shape, std::uint64_t seed) {
   const RegionOracle oracle(rings);
   constexpr double of_moves = 1e-45;
   const double rounding = 3e-14 * oracle.length();
-  std::optional<PolygonTable> table;
+  std::optional<CellTable> table;
   try {
     table = table_of(shape, PolygonEdges::geodesic);
   } catch (const FileError& error) {
@@ -444,7 +445,8 @@ void expect_arcs(const ShapeInPlane& shape, std::uint64_t seed) {
   }
   if (oracle.excess() > rounding) {
     // Rings that go around nothing twice are refused by whoever lays them over something.
-    EXPECT_THROW((void)remap(CellSet(table->cells), known_covers(0)[0].cells), InvalidInput)
+    EXPECT_THROW((void)remap(CellSet::polygons(table->cells), known_covers(0)[0].cells),
+                 InvalidInput)
         << oracle.excess();
     return;
   }

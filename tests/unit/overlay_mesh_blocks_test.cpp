@@ -49,9 +49,9 @@ void add_blocks(MeshWriter& file) {
 }
 
 void expect_cube(const CellTable& table) {
-  EXPECT_EQ(table.convention, "Exodus");
+  EXPECT_EQ(table.facts.convention, "Exodus");
   ASSERT_EQ(table.num_cells(), 7U);
-  const CellSet cell_set = partition_of(table);
+  const CellSet cell_set = CellSet::of(table);
   EXPECT_TRUE(cell_set.is_cover());
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_NEAR(cell_set.areas()[i], 4 * std::numbers::pi / (i < 5 ? 6 : 12), 1e-14) << i;
@@ -81,8 +81,9 @@ TEST(overlay_mesh_blocks, exodus_with_an_array_for_each_coordinate) {
                  {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0});
   const CellTable table = cells_of_file(file);
   expect_cube(table);
-  EXPECT_EQ(table.remarks, (std::vector<std::string>{
-                               "2 sides along parallels (edge_type) are taken for great circles"}));
+  EXPECT_EQ(table.facts.remarks,
+            (std::vector<std::string>{
+                "2 sides along parallels (edge_type) are taken for great circles"}));
 }
 
 TEST(overlay_mesh_blocks, exodus_without_a_coordinate_of_each_corner_is_refused) {
@@ -127,11 +128,11 @@ TEST(overlay_mesh_blocks, corners_of_all_cells_of_tiles) {
   const CellTable of_all = table_with({{"tile", 2}, {"yc", 3}, {"xc", 4}}, lon_of_all, lat_of_all);
   const CellTable of_each =
       table_with({{"tile", 2}, {"y", 2}, {"x", 3}, {"nv", 4}}, lon_of_each, lat_of_each);
-  EXPECT_EQ(of_all.shape, (std::vector<std::uint64_t>{2, 2, 3}));
-  ASSERT_EQ(of_all.centers.size(), 12U);
-  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(of_all.centers[i], (LonLat{lon[i], lat[i]}));
-  const CellSet one = partition_of(of_all);
-  const CellSet other = partition_of(of_each);
+  EXPECT_EQ(of_all.facts.shape, (std::vector<std::uint64_t>{2, 2, 3}));
+  ASSERT_EQ(of_all.facts.centers.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(of_all.facts.centers[i], (LonLat{lon[i], lat[i]}));
+  const CellSet one = CellSet::of(of_all);
+  const CellSet other = CellSet::of(of_each);
   ASSERT_EQ(one.num_cells(), 12U);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(one.areas()[i], other.areas()[i]);
@@ -195,9 +196,9 @@ TEST(overlay_mesh_blocks, exodus_cells_are_in_the_order_of_their_numbers) {
   EXPECT_EQ(counts(plain), of_blocks);
   const CellTable mapped = table({{"elem_num_map", numbers}});
   EXPECT_EQ(counts(mapped), by_number);
-  EXPECT_TRUE(mapped.remarks.empty());
-  const std::vector<Point> in_blocks = partition_of(plain).centers();
-  const std::vector<Point> ordered = partition_of(mapped).centers();
+  EXPECT_TRUE(mapped.facts.remarks.empty());
+  const std::vector<Point> in_blocks = CellSet::of(plain).centers();
+  const std::vector<Point> ordered = CellSet::of(mapped).centers();
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     EXPECT_EQ(ordered[static_cast<std::size_t>(numbers[k]) - 1], in_blocks[k]) << k;
   }
@@ -210,9 +211,9 @@ TEST(overlay_mesh_blocks, exodus_cells_are_in_the_order_of_their_numbers) {
                                 Doubles{7, 2, 3, 5, 6, 0, 4}, Doubles{1, 2, 3}}) {
     const CellTable left = table({{"elem_num_map", others}});
     EXPECT_EQ(counts(left), of_blocks);
-    EXPECT_EQ(left.remarks, (std::vector<std::string>{
-                                "the numbers of \"elem_num_map\" are not 1 to 7, each once: "
-                                "cells are in the order of the blocks"}));
+    EXPECT_EQ(left.facts.remarks, (std::vector<std::string>{
+                                      "the numbers of \"elem_num_map\" are not 1 to 7, each once: "
+                                      "cells are in the order of the blocks"}));
     EXPECT_EQ(counts(table({{"elem_num_map", others}, first, second})), by_number);
   }
 }
@@ -243,13 +244,14 @@ TEST(overlay_mesh_blocks, oasis_with_a_mask) {
   file.add("toce.cla", corners, lat_of_corners);
   file.add_whole("toce.msk", cells, {0, 1, 0, 0, 0, 1});
   const CellTable table = cells_of_file(file);
-  EXPECT_EQ(table.convention, "OASIS");
-  EXPECT_EQ(table.mask, (std::vector<std::int32_t>{1, 0, 1, 1, 1, 0}));
-  EXPECT_EQ(table.remarks, (std::vector<std::string>{"2 of 6 cells are masked by \"toce.msk\""}));
-  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{2, 3}));
+  EXPECT_EQ(table.facts.convention, "OASIS");
+  EXPECT_EQ(table.facts.mask, (std::vector<std::int32_t>{1, 0, 1, 1, 1, 0}));
+  EXPECT_EQ(table.facts.remarks,
+            (std::vector<std::string>{"2 of 6 cells are masked by \"toce.msk\""}));
+  EXPECT_EQ(table.facts.shape, (std::vector<std::uint64_t>{2, 3}));
   ASSERT_EQ(table.num_cells(), 6U);
   EXPECT_EQ(table.cells.cells, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
-  EXPECT_EQ(table.centers[4], (LonLat{15, 7.5}));
+  EXPECT_EQ(table.facts.centers[4], (LonLat{15, 7.5}));
 }
 
 // Files of OASIS have lists of cells as grids of one row, or of one column. Their cells may end with
@@ -268,10 +270,10 @@ TEST(overlay_mesh_blocks, cells_of_oasis_in_one_row_may_have_fewer_corners) {
     const CellTable table = cells_of_file(file);
     ASSERT_EQ(table.num_cells(), 4U);
     if (rows == 2) {
-      EXPECT_EQ(table.mask, (std::vector<std::int32_t>{0, 1, 0, 1}));
-      EXPECT_EQ(table.remarks.size(), 1U);
+      EXPECT_EQ(table.facts.mask, (std::vector<std::int32_t>{0, 1, 0, 1}));
+      EXPECT_EQ(table.facts.remarks.size(), 1U);
     } else {
-      EXPECT_TRUE(table.mask.empty() && table.remarks.empty());
+      EXPECT_TRUE(table.facts.mask.empty() && table.facts.remarks.empty());
       EXPECT_EQ(table.cells.rings, (std::vector<std::uint64_t>{0, 3, 7, 10, 14}));
     }
   }
@@ -286,8 +288,8 @@ TEST(overlay_mesh_blocks, oasis_corners_without_units_have_those_of_the_centers)
   file.add("toce.clo", corners, {1, 1.5, 1.5, 1});
   file.add("toce.cla", corners, {0, 0, 0.5, 0.5});
   const CellTable table = cells_of_file(file);
-  ASSERT_EQ(table.centers.size(), 1U);
-  EXPECT_NEAR(table.centers[0].lat_deg, 0.25 * 180 / std::numbers::pi, 1e-13);
+  ASSERT_EQ(table.facts.centers.size(), 1U);
+  EXPECT_NEAR(table.facts.centers[0].lat_deg, 0.25 * 180 / std::numbers::pi, 1e-13);
   double north = 0;
   for (const Point& corner : table.cells.points) north = std::max(north, corner.z);
   EXPECT_NEAR(north, std::sin(0.5), 1e-15);

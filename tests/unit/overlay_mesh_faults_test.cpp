@@ -293,17 +293,18 @@ TEST(overlay_mesh_faults, counts_of_corners_that_are_too_large_or_no_numbers_are
 
 TEST(overlay_mesh_faults, rows_that_are_filled_up_are_read) {
   const RingsOfFile mesh = three_cells();
-  EXPECT_EQ(cells_read(ugrid_of(mesh)).remarks, Remarks{});
-  EXPECT_EQ(cells_read(esmf_of(mesh)).remarks, Remarks{});
-  EXPECT_EQ(cells_read(mpas_of(mesh, no_change)).remarks, Remarks{});
+  EXPECT_EQ(cells_read(ugrid_of(mesh)).facts.remarks, Remarks{});
+  EXPECT_EQ(cells_read(esmf_of(mesh)).facts.remarks, Remarks{});
+  EXPECT_EQ(cells_read(mpas_of(mesh, no_change)).facts.remarks, Remarks{});
   const CellTable elements = cells_read(exodus_of(mesh, no_change));
-  EXPECT_EQ(elements.remarks, Remarks{"2 numbers of \"connect1\" are less than 1 and taken for no "
-                                      "corners, though no _FillValue says so"});
+  EXPECT_EQ(elements.facts.remarks,
+            Remarks{"2 numbers of \"connect1\" are less than 1 and taken for no "
+                    "corners, though no _FillValue says so"});
   EXPECT_EQ(elements.cells.rings.back(), 16U);
   // Behind its corners a row may repeat one of them.
   const auto repeated = [](Values& entries, Values&) { entries[16] = entries[17] = 16; };
-  EXPECT_EQ(cells_read(mpas_of(mesh, repeated)).remarks, Remarks{});
-  EXPECT_EQ(cells_read(esmf_of(mesh, repeated)).remarks, Remarks{});
+  EXPECT_EQ(cells_read(mpas_of(mesh, repeated)).facts.remarks, Remarks{});
+  EXPECT_EQ(cells_read(esmf_of(mesh, repeated)).facts.remarks, Remarks{});
 }
 
 TEST(overlay_mesh_faults, further_corners_behind_the_count_and_cells_without_corners_are_told) {
@@ -314,14 +315,14 @@ TEST(overlay_mesh_faults, further_corners_behind_the_count_and_cells_without_cor
                    "\" behind the number of corners that they are said to have, the first one "
                    "cell 1"};
   };
-  EXPECT_EQ(cells_read(esmf_of(mesh, fewer)).remarks, told("elementConn"));
-  EXPECT_EQ(cells_read(mpas_of(mesh, fewer)).remarks, told("verticesOnCell"));
+  EXPECT_EQ(cells_read(esmf_of(mesh, fewer)).facts.remarks, told("elementConn"));
+  EXPECT_EQ(cells_read(mpas_of(mesh, fewer)).facts.remarks, told("verticesOnCell"));
   const auto nothing = [](Values& entries, Values&) {
     std::fill(entries.begin() + 6, entries.begin() + 12, -1);
   };
   const Remarks empty = {"1 of 3 cells have less than three different corners and are empty"};
-  EXPECT_EQ(cells_read(esmf_of(mesh, nothing)).remarks, empty);
-  EXPECT_EQ(cells_read(ugrid_of(mesh, nothing)).remarks, empty);
+  EXPECT_EQ(cells_read(esmf_of(mesh, nothing)).facts.remarks, empty);
+  EXPECT_EQ(cells_read(ugrid_of(mesh, nothing)).facts.remarks, empty);
 }
 
 TEST(overlay_mesh_faults, masked_cells_may_have_any_corners_and_centers) {
@@ -333,8 +334,8 @@ TEST(overlay_mesh_faults, masked_cells_may_have_any_corners_and_centers) {
     entries[10] = 900;
   };
   const Remarks masked = {"1 of 3 cells are masked by \"elementMask\""};
-  EXPECT_EQ(cells_read(esmf_of(mesh, anything, {1, 0, 1})).remarks, masked);
-  EXPECT_EQ(cells_read(scrip_of(mesh, {1, 0, 1})).remarks,
+  EXPECT_EQ(cells_read(esmf_of(mesh, anything, {1, 0, 1})).facts.remarks, masked);
+  EXPECT_EQ(cells_read(scrip_of(mesh, {1, 0, 1})).facts.remarks,
             Remarks{"1 of 3 cells are masked by \"grid_imask\""});
   EXPECT_NE(fault_of(esmf_of(mesh, anything, {0, 1, 0})), "");
 }
@@ -342,8 +343,8 @@ TEST(overlay_mesh_faults, masked_cells_may_have_any_corners_and_centers) {
 void expect_own_centers(const RingsOfFile& mesh) {
   for (const MeshWriter& file : {esmf_of(mesh), ugrid_of(mesh), scrip_of(mesh)}) {
     const CellTable table = cells_read(file);
-    EXPECT_EQ(table.remarks, Remarks{}) << table.convention;
-    EXPECT_EQ(table.centers.size(), mesh.rings.size());
+    EXPECT_EQ(table.facts.remarks, Remarks{}) << table.facts.convention;
+    EXPECT_EQ(table.facts.centers.size(), mesh.rings.size());
   }
 }
 
@@ -393,7 +394,7 @@ TEST(overlay_mesh_faults, centers_of_other_cells_are_refused) {
 TEST(overlay_mesh_faults, centers_beside_their_cells_are_told) {
   RingsOfFile mesh = lonlat_rings(10);
   std::swap(mesh.centers[300], mesh.centers[301]);
-  const Remarks remarks = cells_read(ugrid_of(mesh)).remarks;
+  const Remarks remarks = cells_read(ugrid_of(mesh)).facts.remarks;
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_TRUE(remarks[0].starts_with(
       "2 of 648 centers of cells in \"face_x\" and \"face_y\" are outside of their corners, the "
@@ -407,7 +408,7 @@ TEST(overlay_mesh_faults, centers_beside_their_cells_are_told) {
   }
   cut.nodes[cut.rings[300][2]].lat_deg = cut.nodes[cut.rings[300][1]].lat_deg + 0.01;
   cut.nodes[cut.rings[300][3]].lat_deg = cut.nodes[cut.rings[300][0]].lat_deg + 0.01;
-  EXPECT_EQ(cells_read(scrip_of(cut)).remarks.size(), 1U);
+  EXPECT_EQ(cells_read(scrip_of(cut)).facts.remarks.size(), 1U);
 }
 
 }  // namespace

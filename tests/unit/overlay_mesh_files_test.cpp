@@ -99,9 +99,9 @@ std::vector<double> transposed_of(const std::vector<double>& values, std::size_t
 
 void expect_diagram(const CellTable& table, const MeshOfDiagram& mesh, const char* convention,
                     double tolerance = 1e-13) {
-  EXPECT_EQ(table.convention, convention);
+  EXPECT_EQ(table.facts.convention, convention);
   ASSERT_EQ(table.num_cells(), num_sites);
-  const CellSet cell_set = partition_of(table);
+  const CellSet cell_set = CellSet::of(table);
   EXPECT_TRUE(cell_set.is_cover());
   for (std::size_t i = 0; i < num_sites; ++i) {
     EXPECT_NEAR(cell_set.areas()[i], mesh.areas[i], tolerance);
@@ -162,9 +162,9 @@ TEST(overlay_mesh_files, scrip) {
   file.add_whole("grid_dims", {{"grid_rank", 2}}, {10, 5});
   const CellTable table = table_of(file);
   expect_diagram(table, mesh, "SCRIP");
-  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{5, 10}));
-  ASSERT_EQ(table.mask.size(), num_sites);
-  for (std::size_t i = 0; i < num_sites; ++i) EXPECT_EQ(table.mask[i], i == 7 ? 0 : 1);
+  EXPECT_EQ(table.facts.shape, (std::vector<std::uint64_t>{5, 10}));
+  ASSERT_EQ(table.facts.mask.size(), num_sites);
+  for (std::size_t i = 0; i < num_sites; ++i) EXPECT_EQ(table.facts.mask[i], i == 7 ? 0 : 1);
 }
 
 // Radians everywhere, of which one of the four variables says so.
@@ -199,9 +199,9 @@ TEST(overlay_mesh_files, scrip_coordinates_without_units_have_those_of_the_other
     add("grid_center_lat", cells, lat);
     const CellTable table = table_of(file);
     expect_diagram(table, mesh, "SCRIP");
-    ASSERT_EQ(table.centers.size(), num_sites) << with_units;
-    EXPECT_NEAR(table.centers[3].lon_deg, mesh.sites[3].lon_deg, 1e-12) << with_units;
-    EXPECT_NEAR(table.centers[3].lat_deg, mesh.sites[3].lat_deg, 1e-12) << with_units;
+    ASSERT_EQ(table.facts.centers.size(), num_sites) << with_units;
+    EXPECT_NEAR(table.facts.centers[3].lon_deg, mesh.sites[3].lon_deg, 1e-12) << with_units;
+    EXPECT_NEAR(table.facts.centers[3].lat_deg, mesh.sites[3].lat_deg, 1e-12) << with_units;
   }
 }
 
@@ -221,8 +221,8 @@ TEST(overlay_mesh_files, lengths_that_do_not_multiply_to_the_cells) {
     file.add_whole("grid_dims", {{"grid_rank", lengths.size()}}, lengths);
     return file;
   };
-  EXPECT_TRUE(table_of(file_with({1})).shape.empty());
-  EXPECT_EQ(table_of(file_with({5, 2, 5})).shape, (std::vector<std::uint64_t>{5, 2, 5}));
+  EXPECT_TRUE(table_of(file_with({1})).facts.shape.empty());
+  EXPECT_EQ(table_of(file_with({5, 2, 5})).facts.shape, (std::vector<std::uint64_t>{5, 2, 5}));
   for (const std::vector<double>& lengths : {std::vector<double>{10, 6}, {-10, -5}, {0, 50}}) {
     try {
       (void)table_of(file_with(lengths));
@@ -357,10 +357,10 @@ TEST(overlay_mesh_files, cf_lines_between_coordinates) {
   ASSERT_TRUE(table.grid.has_value());
   EXPECT_EQ(table.grid->lon_deg, (Doubles{-45, 45, 135, 225, 315}));
   EXPECT_EQ(table.grid->lat_deg, (Doubles{90, 40, 0, -40, -90}));
-  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{4, 4}));
-  EXPECT_EQ(table.centers[5], (LonLat{90, 20}));
-  EXPECT_TRUE(partition_of(table).is_cover());
-  EXPECT_FALSE(partition_of(table, GridSides::great_circles).areas().empty());
+  EXPECT_EQ(table.facts.shape, (std::vector<std::uint64_t>{4, 4}));
+  EXPECT_EQ(table.facts.centers[5], (LonLat{90, 20}));
+  EXPECT_TRUE(CellSet::of(table).is_cover());
+  EXPECT_FALSE(CellSet::of(table, GridSides::great_circles).areas().empty());
   // A region, and rows with the poles as coordinates.
   EXPECT_EQ(lonlat_table({5, 6, 7}, {50, 52}).grid->lat_deg, (Doubles{49, 51, 53}));
   EXPECT_EQ(lonlat_table({5, 6, 7}, {50, 52}).grid->lon_deg, (Doubles{4.5, 5.5, 6.5, 7.5}));
@@ -412,7 +412,7 @@ TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
       corners.push_back({mesh.lon[node] + turn, mesh.lat[node]});
     }
   }
-  const CellSet cells(cells_of_corners(corners, mesh.most));
+  const CellSet cells = CellSet::polygons(cells_of_corners(corners, mesh.most));
   EXPECT_TRUE(cells.is_cover());
   ASSERT_EQ(cells.num_cells(), num_sites);
   for (std::size_t i = 0; i < num_sites; ++i) {
@@ -444,17 +444,17 @@ TEST(overlay_mesh_files, given_rings_make_the_same_cells) {
     rings.rings.push_back(rings.corners.size());
     rings.cells.push_back(rings.rings.size() - 1);
   }
-  const CellSet cells(rings);
+  const CellSet cells = CellSet::polygons(rings);
   const CellRings given = cells.given_rings();
   ASSERT_EQ(given.corners.size(), rings.corners.size());
   for (std::size_t k = 0; k < rings.corners.size(); ++k) {
     EXPECT_EQ(given.points[given.corners[k]].x, rings.points[rings.corners[k]].x) << k;
   }
-  const CellSet again(given);
+  const CellSet again = CellSet::polygons(given);
   const std::span<const double> areas = cells.areas();
   EXPECT_TRUE(std::ranges::equal(again.areas(), areas));
   // The areas depend on where the rings begin.
-  const CellSet turned(cells.rings());
+  const CellSet turned = CellSet::polygons(cells.rings());
   EXPECT_FALSE(std::ranges::equal(turned.areas(), areas));
   EXPECT_THROW((void)CellSet::lonlat_grid({{0, 90}, {0, 45}}).given_rings(), InvalidInput);
 }
@@ -500,7 +500,7 @@ TEST(overlay_mesh_files, nodes_of_a_square_grid_in_any_order) {
   const MeshWriter::Dimensions by_columns = {{"x_b", n + 1}, {"y_b", n + 1}};
   const TurnedGrid grid(n);
   const CellTable straight = table_of(grid.file(n, by_rows, by_rows));
-  const std::vector<Point> centers = partition_of(straight).centers();
+  const std::vector<Point> centers = CellSet::of(straight).centers();
   for (std::size_t i = 0; i < n * n; ++i) {
     const LonLat middle = lonlats(std::vector{centers[i]}).front();
     EXPECT_NEAR(std::remainder(middle.lon_deg - grid.lon[i], 360), 0, 1e-2);
@@ -512,8 +512,8 @@ TEST(overlay_mesh_files, nodes_of_a_square_grid_in_any_order) {
   turned.node_lat = transposed_of(grid.node_lat, n + 1);
   for (const CellTable& table : {table_of(turned.file(n, by_columns, by_columns)),
                                  table_of(lon_turned.file(n, by_columns, by_rows))}) {
-    EXPECT_TRUE(table.remarks.empty());
-    const std::vector<Point> found = partition_of(table).centers();
+    EXPECT_TRUE(table.facts.remarks.empty());
+    const std::vector<Point> found = CellSet::of(table).centers();
     for (std::size_t i = 0; i < n * n; ++i) EXPECT_NEAR(dot(found[i], centers[i]), 1, 1e-12);
   }
 }
@@ -554,16 +554,16 @@ TEST(overlay_mesh_files, centers_outside_of_their_cells) {
   other = grid;
   other.lon[3] = other.lat[3] = 0;
   const CellTable told = table_of(other.file(n, nodes, nodes));
-  ASSERT_EQ(told.remarks.size(), 1U);
-  EXPECT_EQ(told.remarks[0],
+  ASSERT_EQ(told.facts.remarks.size(), 1U);
+  EXPECT_EQ(told.facts.remarks[0],
             "1 of 49 cells with the corners \"lon_b\" and \"lat_b\" do not contain their centers, "
             "the first one cell 3 with the center 0 0");
   for (std::size_t i = 0; i < n * n; ++i) {
     if (i % n >= 2) other.lon[i] = other.lat[i] = 0;
   }
   const CellTable zeros = table_of(other.file(n, nodes, nodes));
-  ASSERT_EQ(zeros.remarks.size(), 1U);
-  EXPECT_TRUE(zeros.remarks[0].starts_with("35 of 49 cells")) << zeros.remarks[0];
+  ASSERT_EQ(zeros.facts.remarks.size(), 1U);
+  EXPECT_TRUE(zeros.facts.remarks[0].starts_with("35 of 49 cells")) << zeros.facts.remarks[0];
 }
 
 TEST(overlay_mesh_files, sound_centers_are_inside) {
@@ -643,7 +643,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
     file.add("x", {{"node", 3}}, {0, 1, 0});
     file.add("y", {{"node", 3}}, lat);
     file.add_whole("faces", {{"face", nodes.size() / 3}, {"corner", 3}}, nodes);
-    return partition_of(table_of(file)).num_cells();
+    return CellSet::of(table_of(file)).num_cells();
   };
   EXPECT_EQ(ugrid({0, 0, 1}, {0, 1, 2}), 1U);
   EXPECT_EQ(refusal_of([&] {

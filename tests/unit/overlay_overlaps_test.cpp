@@ -168,7 +168,7 @@ CellSet cells_of_boxes(const std::vector<PlaneBox>& boxes) {
   for (const auto& [west, south, east, north] : boxes) {
     features.push_back({planar_polygon({planar_box(west, south, east, north)})});
   }
-  return CellSet(planar_table(features).cells);
+  return CellSet::polygons(planar_table(features).cells);
 }
 
 // What each pair has of the boxes between all lines, each of which counts for the cells that have it by its rule.
@@ -259,8 +259,8 @@ TEST(overlay_overlaps, the_first_of_features_whose_borders_nearly_agree) {
           {planar_polygon({{off(bottom, south), off(bottom + size, south),
                             off(top + size, south + size), off(top, south + size)}})});
     }
-    const PolygonTable kept = planar_table(features);
-    const PolygonTable first = planar_table(features, {.overlap = PolygonOverlap::first});
+    const CellTable kept = planar_table(features);
+    const CellTable first = planar_table(features, {.overlap = PolygonOverlap::first});
     EXPECT_TRUE(overlapping_cells(first.cells).empty());
     const std::vector<double> before = areas(kept.cells);
     const std::vector<double> after = areas(first.cells);

@@ -65,8 +65,8 @@ TEST(overlay_parts, pieces_are_those_of_clipping) {
   const auto second = triangulation_of("uniform", 160, 2);
   const auto in_first = [&](std::size_t i) { return first.sites().points()[i].z > -0.2; };
   const auto in_second = [&](std::size_t j) { return j % 3 != 0; };
-  const CellSet source(some_of(CellSet::voronoi(first).rings(), in_first));
-  const CellSet target(some_of(CellSet::voronoi(second).rings(), in_second));
+  const CellSet source = CellSet::polygons(some_of(CellSet::voronoi(first).rings(), in_first));
+  const CellSet target = CellSet::polygons(some_of(CellSet::voronoi(second).rings(), in_second));
   ASSERT_FALSE(source.is_cover() || target.is_cover());
   const Cells sources = cells(first);
   const Cells targets = cells(second);
@@ -94,10 +94,10 @@ TEST(overlay_parts, of_one_hemisphere) {
   const RingOfPart patch = rectangle(0, 10, 40, 50);
   const std::vector<RingOfPart> around = {rectangle(10, -60, 100, 30), rectangle(-100, -70, 5, 40),
                                           rectangle(170, -80, 260, -5), rectangle(30, 40, 50, 80)};
-  const CellSet source(cells_of_parts({{patch}}));
+  const CellSet source = CellSet::polygons(cells_of_parts({{patch}}));
   std::vector<std::vector<RingOfPart>> cells;
   for (const RingOfPart& ring : around) cells.push_back({ring});
-  const CellSet target(cells_of_parts(cells));
+  const CellSet target = CellSet::polygons(cells_of_parts(cells));
   for (const bool is_back : {false, true}) {
     const Remap result = is_back ? remap(target, source) : remap(source, target);
     for (std::size_t j = 0; j < around.size(); ++j) {
@@ -120,7 +120,7 @@ TEST(overlay_parts, regions_onto_regions) {
   };
   const auto [first, first_groups] = regions(400, 3);
   const auto [second, second_groups] = regions(300, 4);
-  const Remap of_cells = remap(CellSet(first), CellSet(second));
+  const Remap of_cells = remap(CellSet::polygons(first), CellSet::polygons(second));
   std::vector<double> expected(49);
   for (std::size_t j = 0; j < 300; ++j) {
     for (auto k = of_cells.offsets[j]; k < of_cells.offsets[j + 1]; ++k) {
@@ -129,8 +129,8 @@ TEST(overlay_parts, regions_onto_regions) {
       if (from != no_index && to != no_index) expected[7 * to + from] += of_cells.areas[k];
     }
   }
-  const CellSet source(dissolve(first, first_groups, 7));
-  const CellSet target(dissolve(second, second_groups, 7));
+  const CellSet source = CellSet::polygons(dissolve(first, first_groups, 7));
+  const CellSet target = CellSet::polygons(dissolve(second, second_groups, 7));
   const Remap result = remap(source, target, {.order = 2});
   for (Index i = 0; i < 7; ++i) {
     for (Index j = 0; j < 7; ++j) {
@@ -142,8 +142,10 @@ TEST(overlay_parts, regions_onto_regions) {
 TEST(overlay_parts, patches_of_one_diagram_are_the_identity) {
   for (const char* kind : {"uniform", "clustered", "globe_grid", "regional_grid"}) {
     const CellRings all = CellSet::voronoi(triangulation_of(kind, 500, 5)).rings();
-    const CellSet source(some_of(all, [](std::size_t i) { return i % 5 != 0; }));
-    const CellSet target(some_of(all, [](std::size_t i) { return i % 7 != 0; }));
+    const CellSet source =
+        CellSet::polygons(some_of(all, [](std::size_t i) { return i % 5 != 0; }));
+    const CellSet target =
+        CellSet::polygons(some_of(all, [](std::size_t i) { return i % 7 != 0; }));
     const Remap result = remap(source, target);
     for (std::size_t j = 0; j < all.num_cells(); ++j) {
       if (target.areas()[j] == 0 || source.areas()[j] == 0) {
@@ -158,21 +160,21 @@ TEST(overlay_parts, patches_of_one_diagram_are_the_identity) {
 }
 
 TEST(overlay_parts, holes_and_what_is_in_them) {
-  const CellSet ring(cells_of_parts(
+  const CellSet ring = CellSet::polygons(cells_of_parts(
       {{rectangle(0, 0, 30, 30), rectangular_hole(10, 10, 20, 20)}, {rectangle(-20, 0, 0, 30)}}));
-  const CellSet island(cells_of_parts({{rectangle(10, 10, 20, 20)}}));
+  const CellSet island = CellSet::polygons(cells_of_parts({{rectangle(10, 10, 20, 20)}}));
   EXPECT_TRUE(remap(ring, island).areas.empty());
   EXPECT_TRUE(remap(island, ring).areas.empty());
-  const CellSet within(cells_of_parts({{rectangle(12, 12, 18, 18)}}));
+  const CellSet within = CellSet::polygons(cells_of_parts({{rectangle(12, 12, 18, 18)}}));
   EXPECT_TRUE(remap(ring, within).areas.empty());
-  const CellSet box_around(cells_of_parts({{rectangle(-90, -40, 80, 60)}}));
+  const CellSet box_around = CellSet::polygons(cells_of_parts({{rectangle(-90, -40, 80, 60)}}));
   for (const auto& result : {remap(ring, box_around), remap(box_around, ring)}) {
     EXPECT_NEAR(total_of(result.areas), ring.areas()[0] + ring.areas()[1], 1e-14);
   }
-  const CellSet far(cells_of_parts({{rectangle(150, -30, 170, -10)}}));
+  const CellSet far = CellSet::polygons(cells_of_parts({{rectangle(150, -30, 170, -10)}}));
   EXPECT_TRUE(remap(ring, far).areas.empty());
-  EXPECT_TRUE(remap(ring, CellSet(cells_of_parts({{}, {}}))).areas.empty());
-  EXPECT_TRUE(remap(CellSet(cells_of_parts({})), ring).areas.empty());
+  EXPECT_TRUE(remap(ring, CellSet::polygons(cells_of_parts({{}, {}}))).areas.empty());
+  EXPECT_TRUE(remap(CellSet::polygons(cells_of_parts({})), ring).areas.empty());
 }
 
 // What is opposite of a cell's center of mass is inside of it, where triangles around that are anything.
@@ -183,8 +185,8 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
     holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
     islands.push_back({rectangle(lon - 5, -70, lon + 5, -60)});
   }
-  const CellSet sea(cells_of_parts({holes}));
-  const CellSet land(cells_of_parts(islands));
+  const CellSet sea = CellSet::polygons(cells_of_parts({holes}));
+  const CellSet land = CellSet::polygons(cells_of_parts(islands));
   const CellSet octants = CellSet::triangles(delaunay(
       std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}));
   ASSERT_TRUE(octants.is_cover());
@@ -201,13 +203,13 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
 TEST(overlay_parts, areas_of_large_cells) {
   constexpr double sphere = 4 * std::numbers::pi;
   const auto area_of_cap = [](double radius) {
-    const CellSet cap(cells_of_parts({{{circle_of(radius)}}}));
+    const CellSet cap = CellSet::polygons(cells_of_parts({{{circle_of(radius)}}}));
     return cap.areas()[0];
   };
   for (const double radius : {1.0, 10.0, 60.0, 89.0, 91.0, 120.0, 179.0}) {
     RingOfPart outside{circle_of(radius)};
     std::ranges::reverse(outside.corners);
-    const CellSet without(cells_of_parts({{outside}}));
+    const CellSet without = CellSet::polygons(cells_of_parts({{outside}}));
     // 12 triangles with the apex at the pole and equal sides.
     const double half = std::numbers::pi / 12;
     const double angle = radius * std::numbers::pi / 180;
@@ -219,30 +221,32 @@ TEST(overlay_parts, areas_of_large_cells) {
   const RingOfPart south{circle_of(120)};
   RingOfPart north{circle_of(60)};
   std::ranges::reverse(north.corners);
-  EXPECT_NEAR(CellSet(cells_of_parts({{south, north}})).areas()[0], sphere - 2 * area_of_cap(60),
-              1e-13);
+  EXPECT_NEAR(CellSet::polygons(cells_of_parts({{south, north}})).areas()[0],
+              sphere - 2 * area_of_cap(60), 1e-13);
   std::vector<RingOfPart> holes;
   double islands = 0;
   for (const double lon : {0.0, 120.0, 240.0}) {
     holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
-    islands += CellSet(cells_of_parts({{rectangle(lon - 5, -70, lon + 5, -60)}})).areas()[0];
+    islands +=
+        CellSet::polygons(cells_of_parts({{rectangle(lon - 5, -70, lon + 5, -60)}})).areas()[0];
   }
-  EXPECT_NEAR(CellSet(cells_of_parts({holes})).areas()[0], sphere - islands, 1e-13);
+  EXPECT_NEAR(CellSet::polygons(cells_of_parts({holes})).areas()[0], sphere - islands, 1e-13);
 }
 
 // A cell beside two smaller ones, whose common corner lies on its side; ends of the axes inside, on sides, and corners.
 TEST(overlay_parts, corners_on_sides) {
-  const CellSet uneven(cells_of_parts({{rectangle(-30, 0, 0, 40)},
-                                       {{{{0, 0}, {45, 0}, {0, 40}}}},
-                                       {{{{45, 0}, {90, 0}, {0, 90}, {0, 40}}}},
-                                       {{{{-30, 0}, {30, -40}, {90, 0}}}}}));
-  const CellSet other(
+  const CellSet uneven = CellSet::polygons(cells_of_parts({{rectangle(-30, 0, 0, 40)},
+                                                           {{{{0, 0}, {45, 0}, {0, 40}}}},
+                                                           {{{{45, 0}, {90, 0}, {0, 90}, {0, 40}}}},
+                                                           {{{{-30, 0}, {30, -40}, {90, 0}}}}}));
+  const CellSet other = CellSet::polygons(
       cells_of_parts({{rectangle(-20, -20, 50, 30)}, {rectangle(50, -20, 70, 30)}}));
   const Remap there = remap(uneven, other);
   const Remap back = remap(other, uneven);
   // Each cell by itself leaves no corner on a side.
   for (Index i = 0; i < 4; ++i) {
-    const CellSet alone(some_of(uneven.rings(), [&](std::size_t k) { return k == i; }));
+    const CellSet alone =
+        CellSet::polygons(some_of(uneven.rings(), [&](std::size_t k) { return k == i; }));
     const Remap expected = remap(alone, other);
     for (Index j = 0; j < 2; ++j) {
       EXPECT_NEAR(piece_of(there, i, j), piece_of(expected, i, j), 1e-15) << i << ' ' << j;
@@ -258,8 +262,8 @@ TEST(overlay_parts, names_cells_that_overlap) {
   const RingOfPart within = rectangle(5, 5, 9, 9);
   const RingOfPart apart = rectangle(-50, 0, -40, 10);
   const auto message_of = [&](const std::vector<std::vector<RingOfPart>>& cells) {
-    const CellSet source(cells_of_parts(cells));
-    const CellSet target(cells_of_parts({{apart}, {box}}));
+    const CellSet source = CellSet::polygons(cells_of_parts(cells));
+    const CellSet target = CellSet::polygons(cells_of_parts({{apart}, {box}}));
     try {
       (void)remap(source, target);
     } catch (const InvalidInput& error) {
@@ -285,7 +289,7 @@ TEST(overlay_parts, names_cells_that_overlap) {
 TEST(overlay_parts, that_cross_themselves_have_no_areas) {
   const RingOfPart box = rectangle(0, 0, 20, 20);
   const RingOfPart bow_tie = {{{0, 0}, {20, 0}, {0, 20}, {20, 20}, {-10, 10}}};
-  const CellSet wrong(cells_of_parts({{box}, {bow_tie}}));
+  const CellSet wrong = CellSet::polygons(cells_of_parts({{box}, {bow_tie}}));
   const std::string message = "cell 1 crosses or overlaps itself at 4.8249 15.5662";
   for (int time = 0; time < 2; ++time) {
     try {
@@ -299,7 +303,8 @@ TEST(overlay_parts, that_cross_themselves_have_no_areas) {
   }
   // Cells that overlap others have areas, and so have parts that touch in a corner.
   const RingOfPart other = rectangle(20, 20, 40, 40);
-  const CellSet sound(cells_of_parts({{box, other}, {rectangle(10, 10, 30, 30)}}));
+  const CellSet sound =
+      CellSet::polygons(cells_of_parts({{box, other}, {rectangle(10, 10, 30, 30)}}));
   const std::vector<double> alone =
       areas(cells_of_parts({{box}, {other}, {rectangle(10, 10, 30, 30)}}));
   EXPECT_NEAR(sound.areas()[0], alone[0] + alone[1], 1e-15);
@@ -312,7 +317,7 @@ TEST(overlay_parts, names_cells_of_two_covers) {
   for (const double west : {0.0, 120.0, 240.0, 60.0, 180.0, 300.0}) {
     lunes.push_back({{{{0, 90}, {west, 0}, {0, -90}, {west + 120, 0}}}});
   }
-  const CellSet twice(cells_of_parts(lunes));
+  const CellSet twice = CellSet::polygons(cells_of_parts(lunes));
   ASSERT_FALSE(twice.is_cover());
   EXPECT_NEAR(total_of({twice.areas().begin(), twice.areas().end()}), 8 * std::numbers::pi, 1e-13);
   try {
@@ -326,13 +331,13 @@ TEST(overlay_parts, names_cells_of_two_covers) {
 // What two cells share is the first one's, or counts half for each.
 TEST(overlay_parts, places_of_two_cells) {
   const CellRings both = cells_of_parts({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}});
-  const CellSet twice(both);
+  const CellSet twice = CellSet::polygons(both);
   const auto alone = [&](Index i) {
-    return CellSet(some_of(both, [&](std::size_t k) { return k == i; }));
+    return CellSet::polygons(some_of(both, [&](std::size_t k) { return k == i; }));
   };
   const RegionPieces shared = intersection(alone(0), alone(1));
-  const CellSet middle(shared.rings);
-  const CellSet plain(cells_of_parts(
+  const CellSet middle = CellSet::polygons(shared.rings);
+  const CellSet plain = CellSet::polygons(cells_of_parts(
       {{rectangle(8, 8, 12, 12)}, {rectangle(20, 20, 25, 25)}, {rectangle(12, 8, 19, 12)}}));
   const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 500, 9));
   const CellSet grid = CellSet::lonlat_grid({{0, 5, 12, 18, 40}, {-5, 3, 11, 16, 45}});
@@ -366,7 +371,7 @@ TEST(overlay_parts, a_large_cell_within_one_cell) {
   const CellSet cover = CellSet::voronoi(sites);
   std::vector<LonLat> hole = circle_of(10);
   std::ranges::reverse(hole);
-  const CellSet ring(cells_of_parts({{{circle_of(70)}, {hole}}}));
+  const CellSet ring = CellSet::polygons(cells_of_parts({{{circle_of(70)}, {hole}}}));
   ASSERT_GT(ring.areas()[0], 1.1 * std::numbers::pi);
   ASSERT_GT(cover.areas()[0], ring.areas()[0]);
   const Remap there = remap(ring, cover);
@@ -379,8 +384,9 @@ TEST(overlay_parts, a_large_cell_within_one_cell) {
 
 // Each of two equal cells has half of every piece, and half of its moment around the mean that both have.
 TEST(overlay_parts, equal_cells_share_moments) {
-  const CellSet once(cells_of_parts({{rectangle(0, 0, 20, 20)}}));
-  const CellSet twice(cells_of_parts({{rectangle(0, 0, 20, 20)}, {rectangle(0, 0, 20, 20)}}));
+  const CellSet once = CellSet::polygons(cells_of_parts({{rectangle(0, 0, 20, 20)}}));
+  const CellSet twice =
+      CellSet::polygons(cells_of_parts({{rectangle(0, 0, 20, 20)}, {rectangle(0, 0, 20, 20)}}));
   const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 500, 9));
   const Remap whole = remap(once, cover, {.order = 2});
   const Remap halves = remap(twice, cover, {.order = 2, .overlap = CellOverlap::share});
@@ -405,10 +411,11 @@ TEST(overlay_parts, equal_cells_do_not_turn_gradients) {
   std::vector<std::vector<RingOfPart>> more = plain;
   for (int twice = 0; twice < 2; ++twice) more.push_back({rectangle(150, 0, 158, 8)});
   const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 2000, 11));
-  const Weights wanted = remap(CellSet(cells_of_parts(plain)), cover, {.order = 2}).weights;
-  const Weights found =
-      remap(CellSet(cells_of_parts(more)), cover, {.order = 2, .overlap = CellOverlap::share})
-          .weights;
+  const Weights wanted =
+      remap(CellSet::polygons(cells_of_parts(plain)), cover, {.order = 2}).weights;
+  const Weights found = remap(CellSet::polygons(cells_of_parts(more)), cover,
+                              {.order = 2, .overlap = CellOverlap::share})
+                            .weights;
   ASSERT_GT(wanted.values.size(), 100U);
   for (std::size_t j = 0; j < cover.num_cells(); ++j) {
     const std::uint64_t size = wanted.offsets[j + 1] - wanted.offsets[j];
@@ -432,7 +439,7 @@ TEST(overlay_parts, cells_that_are_there_twice) {
     twice.rings.push_back(twice.corners.size());
     twice.cells.push_back(twice.rings.size() - 1);
   }
-  const CellSet source(twice);
+  const CellSet source = CellSet::polygons(twice);
   const CellSet grid = CellSet::lonlat_grid({{0, 90, 180, 270, 360}, {-90, -30, 30, 90}});
   const CellSet other = CellSet::voronoi(triangulation_of("uniform", 80, 11));
   std::vector<double> values(63);
@@ -446,7 +453,7 @@ TEST(overlay_parts, cells_that_are_there_twice) {
     } catch (const InvalidInput& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, 30), "source cells 7 and 60 overlap ");
     }
-    const Remap once = remap(CellSet(cells), *target);
+    const Remap once = remap(CellSet::polygons(cells), *target);
     std::vector<double> expected(target->num_cells());
     apply(once.weights, std::span(values).first(60), expected);
     std::vector<std::int32_t> mask(63, 1);
@@ -468,16 +475,17 @@ TEST(overlay_parts, sides_that_bound_nothing) {
   const RingOfPart plain = {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}};
   const RingOfPart inwards = {{{0, 0}, {20, 0}, {20, 20}, {10, 10}, {20, 20}, {0, 20}}};
   const RingOfPart outwards = {{{0, 0}, {20, 0}, {20, 20}, {30, 33}, {20, 20}, {0, 20}}};
-  const CellSet other(cells_of_parts({{rectangle(-5, 3, 12, 50)},
-                                      {rectangle(12, 3, 40, 50)},
-                                      {{{{-5, -9}, {40, -9}, {40, 3}, {12, 3}, {-5, 3}}}},
-                                      {rectangle(50, 3, 60, 20)},
-                                      {rectangle(60, 3, 70, 20)}}));
-  const Remap expected = remap(CellSet(cells_of_parts({{plain}})), other);
+  const CellSet other =
+      CellSet::polygons(cells_of_parts({{rectangle(-5, 3, 12, 50)},
+                                        {rectangle(12, 3, 40, 50)},
+                                        {{{{-5, -9}, {40, -9}, {40, 3}, {12, 3}, {-5, 3}}}},
+                                        {rectangle(50, 3, 60, 20)},
+                                        {rectangle(60, 3, 70, 20)}}));
+  const Remap expected = remap(CellSet::polygons(cells_of_parts({{plain}})), other);
   const std::vector<std::vector<RingOfPart>> cells = {
       {inwards}, {outwards}, {{{{0, 0}, {20, 0}, {20, 20}}}, {{{0, 0}, {20, 20}, {0, 20}}}}};
   for (const auto& rings : cells) {
-    const Remap result = remap(CellSet(cells_of_parts({rings})), other);
+    const Remap result = remap(CellSet::polygons(cells_of_parts({rings})), other);
     ASSERT_EQ(result.columns, expected.columns);
     for (std::size_t k = 0; k < result.areas.size(); ++k) {
       EXPECT_NEAR(result.areas[k], expected.areas[k], 1e-15) << k;
@@ -487,8 +495,9 @@ TEST(overlay_parts, sides_that_bound_nothing) {
 
 TEST(overlay_parts, filling_tells_how_far_it_is_and_stops) {
   const auto part = [](std::uint64_t seed) {
-    return CellSet(some_of(CellSet::voronoi(triangulation_of("uniform", 900, seed)).rings(),
-                           [](std::size_t i) { return i % 4 != 0; }));
+    return CellSet::polygons(
+        some_of(CellSet::voronoi(triangulation_of("uniform", 900, seed)).rings(),
+                [](std::size_t i) { return i % 4 != 0; }));
   };
   const CellSet source = part(6);
   const CellSet target = part(7);
@@ -524,7 +533,7 @@ TEST(overlay_parts, patches_that_nearly_agree) {
           rings.cells.push_back(rings.rings.size() - 1);
         }
       }
-      return CellSet(rings);
+      return CellSet::polygons(rings);
     };
     const CellSet source = patch(0);
     const CellSet target = patch(shift);

@@ -43,8 +43,8 @@ inline std::string planar_polygon(const std::vector<RingInPlane>& rings) {
 }
 
 // Each feature is a MultiPolygon of its polygons.
-inline PolygonTable planar_table(const std::vector<std::vector<std::string>>& features,
-                                 const PolygonOptions& options = {}) {
+inline CellTable planar_table(const std::vector<std::vector<std::string>>& features,
+                              const PolygonOptions& options = {}) {
   std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
   std::ranges::replace(test, '/', '_');
   const std::string path = temporary_path("plane_") + test + ".geojson";

@@ -140,10 +140,10 @@ TEST(overlay_plane, a_smaller_tolerance_makes_areas_better) {
 // A thin cell between two others is divided as they are.
 TEST(overlay_plane, neighbors_of_thin_cells_share_their_corners) {
   const RingInPlane thin = {{0, 0}, {170, 0}, {170, 1e-5}, {0, 1e-5}};
-  const PolygonTable table = planar_table({{planar_polygon({planar_box(0, -10, 170, 0)})},
-                                           {planar_polygon({thin})},
-                                           {planar_polygon({planar_box(0, 1e-5, 170, 10)})},
-                                           {planar_polygon({planar_box(360, 1e-5, 530, 10)})}});
+  const CellTable table = planar_table({{planar_polygon({planar_box(0, -10, 170, 0)})},
+                                        {planar_polygon({thin})},
+                                        {planar_polygon({planar_box(0, 1e-5, 170, 10)})},
+                                        {planar_polygon({planar_box(360, 1e-5, 530, 10)})}});
   const double area = area_in_plane(thin);
   EXPECT_NEAR(areas(table.cells)[1], area, 1e-3 * area);
   const std::vector<std::uint64_t>& rings = table.cells.rings;
@@ -172,13 +172,13 @@ TEST(overlay_plane, slivers_that_neighbors_close_are_left_out) {
   const std::string above = planar_polygon({{a, c, {9, 15}}});
   const std::string sliver = planar_polygon({{a, c, b}});
   const std::string rounding = "no wider than rounding of the corners (some 2e-13 degrees), ";
-  const PolygonTable alone = planar_table({{below}, {sliver}, {above}});
-  EXPECT_EQ(alone.remarks,
+  const CellTable alone = planar_table({{below}, {sliver}, {above}});
+  EXPECT_EQ(alone.facts.remarks,
             std::vector<std::string>{"feature 1 (f1) is " + rounding + "so nothing is left"});
   EXPECT_EQ(areas(alone.cells)[1], 0);
-  const PolygonTable part = planar_table({{below, sliver}, {above}});
-  EXPECT_EQ(part.remarks, std::vector<std::string>{"feature 0 (f0) has rings " + rounding +
-                                                   "which are left out"});
+  const CellTable part = planar_table({{below, sliver}, {above}});
+  EXPECT_EQ(part.facts.remarks, std::vector<std::string>{"feature 0 (f0) has rings " + rounding +
+                                                         "which are left out"});
   EXPECT_EQ(areas(part.cells), areas(planar_table({{below}, {above}}).cells));
   const std::string line = planar_polygon({{a, {12, 12}, {11, 11}}});
   EXPECT_EQ(planar_message({{below, line}, {planar_polygon({{{11, 11}, {14, 10}, {14, 14}}})}}),
@@ -277,7 +277,7 @@ TEST(overlay_plane, a_comb_has_its_area) {
   const CellRings cells = planar_table({{planar_polygon({comb})}}).cells;
   const double area = area_in_plane(comb);
   EXPECT_NEAR(areas(cells)[0], area, 1e-3 * area);
-  EXPECT_NEAR(CellSet(cells).areas()[0], area, 1e-3 * area);
+  EXPECT_NEAR(CellSet::polygons(cells).areas()[0], area, 1e-3 * area);
   EXPECT_TRUE(crossing_cells(cells).empty());
 }
 
@@ -285,14 +285,14 @@ TEST(overlay_plane, corners_of_one_neighbor_are_corners_of_both) {
   // The border from (0, 0) to (30, 21), of which the neighbor has places that are rounded.
   const LonLat p = {10.1, 21 * 10.1 / 30};
   const LonLat q = {17.3, 21 * 17.3 / 30};
-  const PolygonTable table = planar_table({{planar_polygon({{{0, 0}, {30, 0}, {30, 21}}})},
-                                           {planar_polygon({{{0, 0}, p, q, {30, 21}, {0, 21}}})}},
-                                          {.overlap = PolygonOverlap::error});
+  const CellTable table = planar_table({{planar_polygon({{{0, 0}, {30, 0}, {30, 21}}})},
+                                        {planar_polygon({{{0, 0}, p, q, {30, 21}, {0, 21}}})}},
+                                       {.overlap = PolygonOverlap::error});
   const CellRings joined = dissolve(table.cells, std::vector<Index>{0, 0}, 1);
   EXPECT_EQ(joined.rings.size(), 2U);
   EXPECT_NEAR(areas(joined)[0], area_in_plane(planar_box(0, 0, 30, 21)), 1e-6);
   // Along the antimeridian, where each half has another corner.
-  const PolygonTable cut =
+  const CellTable cut =
       planar_table({{planar_polygon({{{170, 0}, {180, 0}, {180, 3}, {180, 10}}}),
                      planar_polygon({{{-180, 0}, {-170, 5}, {-180, 10}, {-180, 7}}})}});
   EXPECT_EQ(cut.cells.rings.size(), 2U);
@@ -307,8 +307,8 @@ TEST(overlay_plane, overlapping_features_are_told_or_divided) {
     const std::string message =
         planar_message({{box}, {other}}, {.overlap = PolygonOverlap::error});
     EXPECT_TRUE(message.starts_with("features 0 (f0) and 1 (f1) overlap at ")) << message;
-    const PolygonTable kept = planar_table({{box}, {other}});
-    const PolygonTable table = planar_table({{other}, {box}}, {.overlap = PolygonOverlap::first});
+    const CellTable kept = planar_table({{box}, {other}});
+    const CellTable table = planar_table({{other}, {box}}, {.overlap = PolygonOverlap::first});
     EXPECT_TRUE(overlapping_cells(table.cells).empty());
     EXPECT_NEAR(areas(table.cells)[0], areas(kept.cells)[1], 1e-12);
     EXPECT_LE(areas(table.cells)[1], areas(kept.cells)[0]);
@@ -322,11 +322,11 @@ TEST(overlay_plane, overlapping_features_are_told_or_divided) {
                              {.overlap = PolygonOverlap::error})
                   .starts_with("features 0 (f0) and 1 (f1) overlap"));
   // The least feature has what three share.
-  const PolygonTable three = planar_table({{planar_polygon({planar_box(0, 0, 4, 4)})},
-                                           {planar_polygon({planar_box(2, 0, 6, 4)})},
-                                           {planar_polygon({planar_box(3, 1, 8, 3)})},
-                                           {planar_polygon({planar_box(-180, -90, 180, 90)})}},
-                                          {.overlap = PolygonOverlap::first});
+  const CellTable three = planar_table({{planar_polygon({planar_box(0, 0, 4, 4)})},
+                                        {planar_polygon({planar_box(2, 0, 6, 4)})},
+                                        {planar_polygon({planar_box(3, 1, 8, 3)})},
+                                        {planar_polygon({planar_box(-180, -90, 180, 90)})}},
+                                       {.overlap = PolygonOverlap::first});
   const std::vector<double> found = areas(three.cells);
   EXPECT_NEAR(found[0], area_in_plane(planar_box(0, 0, 4, 4)), 1e-7);
   EXPECT_NEAR(found[1], area_in_plane(planar_box(4, 0, 6, 4)), 1e-7);

@@ -206,7 +206,7 @@ TEST(overlay_polar, pieces_of_triangles_are_right_to_rounding_of_their_place) {
     cells.corners = {0, 1, 2};
     cells.rings = {0, 3};
     cells.cells = {0, 1};
-    const Remap remap = rondel::remap(CellSet(cells), CellSet::lonlat_grid(grid));
+    const Remap remap = rondel::remap(CellSet::polygons(cells), CellSet::lonlat_grid(grid));
     for (std::size_t row = 0; row + 1 < grid.lat_deg.size(); ++row) {
       const double south = grid.lat_deg[row];
       const double north = grid.lat_deg[row + 1];
@@ -230,7 +230,7 @@ TEST(overlay_polar, fractions_of_rows_at_a_pole) {
   octant.corners = {0, 1, 2};
   octant.rings = {0, 3};
   octant.cells = {0, 1};
-  const Remap of_octant = remap(CellSet(octant), grid);
+  const Remap of_octant = remap(CellSet::polygons(octant), grid);
   EXPECT_EQ(of_octant.target_fractions[0], 0);
   for (std::size_t row = 1; row < 4; ++row) {
     EXPECT_NEAR(of_octant.target_fractions[row], 0.25, 1e-15);

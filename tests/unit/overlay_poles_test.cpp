@@ -87,7 +87,7 @@ TEST(overlay_poles, overlapping_polygons_with_a_corner_at_a_pole_have_the_areas_
     }
     const std::string path = temporary_path("poles.geojson");
     std::ofstream(path) << R"({"type":"FeatureCollection","features":[)" << text << "]}";
-    const PolygonTable table = read_polygons(path, {.overlap = PolygonOverlap::first});
+    const CellTable table = read_polygons(path, {.overlap = PolygonOverlap::first});
     const std::vector<double> found = areas(table.cells);
     const std::vector<double> wanted = areas_of_first(wedges);
     ASSERT_EQ(found.size(), wanted.size());
@@ -96,8 +96,10 @@ TEST(overlay_poles, overlapping_polygons_with_a_corner_at_a_pole_have_the_areas_
       EXPECT_NEAR(found[i], wanted[i], 2e-3 * own) << text;
     }
     // The cells are sound: none crosses itself.
-    EXPECT_NO_THROW((void)CellSet(table.cells).areas()) << text;
-    EXPECT_NO_THROW((void)intersection(CellSet(table.cells), CellSet(table.cells))) << text;
+    EXPECT_NO_THROW((void)CellSet::polygons(table.cells).areas()) << text;
+    EXPECT_NO_THROW(
+        (void)intersection(CellSet::polygons(table.cells), CellSet::polygons(table.cells)))
+        << text;
   }
 }
 

@@ -33,7 +33,7 @@ std::string written(const std::string& text) {
   return path;
 }
 
-PolygonTable table_of(const std::string& geometry, const PolygonOptions& options = {}) {
+CellTable table_of(const std::string& geometry, const PolygonOptions& options = {}) {
   return read_polygons(written(geometry), options);
 }
 
@@ -52,13 +52,13 @@ double area_of_box(double w, double s, double e, double n) {
   return (e - w) * one_degree * (std::sin(n * one_degree) - std::sin(s * one_degree));
 }
 
-std::size_t num_rings(const PolygonTable& table) { return table.cells.rings.size() - 1; }
+std::size_t num_rings(const CellTable& table) { return table.cells.rings.size() - 1; }
 
 TEST(overlay_polygons, sides_are_parallels) {
-  const PolygonTable table = table_of(polygon(ring_of_box(10, 40, 50, 60)));
+  const CellTable table = table_of(polygon(ring_of_box(10, 40, 50, 60)));
   ASSERT_EQ(table.cells.num_cells(), 1U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
-  const PolygonTable fine = table_of(polygon(ring_of_box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
+  const CellTable fine = table_of(polygon(ring_of_box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
   EXPECT_NEAR(areas(fine.cells)[0], area_of_box(10, 40, 50, 60), 2e-9);
 }
 
@@ -94,7 +94,7 @@ TEST(overlay_polygons, sides_across_the_equator_are_straight) {
     if (doubled == 0) continue;
     SCOPED_TRACE(ring);
     ring += "[" + std::to_string(a.lon_deg) + "," + std::to_string(a.lat_deg) + "]";
-    const PolygonTable table = table_of(polygon("[" + ring + "]"));
+    const CellTable table = table_of(polygon("[" + ring + "]"));
     ASSERT_EQ(table.cells.num_cells(), 1U);
     EXPECT_NEAR(areas(table.cells)[0], area_of_triangle(corners), 2e-5);
   }
@@ -149,7 +149,7 @@ TEST(overlay_polygons, parts_a_turn_of_the_globe_apart_are_on_one_place) {
           << error.what();
     }
   }
-  const PolygonTable apart =
+  const CellTable apart =
       table_of(parts(ring_of_box(170, 0, 190, 10), ring_of_box(-170, 0, -160, 10)));
   EXPECT_NEAR(areas(apart.cells)[0], area_of_box(170, 0, 200, 10), 1e-6);
 }
@@ -168,20 +168,19 @@ TEST(overlay_polygons, features_that_are_not_taken_take_no_space) {
   };
   for (const PolygonOverlap overlap : {PolygonOverlap::error, PolygonOverlap::first}) {
     options.overlap = overlap;
-    const PolygonTable table = read_polygons(file, options);
+    const CellTable table = read_polygons(file, options);
     EXPECT_EQ(areas(table.cells)[0], 0);
     EXPECT_NEAR(areas(table.cells)[1], area_of_box(5, 0, 15, 10), 1e-6);
   }
 }
 
 TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
-  const PolygonTable table =
+  const CellTable table =
       table_of(polygon(ring_of_box(170, -10, 190, 10)), {.edges = PolygonEdges::geodesic});
   EXPECT_EQ(table.cells.corners.size(), 4U);
   EXPECT_GT(areas(table.cells)[0], area_of_box(170, -10, 190, 10) + 1e-4);
-  const PolygonTable across =
-      table_of(polygon("[[170,-10],[-170,-10],[-170,10],[170,10],[170,-10]]"),
-               {.edges = PolygonEdges::geodesic});
+  const CellTable across = table_of(polygon("[[170,-10],[-170,-10],[-170,10],[170,10],[170,-10]]"),
+                                    {.edges = PolygonEdges::geodesic});
   EXPECT_EQ(across.cells.corners, table.cells.corners);
   EXPECT_TRUE(across.cells.points == table.cells.points);
 }
@@ -228,7 +227,7 @@ TEST(overlay_polygons, geodesics_may_begin_anywhere_and_go_either_way) {
         ring += (k == 0 ? "[" : ",[") + std::to_string(p.lon_deg) + "," +
                 std::to_string(p.lat_deg) + "]";
       }
-      const PolygonTable table =
+      const CellTable table =
           table_of(polygon("[" + ring + "]"), {.edges = PolygonEdges::geodesic});
       EXPECT_NEAR(areas(table.cells)[0], std::abs(expected), 1e-9) << is_reversed << first;
     }
@@ -238,16 +237,16 @@ TEST(overlay_polygons, geodesics_may_begin_anywhere_and_go_either_way) {
 TEST(overlay_polygons, holes_and_directions) {
   const std::string outer = ring_of_box(0, 0, 30, 30);
   const std::string hole = ring_of_box(10, 10, 20, 20);
-  const PolygonTable table = table_of(polygon(outer + "," + hole));
+  const CellTable table = table_of(polygon(outer + "," + hole));
   EXPECT_EQ(num_rings(table), 2U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(0, 0, 30, 30) - area_of_box(10, 10, 20, 20), 3e-6);
-  const PolygonTable turned = table_of(polygon("[[0,0],[0,30],[30,30],[30,0],[0,0]]," + hole));
+  const CellTable turned = table_of(polygon("[[0,0],[0,30],[30,30],[30,0],[0,0]]," + hole));
   EXPECT_EQ(turned.cells.corners, table.cells.corners);
   EXPECT_TRUE(turned.cells.points == table.cells.points);
 }
 
 TEST(overlay_polygons, what_the_antimeridian_cuts_is_whole_again) {
-  const PolygonTable table =
+  const CellTable table =
       table_of(R"({"type":"MultiPolygon","coordinates":[[)" + ring_of_box(170, -20, 180, 20) +
                "],[" + ring_of_box(-180, -20, -170, 20) + "]]}");
   EXPECT_EQ(num_rings(table), 1U);
@@ -256,14 +255,14 @@ TEST(overlay_polygons, what_the_antimeridian_cuts_is_whole_again) {
 
 TEST(overlay_polygons, poles_are_points) {
   // A cap around the south pole, as maps have it.
-  const PolygonTable cap = table_of(polygon(ring_of_box(-180, -90, 180, -70)));
+  const CellTable cap = table_of(polygon(ring_of_box(-180, -90, 180, -70)));
   EXPECT_EQ(num_rings(cap), 1U);
   EXPECT_NEAR(areas(cap.cells)[0], area_of_box(-180, -90, 180, -70), 3e-6);
   // All but that.
-  const PolygonTable rest = table_of(polygon(ring_of_box(-180, -70, 180, 90)));
+  const CellTable rest = table_of(polygon(ring_of_box(-180, -70, 180, 90)));
   EXPECT_EQ(num_rings(rest), 1U);
   EXPECT_NEAR(areas(rest.cells)[0], area_of_box(-180, -70, 180, 90), 3e-6);
-  const PolygonTable belt = table_of(polygon(ring_of_box(-180, -10, 180, 10)));
+  const CellTable belt = table_of(polygon(ring_of_box(-180, -10, 180, 10)));
   EXPECT_EQ(num_rings(belt), 2U);
   EXPECT_NEAR(areas(belt.cells)[0], area_of_box(-180, -10, 180, 10), 1e-5);
 }
@@ -275,16 +274,16 @@ TEST(overlay_polygons, neighbors_share_corners) {
                                R"(},{"type":"Feature","properties":{"name":"b"},"geometry":)" +
                                polygon(ring_of_box(0, 50, 40, 60)) +
                                R"(},{"type":"Feature","properties":null,"geometry":null}]})";
-  const PolygonTable table = table_of(features);
+  const CellTable table = table_of(features);
   ASSERT_EQ(table.cells.num_cells(), 3U);
   EXPECT_EQ(table.cells.cells[2], table.cells.cells[3]);
   const CellRings joined = dissolve(table.cells, std::vector<Index>{0, 0, no_index}, 1);
   EXPECT_EQ(joined.rings.size(), 2U);
   EXPECT_NEAR(areas(joined)[0], area_of_box(0, 0, 40, 60), 1e-5);
-  ASSERT_EQ(table.columns.size(), 2U);
-  EXPECT_EQ(table.columns[1].name, "name");
-  EXPECT_EQ(table.columns[1].text, "ab");
-  EXPECT_EQ(table.columns[0].ends, (std::vector<std::uint64_t>{1, 1, 1}));
+  ASSERT_EQ(table.facts.columns.size(), 2U);
+  EXPECT_EQ(table.facts.columns[1].name, "name");
+  EXPECT_EQ(table.facts.columns[1].text, "ab");
+  EXPECT_EQ(table.facts.columns[0].ends, (std::vector<std::uint64_t>{1, 1, 1}));
 }
 
 // A corner of one neighbor alone becomes one of both, next to the antimeridian and a turn of the globe away, too.
@@ -301,8 +300,8 @@ TEST(overlay_polygons, neighbors_share_corners_everywhere) {
           "[" + position(west + turn, 50) + "," + position(west + turn + off, 50) + "," +
           position(west + turn + 20, 50) + "," + position(west + turn + 20, 60) + "," +
           position(west + turn, 60) + "," + position(west + turn, 50) + "]";
-      const PolygonTable table = table_of(R"({"type":"GeometryCollection","geometries":[)" +
-                                          polygon(low) + "," + polygon(high) + "]}");
+      const CellTable table = table_of(R"({"type":"GeometryCollection","geometries":[)" +
+                                       polygon(low) + "," + polygon(high) + "]}");
       const CellRings joined =
           dissolve(table.cells, std::vector<Index>(table.cells.num_cells(), 0), 1);
       EXPECT_EQ(joined.rings.size(), 2U) << west << ' ' << off;
@@ -313,8 +312,8 @@ TEST(overlay_polygons, neighbors_share_corners_everywhere) {
 
 TEST(overlay_polygons, cells_are_clipped_to_them) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 500, 2));
-  const PolygonTable table = table_of(polygon(ring_of_box(150, -60, 200, 70)));
-  const CellRings clipped = clip(cells, CellSet(table.cells));
+  const CellTable table = table_of(polygon(ring_of_box(150, -60, 200, 70)));
+  const CellRings clipped = clip(cells, CellSet::polygons(table.cells));
   double sum = 0;
   for (const double area : areas(clipped)) sum += area;
   EXPECT_NEAR(sum, areas(table.cells)[0], 1e-13);
@@ -332,7 +331,7 @@ std::string message_of(const std::string& text) {
 
 TEST(overlay_polygons, longitudes_are_up_to_ten_turns_away) {
   const double whole_turns = 3600;
-  const PolygonTable table = table_of(polygon(ring_of_box(whole_turns - 10, 0, whole_turns, 5)));
+  const CellTable table = table_of(polygon(ring_of_box(whole_turns - 10, 0, whole_turns, 5)));
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(0, 0, 10, 5), 1e-5);
   EXPECT_THROW((void)table_of(polygon(ring_of_box(whole_turns - 10, 0, whole_turns + 1e-3, 5))),
                FileError);
@@ -352,7 +351,7 @@ TEST(overlay_polygons, collections_are_nested_as_deep_as_the_text_may_be) {
   for (int k = 0; k < 40; ++k) {
     geometry = R"({"type":"GeometryCollection","geometries":[)" + geometry + "]}";
   }
-  const PolygonTable table = table_of(geometry);
+  const CellTable table = table_of(geometry);
   ASSERT_EQ(table.cells.num_cells(), 1U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
 }

@@ -72,7 +72,7 @@ double sum(std::span<const double> values) {
 
 TEST(overlay_regions, pieces_have_the_areas_of_the_overlay) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 900, 1));
-  const CellSet regions(random_regions(400, 3, 2));
+  const CellSet regions = CellSet::polygons(random_regions(400, 3, 2));
   const RegionPieces pieces = intersection(cells, regions);
   const std::vector<double> found = areas(pieces.rings);
   const Remap remap = rondel::remap(cells, regions);
@@ -147,11 +147,11 @@ TEST(overlay_regions, pieces_are_joined_by_both_groups) {
 TEST(overlay_regions, clipped_cells_have_the_area_of_the_regions) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 3000, 7));
   const CellRings regions = random_regions(500, 4, 8);
-  const CellRings clipped = clip(cells, CellSet(regions));
+  const CellRings clipped = clip(cells, CellSet::polygons(regions));
   EXPECT_NEAR(sum(areas(clipped)), sum(areas(regions)), 1e-13);
   expect_simple_rings(clipped);
   // Both ways around.
-  const CellRings exchanged = clip(CellSet(regions), cells);
+  const CellRings exchanged = clip(CellSet::polygons(regions), cells);
   const auto expected = areas(regions);
   const auto found = areas(exchanged);
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-13);
@@ -198,7 +198,7 @@ TEST(overlay_regions, of_everything_nothing_is_left) {
 TEST(overlay_regions, threads_and_orders_make_no_difference) {
   const auto triangulation = triangulation_of("uniform", 3000, 13);
   const CellSet cells = CellSet::voronoi(triangulation);
-  const CellSet regions(random_regions(300, 2, 14));
+  const CellSet regions = CellSet::polygons(random_regions(300, 2, 14));
   const CellRings one = clip(cells, regions, {.threads = 1});
   const CellRings four = clip(cells, regions, {.threads = 4});
   EXPECT_EQ(one.corners, four.corners);
@@ -208,7 +208,7 @@ TEST(overlay_regions, threads_and_orders_make_no_difference) {
 TEST(overlay_regions, one_site_has_all_of_the_regions) {
   const CellSet cell = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
   const CellRings regions = random_regions(50, 2, 15);
-  const CellRings clipped = clip(cell, CellSet(regions));
+  const CellRings clipped = clip(cell, CellSet::polygons(regions));
   EXPECT_NEAR(areas(clipped)[0], sum(areas(regions)), 1e-13);
 }
 
@@ -222,10 +222,10 @@ TEST(overlay_regions, parts_of_the_sphere) {
     if (i % 3 != 0) names[i] = num_names++;
   }
   const CellRings some = dissolve(all, names, num_names);
-  const CellSet cells(some);
-  const CellSet regions(of_regions);
+  const CellSet cells = CellSet::polygons(some);
+  const CellSet regions = CellSet::polygons(of_regions);
   ASSERT_FALSE(cells.is_cover() || regions.is_cover());
-  const RegionPieces expected = intersection(CellSet(all), regions);
+  const RegionPieces expected = intersection(CellSet::polygons(all), regions);
   const std::vector<double> known = areas(expected.rings);
   for (const bool is_back : {false, true}) {
     const RegionPieces found =
@@ -266,8 +266,9 @@ TEST(overlay_regions, of_parts_that_overlap) {
     }
     return cells;
   };
-  const CellSet twice(boxes({{0, 0, 20, 20}, {10, 10, 30, 30}}));
-  const CellSet plain(boxes({{8, 8, 12, 12}, {20, 20, 25, 25}, {12, 8, 19, 12}}));
+  const CellSet twice = CellSet::polygons(boxes({{0, 0, 20, 20}, {10, 10, 30, 30}}));
+  const CellSet plain =
+      CellSet::polygons(boxes({{8, 8, 12, 12}, {20, 20, 25, 25}, {12, 8, 19, 12}}));
   for (const auto& [cells, regions] : {std::pair(twice, plain), std::pair(plain, twice)}) {
     const RegionPieces pieces = intersection(cells, regions);
     const std::vector<double> found = areas(pieces.rings);
@@ -275,30 +276,32 @@ TEST(overlay_regions, of_parts_that_overlap) {
       const auto alone = [](const CellSet& all, Index i) {
         std::vector<Index> groups(all.num_cells(), no_index);
         groups[i] = 0;
-        return CellSet(dissolve(all.rings(), groups, 1));
+        return CellSet::polygons(dissolve(all.rings(), groups, 1));
       };
       const Remap piece = remap(alone(cells, pieces.cells[k]), alone(regions, pieces.regions[k]));
       EXPECT_NEAR(found[k], piece_of(piece, 0, 0), 1e-15);
     }
   }
   // What is in any of them, once.
-  const CellRings outline = clip(CellSet(boxes({{-5, -5, 40, 40}})), twice);
+  const CellRings outline = clip(CellSet::polygons(boxes({{-5, -5, 40, 40}})), twice);
   expect_simple_rings(outline);
   EXPECT_EQ(outline.corners.size(), 8U);
-  const double shared = areas(
-      intersection(CellSet(boxes({{0, 0, 20, 20}})), CellSet(boxes({{10, 10, 30, 30}}))).rings)[0];
+  const double shared = areas(intersection(CellSet::polygons(boxes({{0, 0, 20, 20}})),
+                                           CellSet::polygons(boxes({{10, 10, 30, 30}})))
+                                  .rings)[0];
   EXPECT_NEAR(areas(outline)[0], sum(twice.areas()) - shared, 1e-15);
-  const CellSet crossed(boxes({{0, 0, 10, 10}, {5, -5, 8, 20}, {2, 3, 5, 9}, {-3, 4, 20, 6}}));
+  const CellSet crossed =
+      CellSet::polygons(boxes({{0, 0, 10, 10}, {5, -5, 8, 20}, {2, 3, 5, 9}, {-3, 4, 20, 6}}));
   const CellRings cross = clip(CellSet::voronoi(triangulation_of("uniform", 9, 3)), crossed);
   expect_simple_rings(cross);
   const Remap places = remap(crossed, CellSet::voronoi(triangulation_of("uniform", 9, 3)),
                              {.overlap = CellOverlap::first});
   EXPECT_NEAR(sum(areas(cross)), sum(places.areas), 1e-14);
-  const CellSet around(boxes({{-40, -30, 50, 40}}));
+  const CellSet around = CellSet::polygons(boxes({{-40, -30, 50, 40}}));
   const CellRings same = clip(plain, around);
   EXPECT_EQ(same.corners.size(), 12U);
   EXPECT_NEAR(sum(areas(same)), sum(plain.areas()), 1e-15);
-  EXPECT_TRUE(clip(plain, CellSet(boxes({{100, 0, 120, 20}}))).corners.empty());
+  EXPECT_TRUE(clip(plain, CellSet::polygons(boxes({{100, 0, 120, 20}}))).corners.empty());
 }
 
 TEST(overlay_regions, bad_groups_are_refused) {

@@ -56,7 +56,7 @@ TEST(overlay_remap, pieces_are_those_of_clipping) {
 }
 
 TEST(overlay_remap, of_octants_is_known) {
-  const CellSet source(octants());
+  const CellSet source = CellSet::polygons(octants());
   ASSERT_TRUE(source.is_cover());
   for (const double area : source.areas()) EXPECT_NEAR(area, std::numbers::pi / 2, 4 * ulp);
   const CellSet target = CellSet::voronoi(delaunay(octants().points));
@@ -140,7 +140,7 @@ TEST(overlay_remap, what_is_missing_is_no_rounding) {
   half.rings.resize(half.cells.back() + 1);
   half.corners.resize(half.rings.back());
   const CellSet target = voronoi_of("uniform", 200, 18);
-  const Remap remap = rondel::remap(CellSet(half), target);
+  const Remap remap = rondel::remap(CellSet::polygons(half), target);
   std::size_t num_partial = 0;
   for (std::size_t j = 0; j < target.num_cells(); ++j) {
     if (remap.target_fractions[j] == 1) continue;
@@ -257,7 +257,7 @@ TEST(overlay_remap, parts_of_the_sphere) {
     half.rings.push_back(half.corners.size());
     half.cells.push_back(half.rings.size() - 1);
   }
-  const CellSet part(half);
+  const CellSet part = CellSet::polygons(half);
   EXPECT_FALSE(part.is_cover());
   const CellSet whole = voronoi_of("uniform", 300, 13);
   const Remap to_whole = rondel::remap(part, whole);
@@ -302,15 +302,15 @@ TEST(overlay_remap, cells_with_holes) {
   circle(50, 30, true, rings);
   circle(70, 20, false, rings);
   rings.cells.push_back(3);
-  const CellSet ring(rings);
+  const CellSet ring = CellSet::polygons(rings);
   CellRings parts = rings;
   parts.cells = {0, 1, 2, 3};  // without its holes, the hole as a cell turned around, the island
   std::reverse(parts.corners.begin() + 40, parts.corners.begin() + 70);
-  const CellSet part(parts);
+  const CellSet part = CellSet::polygons(parts);
   const auto alone = [&](Index i) {
     std::vector<Index> groups(3, no_index);
     groups[i] = 0;
-    return CellSet(dissolve(parts, groups, 1));
+    return CellSet::polygons(dissolve(parts, groups, 1));
   };
   EXPECT_NEAR(ring.areas()[0], part.areas()[0] - part.areas()[1] + part.areas()[2], 1e-14);
   for (const std::size_t n : {3U, 50U, 5000U}) {
@@ -376,7 +376,7 @@ TEST(overlay_remap, masked_cells_take_no_part) {
 TEST(overlay_remap, names_what_is_wrong) {
   const auto message_of = [](const CellRings& cells) -> std::string {
     try {
-      const CellSet cell_set(cells);
+      const CellSet cell_set = CellSet::polygons(cells);
     } catch (const InvalidInput& error) {
       return error.what();
     }
@@ -394,7 +394,7 @@ TEST(overlay_remap, names_what_is_wrong) {
   rings = octants();
   rings.cells.back() = 9;
   EXPECT_EQ(message_of(rings), "the offsets of cells and rings do not fit");
-  const CellSet source(octants());
+  const CellSet source = CellSet::polygons(octants());
   EXPECT_THROW((void)remap(source, source, {.order = 3}), InvalidInput);
   std::vector<double> out(8);
   EXPECT_THROW(apply_gradients(remap(source, source), out, std::vector<Point>(8), out),

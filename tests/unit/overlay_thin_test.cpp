@@ -117,7 +117,7 @@ class ThinTriangles {
 void expect_parts(const RingInPlane& ring, const LonLatGrid& grid) {
   const CellRings cells = planar_table({{planar_polygon({ring})}}).cells;
   const double area = areas(cells)[0];
-  const Remap remap = rondel::remap(CellSet(cells), CellSet::lonlat_grid(grid));
+  const Remap remap = rondel::remap(CellSet::polygons(cells), CellSet::lonlat_grid(grid));
   std::vector<double> found(grid.lon_deg.size() * grid.lat_deg.size());
   for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
     for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) found[j] += remap.areas[k];
@@ -155,10 +155,10 @@ TEST(overlay_thin, what_rounding_leaves_nothing_of_is_told) {
   const auto box = [](double width) {
     return planar_polygon({{{10, 10}, {10 + width, 10}, {10 + width, 11}, {10, 11}}});
   };
-  EXPECT_TRUE(planar_table({{box(1e-12)}}).remarks.empty());
-  const PolygonTable table = planar_table({{box(1)}, {box(2e-14)}, {box(1e-12)}, {box(1e-14)}});
-  ASSERT_EQ(table.remarks.size(), 1U);
-  EXPECT_EQ(table.remarks[0],
+  EXPECT_TRUE(planar_table({{box(1e-12)}}).facts.remarks.empty());
+  const CellTable table = planar_table({{box(1)}, {box(2e-14)}, {box(1e-12)}, {box(1e-14)}});
+  ASSERT_EQ(table.facts.remarks.size(), 1U);
+  EXPECT_EQ(table.facts.remarks[0],
             "feature 1 (f1) and 1 more are no wider than rounding of the corners (some 2e-13 "
             "degrees), so nothing is left");
   EXPECT_EQ(areas(table.cells)[1], 0);
@@ -174,7 +174,7 @@ TEST(overlay_thin, a_sliver_between_neighbors_is_a_cell_like_others) {
           .cells;
   for (const LonLatGrid& grid : few_cells()) {
     const CellSet boxes = CellSet::lonlat_grid(grid);
-    const Remap remap = rondel::remap(boxes, CellSet(cells));
+    const Remap remap = rondel::remap(boxes, CellSet::polygons(cells));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(remap.target_fractions[j], 1, 0.02) << j;
   }
 }

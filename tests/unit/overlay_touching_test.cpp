@@ -93,7 +93,7 @@ TEST(overlay_touching, corners_on_sides_to_rounding) {
       ring.push_back(to);
       return ring;
     };
-    const CellSet cells(cells_of_rings(
+    const CellSet cells = CellSet::polygons(cells_of_rings(
         {with_corners(west, east, north, has_spike), with_corners(east, west, south, has_slit)}));
     const std::string name = "trial " + std::to_string(trial);
     EXPECT_TRUE(overlapping_cells(cells.rings()).empty()) << name;
@@ -128,7 +128,7 @@ TEST(overlay_touching, corners_on_sides_to_more_than_rounding) {
         cells_of_rings({{place(0.2, 0.3), west, near(middle), tip, near(middle), east},
                         {place(0.2, -0.3), east, near(middle), near(0.05), west}});
     try {
-      const CellSet cells(rings);
+      const CellSet cells = CellSet::polygons(rings);
       expect_nothing_lost(cells, cover, 1e-11, "trial " + std::to_string(trial));
     } catch (const InvalidInput& error) {
       EXPECT_FALSE(overlapping_cells(rings).empty()) << trial << ' ' << error.what();
@@ -176,13 +176,13 @@ TEST(overlay_touching, cell_sets_with_corners_of_one_cell_on_sides_of_others) {
     const std::string name = "trial " + std::to_string(trial);
     const CellRings cells = cells_of_rings(rings);
     EXPECT_TRUE(overlapping_cells(cells).empty()) << name;
-    const CellSet cell_set(cells);
+    const CellSet cell_set = CellSet::polygons(cells);
     EXPECT_NEAR(std::accumulate(cell_set.areas().begin(), cell_set.areas().end(), 0.0), total,
                 1e-13)
         << name;
     expect_nothing_lost(cell_set, cover, 1e-12, name);
     const CellRings joined = dissolve(cells, random_groups(rings.size(), 4, trial + 1), 4);
-    const CellSet groups(joined);
+    const CellSet groups = CellSet::polygons(joined);
     EXPECT_TRUE(overlapping_cells(joined).empty()) << name;
     EXPECT_NEAR(std::accumulate(groups.areas().begin(), groups.areas().end(), 0.0), total, 1e-13)
         << name;
@@ -300,7 +300,7 @@ TEST(overlay_touching, unions_of_stars) {
     }
     const std::string name = "trial " + std::to_string(trial);
     const double expected = area_of_union(stars, centers);
-    const CellSet regions(cells_of_rings(stars));
+    const CellSet regions = CellSet::polygons(cells_of_rings(stars));
     EXPECT_NEAR(sum_of(areas(clip(cover, regions))), expected, 1e-12) << name;
     const Remap first = remap(cover, regions, {.overlap = CellOverlap::first});
     EXPECT_NEAR(sum_of(first.areas), expected, 1e-12) << name;
@@ -308,7 +308,7 @@ TEST(overlay_touching, unions_of_stars) {
     EXPECT_NEAR(sum_of(shared.areas), expected, 1e-12) << name;
     // The union, and what is beyond it, are cells as any others.
     const CellRings inside = dissolve(clip(cover, regions), std::vector<Index>(40, 0), 1);
-    const CellSet whole(inside);
+    const CellSet whole = CellSet::polygons(inside);
     EXPECT_NEAR(whole.areas()[0], expected, 1e-12) << name;
     expect_nothing_lost(whole, cover, 1e-12, name);
   }

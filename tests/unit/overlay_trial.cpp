@@ -55,12 +55,12 @@ Cover grid_of_parallels(const LonLatGrid& grid) {
 // Regions of several cells each, with holes and gaps, that do not cover the sphere.
 Cover regions_of(const Triangulation& sites, std::uint64_t seed) {
   const CellRings all = CellSet::voronoi(sites).rings();
-  Cover cover{"regions", CellSet(all), {}, {}, {}};
+  Cover cover{"regions", CellSet::polygons(all), {}, {}, {}};
   const std::vector<Index> groups = random_groups(all.num_cells(), 6, seed, true);
   std::vector<Index> owners;
   cover.convex = convex_cells(all, owners);
   for (const Index cell : owners) cover.owners.push_back(groups[cell]);
-  cover.cells = CellSet(dissolve(all, groups, 6));
+  cover.cells = CellSet::polygons(dissolve(all, groups, 6));
   return cover;
 }
 
@@ -140,7 +140,7 @@ void Trial::expect_areas() const {
   const double found = areas(cells_)[0];
   double of_cell = found;
   try {
-    of_cell = CellSet(cells_).areas()[0];
+    of_cell = CellSet::polygons(cells_).areas()[0];
   } catch (const InvalidInput& error) {
     EXPECT_TRUE(is_questionable()) << error.what();
   }
@@ -158,7 +158,7 @@ void Trial::expect_areas() const {
 
 Trial::Laid Trial::laid_over(const Cover& cover, std::uint64_t way) const {
   const Execution one_thread{.threads = 1};
-  const CellSet cell(cells_, one_thread);
+  const CellSet cell = CellSet::polygons(cells_, one_thread);
   const bool is_source = way % 2 == 0;
   const Remap remap = is_source ? rondel::remap(cell, cover.cells, {}, one_thread)
                                 : rondel::remap(cover.cells, cell, {.order = 2}, one_thread);

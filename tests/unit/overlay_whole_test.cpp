@@ -26,7 +26,7 @@ CellRings whole_sphere() {
 }
 
 TEST(overlay_whole, the_sphere_has_an_area_and_comes_back) {
-  const CellSet sphere_cell(whole_sphere());
+  const CellSet sphere_cell = CellSet::polygons(whole_sphere());
   EXPECT_EQ(sphere_cell.areas()[0], sphere);
   EXPECT_TRUE(sphere_cell.is_cover());
   EXPECT_EQ(sphere_cell.rings().whole, std::vector<Index>{0});
@@ -47,7 +47,7 @@ TEST(overlay_whole, cells_that_cover_it_dissolve_to_it) {
 
 TEST(overlay_whole, clipping_by_it_changes_nothing) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 300, 4));
-  const CellSet all(whole_sphere());
+  const CellSet all = CellSet::polygons(whole_sphere());
   const CellRings clipped = clip(cells, all);
   EXPECT_TRUE(clipped.whole.empty());
   const std::vector<double> found = areas(clipped);
@@ -71,7 +71,7 @@ TEST(overlay_whole, halves_are_apart) {
   halves.corners = {0, 1, 2, 3, 4, 4, 3, 2, 1, 0};
   halves.rings = {0, 5, 10};
   halves.cells = {0, 1, 2};
-  const CellSet cells(halves);
+  const CellSet cells = CellSet::polygons(halves);
   const RegionPieces pieces = intersection(cells, cells);
   EXPECT_EQ(pieces.num_pieces(), 2U);
   EXPECT_TRUE(pieces.rings.whole.empty());
@@ -85,14 +85,14 @@ TEST(overlay_whole, nothing_is_not_the_sphere) {
   nothing.cells = {0, 0};
   EXPECT_EQ(areas(nothing)[0], 0);
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 30, 5));
-  EXPECT_TRUE(clip(CellSet(nothing), cells).whole.empty());
-  EXPECT_TRUE(clip(CellSet(whole_sphere()), CellSet(nothing)).whole.empty());
-  EXPECT_EQ(intersection(cells, CellSet(nothing)).num_pieces(), 0U);
+  EXPECT_TRUE(clip(CellSet::polygons(nothing), cells).whole.empty());
+  EXPECT_TRUE(clip(CellSet::polygons(whole_sphere()), CellSet::polygons(nothing)).whole.empty());
+  EXPECT_EQ(intersection(cells, CellSet::polygons(nothing)).num_pieces(), 0U);
 }
 
 TEST(overlay_whole, means_over_it_and_from_it) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", 100, 6));
-  const CellSet all(whole_sphere());
+  const CellSet all = CellSet::polygons(whole_sphere());
   for (const unsigned order : {1U, 2U}) {
     const Remap to = remap(cells, all, {.order = order});
     std::vector<double> values(100);
@@ -112,13 +112,13 @@ TEST(overlay_whole, means_over_it_and_from_it) {
 TEST(overlay_whole, a_name_that_does_not_fit_is_refused) {
   CellRings twice = whole_sphere();
   twice.whole = {0, 0};
-  EXPECT_THROW(CellSet{twice}, InvalidInput);
+  EXPECT_THROW((void)CellSet::polygons(twice), InvalidInput);
   CellRings beyond = whole_sphere();
   beyond.whole = {1};
-  EXPECT_THROW(CellSet{beyond}, InvalidInput);
+  EXPECT_THROW((void)CellSet::polygons(beyond), InvalidInput);
   CellRings with_rings = CellSet::voronoi(triangulation_of("uniform", 20, 7)).rings();
   with_rings.whole = {3};
-  EXPECT_THROW(CellSet{with_rings}, InvalidInput);
+  EXPECT_THROW((void)CellSet::polygons(with_rings), InvalidInput);
 }
 
 }  // namespace

@@ -49,6 +49,12 @@ std::span<const Row> rows_of(const Array& array) {
   static_assert(sizeof(Row) % sizeof(*array.data()) == 0);
   return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
+// Returns a copy of the same.
+template <class Row, class Array>
+std::vector<Row> vector_of(const Array& array) {
+  const std::span<const Row> rows = rows_of<Row>(array);
+  return {rows.begin(), rows.end()};
+}
 inline std::span<const Point> points_of(const PointsIn& array) { return rows_of<Point>(array); }
 
 // Returns the points as sites, which keep the array alive.

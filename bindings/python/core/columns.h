@@ -16,11 +16,6 @@ namespace rondel::python {
 // A name and cells, which are texts or JSON, or empty for null.
 using ColumnIn = std::tuple<std::string, std::vector<std::string>>;
 
-// The properties of cells, which Python only passes from readers to writers.
-struct CellColumns {
-  std::vector<Column> columns;
-};
-
 inline std::vector<Column> make_columns(const std::vector<ColumnIn>& columns,
                                         bool are_json = true) {
   std::vector<Column> made;

@@ -60,10 +60,6 @@ PairOut pair_out(const std::vector<VariableHeader>& headers, const CoordinatePai
   return out;
 }
 
-std::vector<double> vector_of_axis(const NumbersIn& numbers) {
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
 // Marks missing values as NaN; an attribute has a name, type, text and numbers.
 using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>>;
 using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
@@ -136,7 +132,7 @@ void add_conventions(nb::module_& module) {
       "axis_lines",
       [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {
         return to_array<double>(
-            axis_lines(vector_of_axis(values), vector_of_axis(bounds), is_longitude));
+            axis_lines(rows_of<double>(values), rows_of<double>(bounds), is_longitude));
       },
       nb::arg("values").noconvert(), nb::arg("bounds").noconvert(), nb::arg("is_longitude"));
 }

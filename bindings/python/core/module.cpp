@@ -76,6 +76,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_diagram(module);
   rondel::python::add_query(module);
   rondel::python::add_contours(module);
+  rondel::python::add_cell_set(module);
   rondel::python::add_conventions(module);
   rondel::python::add_dynamic(module);
   rondel::python::add_files(module);

@@ -78,9 +78,8 @@ void add_region_functions(nb::module_& module) {
       nb::arg("path"), nb::arg("tolerance"), nb::arg("edges").none(), nb::arg("overlap").none(),
       nb::arg("within").none(), nb::arg("threads"), nb::arg("progress").none());
   module.def(
-      "cell_rings",
-      [](const CellSet& partition) { return unlocked([&] { return partition.rings(); }); },
-      nb::arg("partition"));
+      "cell_rings", [](const CellSet& cells) { return unlocked([&] { return cells.rings(); }); },
+      nb::arg("cells"));
 }
 
 }  // namespace
@@ -98,12 +97,6 @@ void add_regions(nb::module_& module) {
            [](const CellRings& self) {
              return to_array<double>(unlocked([&] { return areas(self); }));
            })
-      .def(
-          "partition",
-          [](const CellRings& self, unsigned threads) {
-            return unlocked([&] { return CellSet(self, {.threads = threads}); });
-          },
-          nb::arg("threads"))
       .def(
           "dissolve",
           [](const CellRings& self, const IndicesIn& groups, std::size_t num_groups,

@@ -3,47 +3,32 @@
 
 #include "rondel/weight_files.h"
 
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
-#include "columns.h"
 #include "interrupt.h"
 #include "module.h"
 
 namespace rondel::python {
 namespace {
 
-// Degrees, areas, fractions, the shape of a grid, the mask, the corners and the properties of
-// cells; empty ones are not written.
-using SideIn = std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>, IndicesIn,
-                          PairsIn, std::optional<CellColumns>>;
-
-std::vector<double> vector_of(const NumbersIn& numbers) {
-  return {numbers.data(), numbers.data() + numbers.size()};
-}
-
-WeightSide side_of(const SideIn& in) {
-  const auto& [degrees, areas, fractions, shape, mask, corners, columns] = in;
-  const auto points = rows_of<LonLat>(degrees);
+// Returns what a file says of places: degrees, areas, the shape of a grid and the mask. Empty arrays
+// are not written.
+WeightSide side_of(const PairsIn& places, const NumbersIn& areas,
+                   const std::vector<std::uint64_t>& shape, const IndicesIn& mask) {
   WeightSide side;
-  side.points.assign(points.begin(), points.end());
-  side.areas = vector_of(areas);
-  side.fractions = vector_of(fractions);
+  side.points = vector_of<LonLat>(places);
+  side.areas = vector_of<double>(areas);
   side.shape = shape;
-  side.mask = {mask.data(), mask.data() + mask.size()};
-  const auto places = rows_of<LonLat>(corners);
-  side.corners.assign(places.begin(), places.end());
-  if (columns) side.columns = columns->columns;
+  side.mask = vector_of<std::int32_t>(mask);
   return side;
 }
 
@@ -57,31 +42,22 @@ nb::tuple side_out(WeightSide& side) {
 }  // namespace
 
 void add_weight_files(nb::module_& module) {
+  nb::class_<WeightSide>(module, "WeightSide");
+  module.def("weight_side", &side_of, nb::arg("places").noconvert(), nb::arg("areas").noconvert(),
+             nb::arg("shape"), nb::arg("mask").noconvert());
   module.def(
       "write_weights",
       [](const std::string& path, const std::string& format, const Weights& weights,
-         const SideIn& source, const SideIn& target, const std::string& method,
+         const WeightSide& source, const WeightSide& target, const std::string& method,
          const std::string& normalization) {
         unlocked([&] {
-          const WeightFile content{.weights = weights,
-                                   .source = side_of(source),
-                                   .target = side_of(target),
-                                   .method = method,
-                                   .normalization = normalization,
-                                   .remarks = {}};
-          write_weights({path, format}, content);
+          write_weights({path, format},
+                        WeightFile{weights, source, target, method, normalization, {}});
           return 0;
         });
       },
       nb::arg("path"), nb::arg("format"), nb::arg("weights"), nb::arg("source"), nb::arg("target"),
       nb::arg("method"), nb::arg("normalization"));
-  module.def(
-      "read_weights",
-      [](const std::string& path) {
-        WeightFile file = unlocked([&] { return read_weights(path); });
-        return std::tuple(std::move(file.weights), std::move(file.remarks));
-      },
-      nb::arg("path"));
   // Returns the weights, the method, its normalization, what the reader remarks, and the sides of sources and targets.
   module.def(
       "read_weight_file",

@@ -13,9 +13,9 @@ convex_hull
 feature_cells
     The cells of lines and polygons: which of them is nearest.
 remap
-    Conservative weights between the cells of two partitions.
+    Conservative weights between two sets of cells.
 lonlat_grid, polygons
-    Partitions for it: a grid of the whole sphere, and polygons of files and libraries.
+    Cells for it: a grid of the whole sphere, and polygons of files and libraries.
 interpolate
     Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
@@ -59,6 +59,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from . import mesh as mesh
 from ._arrays import lonlat, point_set_hash, unit_vectors
+from ._cell_set import CellSet
 from ._cells import lonlat_grid, polygons
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
@@ -69,7 +70,6 @@ from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
 from ._netcdf import netcdf_library as _netcdf_library
-from ._cell_set import CellSet
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
@@ -90,6 +90,7 @@ if (_found := _netcdf_library()) is not None:
 
 __all__ = [
     "Bands",
+    "CellSet",
     "Cells",
     "CheckReport",
     "ConvexHull",
@@ -99,7 +100,6 @@ __all__ = [
     "Lists",
     "Location",
     "LonLatTriangles",
-    "CellSet",
     "PowerDiagram",
     "Regions",
     "Regridder",

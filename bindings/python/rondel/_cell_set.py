@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,14 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of
 from ._errors import InvalidInput, warn_caller
-from ._cell_set_files import FileCells, Sides
+from ._geo import Path
+from ._geometries import Edges, PolygonOverlap, Sides, polygons_of, read_cells
+from ._pickled import arrays_of, with_arrays
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 
-class CellSet(FileCells, Described):
+class CellSet(Described):
     """Cells on the sphere: of a diagram, a triangulation, a grid, a model's mesh, or polygons.
 
     The class methods make it; `remap` and `SphericalVoronoi.clip` use it. Cells may cover the whole
@@ -48,6 +51,46 @@ class CellSet(FileCells, Described):
 
     """
 
+    _cells: _core.CellSet
+    # The name of the function of the library that made cells of sites, and the object that has the
+    # sites; None for other cells.
+    _origin: tuple[str, Any] | None
+
+    @classmethod
+    def _of(cls, cells: _core.CellSet, origin: tuple[str, Any] | None = None) -> CellSet:
+        self = cls.__new__(cls)
+        self._cells = cells
+        self._origin = origin
+        return self
+
+    def _with(self, **facts: Any) -> CellSet:
+        """The same cells with some other facts."""
+        made = with_arrays(_core.CellFacts(self._cells.facts), facts)
+        return self._of(self._cells.with_facts(made), self._origin)
+
+    # Cells of a triangulation or a grid are made again, so that they are the same bit by bit.
+    def __getstate__(self) -> dict[str, Any]:
+        made: tuple[Any, ...]
+        lines = self._cells.lines()
+        if self._origin is not None:
+            made = self._origin
+        elif lines is not None:
+            made = ("lonlat_grid", *lines)
+        else:
+            made = ("polygons", arrays_of(self._cells.given_rings()))
+        return {"made": made, "facts": arrays_of(self._cells.facts)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        name, *given = state["made"]
+        is_of_sites = name in ("voronoi", "triangles")
+        self._origin = (name, given[0]) if is_of_sites else None
+        if is_of_sites:
+            given = [given[0]._triangulation]
+        elif name == "polygons":
+            given = [with_arrays(_core.CellRings(), given[0])]
+        cells = getattr(_core.CellSet, name)(*given, 0)
+        self._cells = cells.with_facts(with_arrays(_core.CellFacts(), state["facts"]))
+
     @classmethod
     def voronoi(cls, sites: Any, *, threads: int | None = None) -> CellSet:
         """Makes the Voronoi cells, or power cells, of sites.
@@ -74,7 +117,7 @@ class CellSet(FileCells, Described):
         """
         owner = _triangulated_of(sites)
         made = _core.CellSet.voronoi(owner._triangulation, as_threads(threads))
-        return cls._of(made, has_corners=False, origin=("voronoi", owner))
+        return cls._of(made, ("voronoi", owner))
 
     @classmethod
     def triangles(cls, sites: Any, *, threads: int | None = None) -> CellSet:
@@ -101,7 +144,7 @@ class CellSet(FileCells, Described):
         """
         owner = _triangulated_of(sites)
         made = _core.CellSet.triangles(owner._triangulation, as_threads(threads))
-        return cls._of(made, has_corners=False, origin=("triangles", owner))
+        return cls._of(made, ("triangles", owner))
 
     @classmethod
     def lonlat_grid(
@@ -145,12 +188,8 @@ class CellSet(FileCells, Described):
         ((2, 2), [0.5, 0.5, 0.5, 0.5])
 
         """
-        meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        lines = meridians, parallels, sides
-        made = _core.CellSet.lonlat_grid(*lines, as_threads(threads))
-        axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
-        shape = len(axes[1]), len(axes[0])
-        return cls._of(made, shape=shape, axes=axes, origin=("lonlat_grid", *lines))
+        lines = _as_lines(lon, "lon"), _as_lines(lat, "lat")
+        return cls._of(_core.CellSet.lonlat_grid(*lines, sides, as_threads(threads)))
 
     @classmethod
     def lonlat_centers(
@@ -185,8 +224,7 @@ class CellSet(FileCells, Described):
         axes = _as_lines(lon, "lon"), _as_lines(lat, "lat")
         lines = axis_lines("lon", axes[0], None, True), axis_lines("lat", axes[1], None, False)
         made = cls.lonlat_grid(*lines, sides=sides, threads=threads)
-        made._axes = axes
-        return made
+        return made._with(axes=axes)
 
     @classmethod
     def polygons(
@@ -232,16 +270,15 @@ class CellSet(FileCells, Described):
             vector, or a cell that is the whole sphere has rings. Its `index` is the cell.
 
         """
-        return cls._of(
-            _core.CellSet.from_rings(
-                as_indices(cells, "cells").astype(np.int64),
-                as_indices(rings, "rings").astype(np.int64),
-                as_indices(corners, "corners"),
-                as_points(points),
-                as_indices(whole, "whole"),
-                as_threads(threads),
-            )
-        )
+        rings_of_cells = {
+            "cells": as_indices(cells, "cells").astype(np.int64),
+            "rings": as_indices(rings, "rings").astype(np.int64),
+            "corners": as_indices(corners, "corners"),
+            "points": as_points(points),
+            "whole": as_indices(whole, "whole"),
+        }
+        made = with_arrays(_core.CellRings(), rings_of_cells)
+        return cls._of(_core.CellSet.polygons(made, as_threads(threads)))
 
     @classmethod
     def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> CellSet:
@@ -283,8 +320,100 @@ class CellSet(FileCells, Described):
         made, (number, of, first), are_most = _core.corner_cells(
             degrees, shape[-1], centers, as_threads(threads)
         )
-        cells = cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
+        cells = cls._of(made)._with(shape=shape[:-1] if len(shape) > 2 else ())
         return cells, (number, of, first, are_most)
+
+    @classmethod
+    def read(
+        cls,
+        path: Path,
+        *,
+        sides: Sides = "parallels",
+        edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
+        threads: int | None = None,
+    ) -> CellSet:
+        """Reads the cells of a file.
+
+        Parameters
+        ----------
+        path : path-like
+            A netCDF file with the conventions of UGRID, SCRIP, ESMF, MPAS, ICON or CF, or a
+            ``.geojson`` file whose features are the cells. netCDF-4 is read by the library that
+            the package netCDF4 brings. If the file has several grids, ``FILE.nc:NAME`` names a
+            variable of a grid, or one with values on it.
+        sides : {'parallels', 'great_circles'}, optional
+            As in `lonlat_grid`, for grids whose coordinates are axes; by default 'parallels'.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons: straight lines in longitude and latitude as in RFC
+            7946 (default), or great circles.
+        overlap : {'keep', 'error', 'first'}, optional
+            What to do with a place that several features contain: 'keep' (default) makes cells that
+            overlap there, 'error' raises an error that names two of them, 'first' gives the place
+            to the first one.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        CellSet
+            The cells, in the order of the file.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read. The message says what is wrong in it: rings that cross,
+            holes outside of their polygon, parts that overlap.
+
+        Warns
+        -----
+        UserWarning
+            If cells are masked, or are left out because of missing corners (with their number), or
+            if one of several grids was read.
+
+        """
+        name = os.fspath(path)
+        return cls._of(read_cells(name, edges, overlap, as_threads(threads), sides=sides))
+
+    @classmethod
+    def from_geometries(
+        cls,
+        geometries: Any,
+        *,
+        edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
+        threads: int | None = None,
+    ) -> CellSet:
+        """Makes cells of polygons of other libraries, which may have holes and several parts.
+
+        Parameters
+        ----------
+        geometries : GeoDataFrame, GeoSeries, sequence or mapping
+            The polygons, one a cell: a GeoDataFrame or GeoSeries; a sequence of geometries of
+            shapely; a mapping of GeoJSON, or any object with `__geo_interface__`; arrays or tables
+            of GeoArrow; or a box of west, south, east and north in degrees. Projected coordinates
+            are converted to longitudes and latitudes by their `crs`; sides that are straight in the
+            projection get corners in between, which follow them to about 1e-4 degrees.
+        edges, overlap
+            As in `read`.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+
+        Returns
+        -------
+        CellSet
+            A cell for each geometry.
+
+        Raises
+        ------
+        ValueError
+            If a geometry is not a polygon, is not valid, or has positions that are no longitudes
+            and latitudes. The message has its number.
+
+        """
+        return cls._of(polygons_of(geometries, edges, overlap, as_threads(threads)))
 
     @property
     def num_cells(self) -> int:
@@ -315,14 +444,15 @@ class CellSet(FileCells, Described):
     @property
     def shape(self) -> tuple[int, ...]:
         """Tuple of int: the shape of a grid, (nlat, nlon); otherwise (n,)."""
-        return tuple(self._shape) or (self.num_cells,)
+        return tuple(self._cells.facts.shape) or (self.num_cells,)
 
     @property
     def mask(self) -> BoolArray:
         """Ndarray of bool, shape (n,): which cells take part in remapping, as their file says; all
         True if it says nothing.
         """
-        return self._mask != 0 if len(self._mask) else np.ones(self.num_cells, bool)
+        mask = self._cells.facts.mask
+        return mask != 0 if len(mask) else np.ones(self.num_cells, bool)
 
     @property
     def rings(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], IntArray, FloatArray]:
@@ -334,7 +464,8 @@ class CellSet(FileCells, Described):
             If the cells have parallels as sides, so that they are no polygons.
 
         """
-        return self._cells.rings()[:4]
+        made = self._cells.rings()
+        return made.cells, made.rings, made.corners, made.points
 
     @property
     def whole(self) -> IntArray:
@@ -346,27 +477,24 @@ class CellSet(FileCells, Described):
             If the cells have parallels as sides.
 
         """
-        return self._cells.rings()[4]
+        return self._cells.rings().whole
 
-    def with_places(self, pairs: FloatArray) -> CellSet:
-        """The same cells, whose coordinates are those, shape (n, 2), in files of weights."""
-        self._file_centers = pairs
-        return self
+    def _placed(self) -> _core.CellSet:
+        """The cells with the places that files have: those of Voronoi cells are the sites."""
+        if self._origin is None or self._origin[0] != "voronoi" or len(self._cells.facts.centers):
+            return self._cells
+        sites = self._origin[1]._triangulation
+        return self._with(centers=degrees_of(sites.points, sites.center))._cells
 
     def _degrees(self) -> FloatArray:
-        """Longitudes and latitudes, shape (n, 2): from a grid's axes, the file, or the centers."""
-        if self._file_centers is not None:
-            return self._file_centers
-        if self._axes is None:
-            return degrees_of(self.centers)
-        lon, lat = np.meshgrid(*self._axes)
-        return np.stack([lon, lat], axis=-1).reshape(-1, 2)
+        """The places of the cells, longitudes and latitudes of shape (n, 2)."""
+        return self._placed().places()
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("cells", count(self.num_cells, "cell"))]
         if self.is_cover:
             facts.append(("cover", "a cover of the sphere"))
-        masked = int(np.count_nonzero(self._mask == 0))
+        masked = int(np.count_nonzero(self._cells.facts.mask == 0))
         if masked:
             facts.append(("mask", f"{masked:,} masked"))
         return facts

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Partitions that are wanted most: grids of the whole sphere, and polygons of anything."""
+"""The cells that are wanted most: grids of the whole sphere, and polygons of anything."""
 
 from __future__ import annotations
 
@@ -8,12 +8,10 @@ import operator
 import os
 from typing import Any
 
-import numpy as np
-
-from ._geometries import Edges, PolygonOverlap
+from . import _core
+from ._arrays import as_threads
 from ._cell_set import CellSet
-from ._cell_set_files import Sides
-from ._types import FloatArray
+from ._geometries import Edges, PolygonOverlap, Sides
 
 
 def lonlat_grid(
@@ -36,7 +34,8 @@ def lonlat_grid(
     Returns
     -------
     CellSet
-        Cells of the shape (nlat, nlon), in C order. Each line is the exact quotient, rounded once.
+        Cells of the shape (nlat, nlon), in C order. Lines and centers are exact
+        quotients, rounded once.
 
     Raises
     ------
@@ -54,15 +53,10 @@ def lonlat_grid(
     (180, 360)
 
     """
-
-    def lines(cells: int, half: int, name: str) -> FloatArray:
+    for cells, name in ((nlon, "nlon"), (nlat, "nlat")):
         if operator.index(cells) < 1:
             raise ValueError(f"{name} must be at least 1, not {cells}")
-        return (2 * np.arange(cells + 1) - cells) * half / cells
-
-    return CellSet.lonlat_grid(
-        lines(nlon, 180, "nlon"), lines(nlat, 90, "nlat"), sides=sides, threads=threads
-    )
+    return CellSet._of(_core.CellSet.global_grid(nlon, nlat, sides, as_threads(threads)))
 
 
 def polygons(

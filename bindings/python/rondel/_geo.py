@@ -149,11 +149,6 @@ def written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
     return None
 
 
-def write_named(name: str, write: Callable[[str], None]) -> None:
-    """Reads or writes a file; the library's errors have the number that the system gave."""
-    write(name)
-
-
 def triangles_to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:
     """The solid faces as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
 

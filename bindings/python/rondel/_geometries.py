@@ -9,43 +9,49 @@ import os
 import pathlib
 import re
 import tempfile
-import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._geo import write_named
+from ._errors import warn_caller
 from ._projected import in_lonlat
 from ._properties import json_cells
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
+Sides: TypeAlias = Literal["parallels", "great_circles"]
 
 Groups: TypeAlias = np.ndarray[Any, np.dtype[np.int32]] | None
-Polygons: TypeAlias = tuple[_core.CellSet, _core.CellColumns]  # and their properties
 
 
-def read_polygons(
-    name: str, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
-) -> Polygons:
-    """The polygons of a file of GeoJSON; those with a group below 0 are left out."""
-    rules = edges, overlap, groups
-    partition, columns, remarks = _read(
-        name, lambda file: _core.read_polygon_cells(file, *rules, threads)
-    )
-    for remark in remarks:
-        warnings.warn(remark, UserWarning, stacklevel=3)
-    return partition, columns
+def read_cells(
+    name: str,
+    edges: Edges,
+    overlap: PolygonOverlap,
+    threads: int,
+    groups: Groups = None,
+    sides: Sides = "parallels",
+) -> _core.CellSet:
+    """The cells of a file; polygons with a group below 0 are left out."""
+    cells = _core.CellSet.read(name, sides, edges, overlap, groups, threads)
+    for remark in cells.facts.remarks:
+        warn_caller(f"{name}: {remark}")
+    return cells
 
 
 def polygons_of(
     geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
-) -> Polygons:
+) -> _core.CellSet:
     """The polygons of objects: a cell for each of them, empty where the group is below 0."""
-    rules = edges, overlap, threads, groups
-    return _of_objects(geometries, edges, lambda name: read_polygons(name, *rules))
+    rules = "parallels", edges, overlap, groups, threads
+    cells = _of_objects(geometries, edges, lambda name: _core.CellSet.read(name, *rules))
+    for remark in cells.facts.remarks:
+        warn_caller(remark)
+    facts = _core.CellFacts(cells.facts)
+    facts.name = ""  # that of a file which is gone
+    return cells.with_facts(facts)
 
 
 def features_of(
@@ -57,7 +63,7 @@ def features_of(
     """The result of `read`, which gets a file with the features, and the rules."""
     rules = edges, overlap
     if is_file(features):
-        return _read(os.fspath(features), lambda file: read(file, *rules))
+        return read(os.fspath(features), *rules)
     return _of_objects(features, edges, lambda file: read(file, *rules))
 
 
@@ -65,12 +71,6 @@ def _is_geodesic(edges: Edges) -> bool:
     if edges not in ("lonlat", "geodesic"):
         raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
     return edges == "geodesic"
-
-
-def _read(name: str, read: Callable[[str], Any]) -> Any:
-    made: list[Any] = []
-    write_named(name, lambda file: made.append(read(file)))
-    return made[0]
 
 
 def _of_objects(geometries: Any, edges: Edges, read: Callable[[str], Any]) -> Any:

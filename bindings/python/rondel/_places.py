@@ -12,6 +12,7 @@ import xarray
 
 from . import _core
 from ._arrays import in_words, point_set_hash, unit_vectors, unmasked
+from ._cell_set import CellSet, axis_lines
 from ._coordinates import (
     MARKS,
     Coordinates,
@@ -24,10 +25,9 @@ from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
 from ._masks import mask_of_convention, mask_of_variable
-from ._cell_set import CellSet, axis_lines
 from ._types import BoolArray, FloatArray
 from ._values import unpacked
-from ._weight_files import MOST_APART, Side, are_near
+from ._weight_files import MOST_APART, are_near, side_of
 from ._weights import Weights
 
 # The names of columns that tables usually have.
@@ -152,7 +152,7 @@ class Places:
         return bool(are_near(self.pairs(), pairs)[used].all())
 
     def along_cells(self, data: Any) -> tuple[Any, Places]:
-        """The data and these places, or, if the places are the cells of a partition, which the data
+        """The data and these places, or, if the places are the cells of a set, which the data
         have along one dimension of any name, both along that.
         """
         n = self.lon.size
@@ -173,9 +173,7 @@ class Places:
             )
         if not found:
             return data, self
-        flat = CellSet._of(
-            self._cells._cells, self._cells._mask, file_centers=self.pairs()
-        )
+        flat = self._cells._with(shape=(), centers=self.pairs())
         places = Places(flat)
         return with_dimensions(data, {found[0]: places.dims[0]}), places
 
@@ -235,14 +233,9 @@ class Places:
             return self._used if mask is None else mask
         return mask & self._used
 
-    def side(self) -> Side:
+    def side(self) -> _core.WeightSide:
         """What a file of weights says of the places."""
-        mask = self.mask()
-        return Side(
-            self.pairs(),
-            shape=self.shape,
-            mask=None if mask is None or mask.all() else mask.astype(np.int32),
-        )
+        return side_of(self.pairs(), shape=self.shape, mask=self.mask())
 
     def triangulated(
         self, mask: BoolArray | None = None, threads: int | None = None
@@ -266,18 +259,17 @@ class Places:
 
     @property
     def have_cells(self) -> bool:
-        """Whether there are cells around the places: bounds, axes, or a partition."""
+        """Whether there are cells around the places: bounds, axes, or a set of cells."""
         return self.are_axes or self._cells is not None or self._found.have_bounds
 
-    def cells(self, threads: int | None) -> tuple[CellSet, BoolArray | None]:
-        """The cells around the places, by their bounds or, of a grid, half way between them; and
-        which of them take part.
-        """
+    def cells(self, threads: int | None) -> CellSet:
+        """The cells around the places, by their bounds or, of a grid, half way between them."""
         if self._cells is not None:
-            return self._cells, self.mask()
+            return self._cells
         for remark in self._found.remarks:
             warn_caller(remark)
         lon, lat = self._found.bounds()
+        mask = self.mask()
         if self.are_axes:
             names = self._found.lon_name, self._found.lat_name
             lines = [
@@ -287,7 +279,7 @@ class Places:
                 )
             ]
             made = CellSet.lonlat_grid(*lines, threads=threads)
-            return made.with_places(self.pairs()), self.mask()
+            return self._described(made, mask)
         if lon is None or lat is None:
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
@@ -295,11 +287,15 @@ class Places:
             )
         if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, lat, self.shape, self._pairs_with_gaps(None))
-        mask = self.mask()
         centers = self._pairs_with_gaps(mask)
         made, mask, outside = _cells_of_corners(lon, lat, mask, centers, threads)
         self._require_inside(*outside)
-        return made.with_places(self.pairs()), mask
+        return self._described(made, mask)
+
+    def _described(self, cells: CellSet, mask: BoolArray | None) -> CellSet:
+        """The cells with these places as their centers, and which of them take part."""
+        kept = np.zeros(0) if mask is None else mask.reshape(-1)
+        return cells._with(centers=self.pairs(), mask=kept.astype(np.int32))
 
     def _pairs_with_gaps(self, mask: BoolArray | None) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2); NaN where there is none or no part is taken."""
@@ -407,10 +403,10 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
     return lon[rows, source], lat[rows, source], missing[rows, source]
 
 
-def _centers(partition: CellSet) -> xarray.Dataset:
+def _centers(cells: CellSet) -> xarray.Dataset:
     """The places of the cells: those of the file or the axes, or else the centers of mass."""
-    dims = ("y", "x") if len(partition.shape) == 2 else ("cell",)
-    degrees = partition._degrees().reshape(*partition.shape, 2)
+    dims = ("y", "x") if len(cells.shape) == 2 else ("cell",)
+    degrees = cells._degrees().reshape(*cells.shape, 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 

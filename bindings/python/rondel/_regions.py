@@ -13,6 +13,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_threads
+from ._cell_set import CellSet
 from ._geo import Path, Properties, polygon_frame, written
 from ._geometries import (
     Edges,
@@ -21,9 +22,8 @@ from ._geometries import (
     features_of,
     is_file,
     polygons_of,
-    read_polygons,
+    read_cells,
 )
-from ._cell_set import CellSet
 from ._pickled import arrays_of, with_arrays
 from ._plot import plot_regions
 from ._properties import checked_properties, frame_column, is_missing, json_columns
@@ -123,7 +123,7 @@ class Regions(Described):
             raise ValueError(f"radius_km is {radius_km}, not positive with a finite area")
         return self.areas * squared
 
-    def partition(self, *, threads: int | None = None) -> CellSet:
+    def cell_set(self, *, threads: int | None = None) -> CellSet:
         """Returns the regions as cells for `remap`.
 
         Parameters
@@ -137,7 +137,7 @@ class Regions(Described):
             A cell for each region; empty regions have empty cells.
 
         """
-        return CellSet._of(self._rings.partition(as_threads(threads)))
+        return CellSet._of(_core.CellSet.polygons(self._rings, as_threads(threads)))
 
     def dissolve(
         self, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
@@ -316,7 +316,7 @@ def clip_cells(
     regions : path-like, geometries or CellSet
         The regions: a GeoJSON file; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping
         of GeoJSON, any object with `__geo_interface__`, or a sequence of these; a box of west,
-        south, east and north in degrees; or a partition.
+        south, east and north in degrees; or cells.
     values : sequence, shape (m,), optional
         A value for each of the m regions, such as a country or a kind of soil, by which cells are
         divided. Regions whose value is None, NaN or NA are left out. By default cells are clipped
@@ -413,7 +413,7 @@ def dissolve_cells(
     ['side', 'cap']
 
     """
-    rings = _core.cell_rings(CellSet.voronoi(self, threads=threads)._cells)
+    rings = CellSet.voronoi(self, threads=threads)._cells.rings()
     return _dissolved(rings, groups, threads, progress)
 
 
@@ -520,16 +520,13 @@ def as_cell_set(
     threads: int | None,
     groups: Groups = None,
 ) -> CellSet:
-    """The regions as a partition; polygons whose group is below 0 are left out."""
+    """The regions as cells; polygons whose group is below 0 are left out."""
     if isinstance(regions, CellSet):
         return regions
     rules = edges, overlap, as_threads(threads), groups
-    if not is_file(regions):
-        return CellSet._of_polygons(polygons_of(regions, *rules))
-    name = os.fspath(regions)
-    if name.lower().endswith((".geojson", ".json")):
-        return CellSet._of_polygons(read_polygons(name, *rules))
-    return CellSet.read(regions, edges=edges, overlap=overlap, threads=threads)
+    if is_file(regions):
+        return CellSet._of(read_cells(os.fspath(regions), *rules))
+    return CellSet._of(polygons_of(regions, *rules))
 
 
 def _dissolved(

@@ -16,7 +16,7 @@ from ._remap import Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
 from ._types import Progress
-from ._weight_files import write_weights
+from ._weight_files import netcdf_name
 from ._weights import Weights
 
 if TYPE_CHECKING:
@@ -304,7 +304,8 @@ class Regridder(Described):
             source, target = self._source.side(), self._target.side()
             method = said_method(self.method, self._extrap_method)
             norm = _CONSERVATIVE[self.method][1] if self.method in _CONSERVATIVE else "none"
-            write_weights(path, "esmf", self.weights, source, target, method, norm)
+            name, weights = netcdf_name(path, "esmf"), self.weights._weights
+            _core.write_weights(name, "esmf", weights, source, target, method, norm)
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:
@@ -356,14 +357,11 @@ def _made(
 ) -> Weights | Remap:
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
-        (cells, mask), (target_cells, target_mask) = source.cells(threads), target.cells(threads)
         return remap(
-            cells,
-            target_cells,
+            source.cells(threads),
+            target.cells(threads),
             order=order,
             norm=norm,
-            source_mask=mask,
-            target_mask=target_mask,
             overlap=overlap,
             threads=threads,
             progress=progress,

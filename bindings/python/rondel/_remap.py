@@ -12,15 +12,15 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_mask, as_threads
+from ._cell_set import CellSet
 from ._delaunay import SphericalDelaunay
 from ._diagram import Diagram
 from ._geo import Path
-from ._cell_set import CellSet
 from ._regions import Regions
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Progress
 from ._voronoi_mesh import Mesh
-from ._weight_files import Side, write_weights
+from ._weight_files import netcdf_name
 from ._weights import Weights
 
 
@@ -33,7 +33,7 @@ class Remap(Described):
         A sparse matrix with a row for each target cell and a column for each source cell;
         ``weights.apply(means)`` computes the means over target cells.
     source, target : CellSet
-        The cells of both sides.
+        The cells of both sides, with the masks that count.
     source_areas, target_areas : ndarray of float64, shape (n,) and (m,)
         The areas of the cells in steradians.
     source_fractions, target_fractions : ndarray of float64, shape (n,) and (m,)
@@ -48,7 +48,6 @@ class Remap(Described):
         target: CellSet,
         measures: Sequence[FloatArray],
         norm: str,
-        masks: tuple[IntArray, IntArray],
         order: int = 1,
     ) -> None:
         self.weights = weights
@@ -57,7 +56,6 @@ class Remap(Described):
         self.source_areas, self.target_areas = measures[:2]
         self.source_fractions, self.target_fractions = measures[2:]
         self._norm = norm
-        self._masks = masks
         self._order = order
 
     def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
@@ -84,23 +82,13 @@ class Remap(Described):
         Weights.to_netcdf : the same with centers that the caller gives.
 
         """
-        sides = [
-            Side(
-                cells._degrees(),
-                areas,
-                fractions,
-                cells.shape,
-                mask if np.any(mask == 0) else None,
-                cells._cells.weight_corners() if cells._has_corners else None,
-                cells._columns,
-            )
-            for cells, areas, fractions, mask in (
-                (self.source, self.source_areas, self.source_fractions, self._masks[0]),
-                (self.target, self.target_areas, self.target_fractions, self._masks[1]),
-            )
-        ]
-        method = "Conservative remapping" + (", second order" if self._order == 2 else "")
-        write_weights(path, format, self.weights, sides[0], sides[1], method, self._norm)
+        name = netcdf_name(path, format)
+        sides = self.source._placed(), self.target._placed()
+        areas = self.source_areas, self.target_areas
+        measures = *areas, self.source_fractions, self.target_fractions
+        _core.write_remap(
+            name, format, self.weights._weights, *sides, measures, self._norm, self._order
+        )
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
@@ -145,7 +133,7 @@ def remap(
         integral is kept. 'fracarea': the area that sources cover, so that constants are
         reproduced.
     source_mask, target_mask : array_like of bool, shape (n,) and (m,), optional
-        Which cells take part; by default the mask of the partition. For a grid also of its shape.
+        Which cells take part; by default the mask of the cells. For a grid also of its shape.
         Numbers other than 0 are true; a missing value (NaN, NA, None, or masked) is false.
     overlap : {'error', 'first', 'share'}, optional
         What to do with a place that several cells of one side contain. 'error' (default): raise an
@@ -196,7 +184,7 @@ def remap(
         _as_mask(source_mask, "source_mask", cells[0]),
         _as_mask(target_mask, "target_mask", cells[1]),
     )
-    weights, *measures = _core.remap(
+    weights, *made, measures = _core.remap(
         cells[0]._cells,
         cells[1]._cells,
         order,
@@ -206,7 +194,11 @@ def remap(
         as_threads(threads),
         progress,
     )
-    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm, masks, int(order))
+    source, target = (
+        side if len(mask) == 0 else CellSet._of(masked, side._origin)
+        for side, mask, masked in zip(cells, masks, made, strict=True)
+    )
+    return Remap(Weights._of(weights), source, target, measures, norm, int(order))
 
 
 def _as_cell_set(cells: Any, threads: int | None) -> CellSet:
@@ -224,16 +216,16 @@ def _as_cell_set(cells: Any, threads: int | None) -> CellSet:
     if isinstance(cells, SphericalDelaunay):
         return CellSet.triangles(cells, threads=threads)
     if isinstance(cells, Regions):
-        return cells.partition(threads=threads)
+        return cells.cell_set(threads=threads)
     raise TypeError(f"{type(cells).__name__} has no cells: a CellSet, diagram or mesh is wanted")
 
 
-# An empty one: all take part.
-def _as_mask(mask: ArrayLike | None, name: str, partition: CellSet) -> IntArray:
+def _as_mask(mask: ArrayLike | None, name: str, cells: CellSet) -> IntArray:
+    """The mask; an empty one if none is given: that of the cells counts."""
     if mask is None:
-        return partition._mask
+        return np.zeros(0, np.int32)
     shape = np.shape(mask)
-    if len(shape) != 1 and shape != partition.shape:
-        wanted = {f"({partition.num_cells},)", str(partition.shape)}
+    if len(shape) != 1 and shape != cells.shape:
+        wanted = {f"({cells.num_cells},)", str(cells.shape)}
         raise ValueError(f"{name} must have the shape {' or '.join(sorted(wanted))}, not {shape}")
     return np.ascontiguousarray(as_mask(mask, name).reshape(-1), np.int32)

@@ -87,7 +87,7 @@ def reused(
         if len(of_file[k].mask):
             left_out = of_file[k].mask == 0
             if np.any(left_out if mask is None else left_out & mask) and "conserv" in method:
-                mask = places.cells(threads)[1]  # also without cells whose corners are missing
+                mask = places.cells(threads).mask  # also without cells whose corners are missing
             left_out = left_out if mask is None else left_out & mask
             _require_none(left_out, name, f"are of another mask, without {what} that take part")
     return made
@@ -114,8 +114,8 @@ def _require_places(
     used = np.ones(places.lon.size, bool) if mask is None else mask
     own, cells = places.pairs(), None
     if are_cells and places.have_cells and len(side.centers) + len(side.corners):
-        cells, cell_mask = places.cells(threads)
-        used = used if cell_mask is None else cell_mask
+        cells = places.cells(threads)
+        used = cells.mask
         own = cells._degrees()
     if len(side.centers):
         located = used & np.isfinite(side.centers).all(axis=1)  # empty cells have no center
@@ -129,7 +129,7 @@ def _require_places(
             here, there = own[first].tolist(), side.centers[first].tolist()
             _refuse_places(name, f": {what} {first} is at {here} here, at {there} there")
     if cells is not None and len(side.corners):
-        corners = cells._cells.weight_corners() if cells._has_corners else np.zeros((0, 2))
+        corners = cells._cells.corners()
         if len(corners):
             shape = places.lon.size, -1, 2
             others = side.corners.reshape(shape)

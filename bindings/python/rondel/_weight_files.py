@@ -8,7 +8,7 @@ The functions that take `self` are methods of `Weights`.
 from __future__ import annotations
 
 import os
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from . import _core
 from ._arrays import as_floats, degrees_of
 from ._errors import InvalidInput
 from ._geo import Path
-from ._types import ArrayLike, BoolArray, FloatArray, IntArray
+from ._types import ArrayLike, BoolArray, FloatArray
 
 # How far a place may be from the same in a file, in degrees: float32 is off by up to 8e-6.
 MOST_APART = 1e-4
@@ -87,21 +87,10 @@ def weights_to_netcdf(
                 f"{name} have the shape {np.shape(areas)}, not {np.shape(points)[:-1]}"
             )
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
-    source = Side(_degrees(sites), _areas(site_areas, "site_areas"))
-    target = Side(_degrees(targets), _areas(target_areas, "target_areas"), shape=shape)
-    write_weights(path, format, self, source, target, method, "none")
-
-
-class Side(NamedTuple):
-    """What a file says of the sources, or of the targets; a shape is that of a grid."""
-
-    degrees: FloatArray
-    areas: ArrayLike | None = None
-    fractions: ArrayLike | None = None
-    shape: tuple[int, ...] = ()
-    mask: IntArray | None = None
-    corners: FloatArray | None = None
-    columns: _core.CellColumns | None = None
+    source = side_of(_degrees(sites), _areas(site_areas, "site_areas"))
+    target = side_of(_degrees(targets), _areas(target_areas, "target_areas"), shape)
+    name = netcdf_name(path, format)
+    _core.write_weights(name, format, self._weights, source, target, method, "none")
 
 
 def are_near(a: FloatArray, b: FloatArray) -> BoolArray:
@@ -112,31 +101,28 @@ def are_near(a: FloatArray, b: FloatArray) -> BoolArray:
     return near
 
 
-def write_weights(
-    path: Path,
-    format: str,
-    weights: Any,
-    source: Side,
-    target: Side,
-    method: str,
-    normalization: str,
-) -> None:
+def netcdf_name(path: Path, format: str) -> str:
+    """The name of a file that is written in a format; refuses others than netCDF."""
     if format not in ("esmf", "scrip"):
         raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
     name = os.fspath(path)
     if not name.lower().endswith(_ENDINGS):
         hint = "; Weights.save() writes .npz" if name.lower().endswith(".npz") else ""
         raise ValueError(f"{name}: netCDF is written to {' '.join(_ENDINGS)}{hint}")
+    return name
 
-    def made(side: Side) -> Any:
-        grid = list(side.shape) if len(side.shape) > 1 else []
-        mask = np.zeros(0, np.int32) if side.mask is None else side.mask
-        corners = np.zeros((0, 2)) if side.corners is None else side.corners
-        numbers = _numbers(side.areas), _numbers(side.fractions)
-        return side.degrees, *numbers, grid, mask, corners, side.columns
 
-    sides = made(source), made(target)
-    _core.write_weights(name, format, weights._weights, *sides, method, normalization)
+def side_of(
+    degrees: FloatArray,
+    areas: FloatArray | None = None,
+    shape: tuple[int, ...] = (),
+    mask: BoolArray | None = None,
+) -> _core.WeightSide:
+    """What a file says of the sources, or of the targets; a shape is that of a grid."""
+    numbers = np.zeros(0) if areas is None else areas
+    kept = np.zeros(0) if mask is None or mask.all() else mask.reshape(-1)
+    grid = shape if len(shape) > 1 else ()
+    return _core.weight_side(degrees, numbers, grid, kept.astype(np.int32))
 
 
 def _degrees(points: ArrayLike | None) -> FloatArray:
@@ -146,15 +132,11 @@ def _degrees(points: ArrayLike | None) -> FloatArray:
 
 
 def _areas(values: ArrayLike | None, name: str) -> FloatArray:
-    areas = _numbers(values)
+    if values is None:
+        return np.zeros(0)
+    areas = np.ascontiguousarray(as_floats(values, "areas").reshape(-1))
     bad = np.flatnonzero(~(areas >= 0))
     if bad.size:
         first = int(bad[0])
         raise InvalidInput(f"{name}[{first}] is {areas[first]}, which is no area", first)
     return areas
-
-
-def _numbers(values: ArrayLike | None) -> FloatArray:
-    if values is None:
-        return np.zeros(0)
-    return np.ascontiguousarray(as_floats(values, "areas").reshape(-1))

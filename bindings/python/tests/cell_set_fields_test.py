@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Regridder between partitions, grids of two dimensions and fields: which fields are at their
+"""Regridder between cell sets, grids of two dimensions and fields: which fields are at their
 places, by whatever names, and which shapes come back.
 """
 
@@ -75,11 +75,11 @@ def mesh_file(path, kind):
 
 
 @pytest.mark.parametrize("kind", ["mpas", "scrip"])
-def test_fields_of_the_file_of_a_partition_are_taken(tmp_path, kind):
+def test_fields_of_the_file_of_a_cell_set_are_taken(tmp_path, kind):
     ds, dim, (lon, lat) = mesh_file(tmp_path / "mesh.nc", kind)
-    partition = rondel.CellSet.read(tmp_path / "mesh.nc")
+    cells = rondel.CellSet.read(tmp_path / "mesh.nc")
     for method in ("conservative", "nearest_s2d"):
-        regridder = rondel.Regridder(partition, TARGET, method)
+        regridder = rondel.Regridder(cells, TARGET, method)
         plain = regridder(ds.t.values)
         field = ds.set_coords([lon, lat]).t
         for data in (field, ds.t, field.rename({dim: "n"})):
@@ -90,7 +90,7 @@ def test_fields_of_the_file_of_a_partition_are_taken(tmp_path, kind):
 
 
 def test_cells_of_a_grid_along_one_dimension(tmp_path):
-    """As SCRIP has them with `grid_dims`, while the partition is (nlat, nlon)."""
+    """As SCRIP has them with `grid_dims`, while the cell set is (nlat, nlon)."""
     west, south = np.meshgrid(np.arange(0, 360, 30.0), np.arange(-90, 90, 30.0))
     corners = {
         "lon": np.stack([west, west + 30, west + 30, west], -1),
@@ -104,9 +104,7 @@ def test_cells_of_a_grid_along_one_dimension(tmp_path):
     ds["h"] = (("time", "grid_size"), np.random.default_rng(2).normal(size=(3, 72)))
     encoding = {name: {"_FillValue": None} for name in ds.variables}
     ds.to_netcdf(tmp_path / "grid.nc", format="NETCDF3_CLASSIC", encoding=encoding)
-    regridder = rondel.Regridder(
-        rondel.CellSet.read(tmp_path / "grid.nc"), TARGET, "conservative"
-    )
+    regridder = rondel.Regridder(rondel.CellSet.read(tmp_path / "grid.nc"), TARGET, "conservative")
     assert regridder.shape_in == (6, 12)
     plain = regridder(ds.h.values.reshape(3, 6, 12))
     np.testing.assert_array_equal(regridder(ds.h), plain)

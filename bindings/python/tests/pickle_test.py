@@ -86,7 +86,7 @@ def sample(name):
             [{"type": "Feature", "properties": {"name": "ä", "n": 3}, "geometry": box}]
         ),
         "whole": lambda: rondel.CellSet.polygons([0, 0], [0], [], np.zeros((0, 3)), whole=[0]),
-        "clipped": lambda: rondel.SphericalVoronoi(points).clip(box).partition(),
+        "clipped": lambda: rondel.SphericalVoronoi(points).clip(box).cell_set(),
         "disks": lambda: rondel.polygons(disks()),
     }[name]
 
@@ -111,7 +111,7 @@ def disks():
 
 @pytest.mark.parametrize("make", COPIES.values(), ids=COPIES)
 @pytest.mark.parametrize("name", SAMPLES)
-def test_the_copy_of_a_partition_has_the_same_bits(name, make, tmp_path):
+def test_the_copy_of_cells_has_the_same_bits(name, make, tmp_path):
     cells = sample(name)()
     copied = make(cells)
     assert repr(copied) == repr(cells)
@@ -131,7 +131,7 @@ def test_the_copy_of_a_partition_has_the_same_bits(name, make, tmp_path):
 
 
 @pytest.mark.parametrize("make", COPIES.values(), ids=COPIES)
-def test_copies_of_partitions_of_files(make, tmp_path):
+def test_copies_of_cells_of_files(make, tmp_path):
     rondel.mesh.from_points(clouds.uniform(50)).to_scrip(tmp_path / "cells.nc")
     (tmp_path / "a.geojson").write_text(
         '{"type": "Feature", "properties": {"name": "a", "n": null}, "geometry": {"type": '
@@ -180,7 +180,7 @@ def test_copies_of_regions_lines_bands_and_meshes(make, tmp_path):
         assert (tmp_path / f"a{k}.nc").read_bytes() == (tmp_path / f"b{k}.nc").read_bytes()
 
 
-def test_a_regridder_of_a_partition_can_be_pickled():
+def test_a_regridder_of_cells_can_be_pickled():
     pytest.importorskip("xarray")
     field = np.random.default_rng(1).normal(size=(6, 12))
     made = rondel.Regridder(rondel.lonlat_grid(12, 6), rondel.lonlat_grid(5, 3), "conservative")

@@ -190,7 +190,7 @@ def test_neighbors_with_other_corners_share_their_borders():
         north = shapely.Polygon([a, *border, b, (b[0], 80), (a[0], 80)])
         south = shapely.Polygon([a, b, (b[0], -80), (a[0], -80)])
         cells = rondel.polygons([north, south], overlap="error")
-        rings = CELLS.clip(cells).dissolve([0] * 40).partition().rings[1]
+        rings = CELLS.clip(cells).dissolve([0] * 40).cell_set().rings[1]
         assert len(rings) == 2
         area = area_of(north) + area_of(south)
         assert abs(CELLS.clip([south, north]).areas.sum() - area) < 1e-5

@@ -38,7 +38,7 @@ def cells(stations):
 
 def sides_of(regions):
     """How often each side occurs, by its ends, less how often it occurs the other way."""
-    _, rings, corners, points = regions.partition().rings
+    _, rings, corners, points = regions.cell_set().rings
     sides = collections.Counter()
     for begin, end in itertools.pairwise(rings):
         ring = [points[k].tobytes() for k in corners[begin:end]]

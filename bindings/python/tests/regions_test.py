@@ -57,8 +57,8 @@ def test_clipped_cells_are_dissolved_without_slivers():
     joined = CELLS.clip(ISLANDS).dissolve(CELLS.points[:, 2] > 0)
     assert sorted(joined.labels.tolist()) == [False, True]
     assert np.isclose(joined.areas.sum(), AREA, rtol=WITHIN)
-    rings, corners = joined.partition().rings[1:3]
-    points = joined.partition().rings[3]
+    rings, corners = joined.cell_set().rings[1:3]
+    points = joined.cell_set().rings[3]
     sides = set()
     for begin, end in itertools.pairwise(rings):
         ring = [points[k].tobytes() for k in corners[begin:end]]
@@ -68,7 +68,7 @@ def test_clipped_cells_are_dissolved_without_slivers():
     whole = joined.dissolve(["all", "all"])
     assert whole.labels.tolist() == ["all"]
     assert np.isclose(whole.areas[0], joined.areas.sum(), rtol=1e-13)
-    assert len(whole.partition().rings[1]) - 1 == 2  # the border and the hole
+    assert len(whole.cell_set().rings[1]) - 1 == 2  # the border and the hole
 
 
 def test_groups_are_labels():
@@ -283,7 +283,7 @@ def test_what_is_no_polygon_is_refused(tmp_path):
         CELLS.clip(ISLANDS, edges="straight")
 
 
-def test_partitions_of_corners():
+def test_cells_of_corners():
     lon, lat = np.meshgrid(np.arange(0, 360, 30), np.arange(-60, 60, 30))
     west, south = lon[..., None], lat[..., None]
     lons = np.concatenate([west, west + 30, west + 30, west], axis=-1)

@@ -243,7 +243,7 @@ def test_masked_arrays_keep_their_type():
     assert regridder(np.ma.masked_less(field.astype("i4"), 0)).dtype == np.float64
 
 
-def test_the_cells_of_a_partition_are_a_dimension_by_name_or_length():
+def test_the_cells_of_a_set_are_a_dimension_by_name_or_length():
     cells = rondel.CellSet.voronoi(
         rondel.delaunay(rondel.unit_vectors([0, 90, 200, 10], [0, 5, 0, 70]))
     )

@@ -167,7 +167,7 @@ def test_cells_of_corners():
         rondel.Regridder({**pairs, "lon_b": pairs["lon_b"] + [[0, -1]]}, COARSE, "conservative")
 
 
-def test_partitions_are_grids():
+def test_cell_sets_are_grids():
     tri = rondel.delaunay(clouds.uniform(400, 1))
     cells = rondel.CellSet.voronoi(tri)
     regridder = rondel.Regridder(cells, COARSE, "conservative")

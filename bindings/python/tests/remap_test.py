@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Partitions and conservative weights, against closed forms and the laws of conservation."""
+"""Cell sets and conservative weights, against closed forms and the laws of conservation."""
 
 import json
 
@@ -18,7 +18,7 @@ LAT = np.linspace(-90, 90, 13)
 GRID = rondel.CellSet.lonlat_grid(LON, LAT)
 
 
-def test_partitions_are_those_of_their_owners():
+def test_cell_sets_are_those_of_their_owners():
     voronoi = rondel.SphericalVoronoi(TRI.points)
     for owner in (TRI, voronoi):
         assert np.allclose(rondel.CellSet.voronoi(owner).areas, voronoi.areas, atol=1e-14)
@@ -201,9 +201,7 @@ def test_uxarray_applies_weights(tmp_path):
     _, rings, corners, points = rondel.CellSet.voronoi(source).rings
     kept = [corners[rings[i] : rings[i + 1]] for i in around]
     offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in kept])])
-    part = rondel.CellSet.polygons(
-        np.arange(len(kept) + 1), offsets, np.concatenate(kept), points
-    )
+    part = rondel.CellSet.polygons(np.arange(len(kept) + 1), offsets, np.concatenate(kept), points)
     weights = rondel.remap(part, rondel.CellSet.voronoi(target), norm="fracarea").weights
     values = np.random.default_rng(2).normal(size=len(kept))
     expected = weights.apply(values)

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/cell_set.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "named.h"
+#include "rondel/mesh_files.h"
+
+namespace rondel::python {
+namespace {
+
+// Meridians and parallels, and the name of the sides between them.
+using LinesOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string>;
+
+// Returns the lines of a grid, or nothing for other cells.
+std::optional<LinesOut> lines_out(const CellSet& cells) {
+  if (cells.lines() == nullptr) return std::nullopt;
+  LonLatGrid lines = *cells.lines();
+  const GridSides sides = cells.has_parallels() ? GridSides::parallels : GridSides::great_circles;
+  return LinesOut{to_array<double>(std::move(lines.lon_deg)),
+                  to_array<double>(std::move(lines.lat_deg)), std::string(name_of(sides))};
+}
+
+// Reads the cells of a file; polygons whose group is below 0 are left out.
+CellSet read_cell_set(const std::string& path, nb::handle sides, nb::handle edges,
+                      nb::handle overlap, const std::optional<IndicesIn>& groups,
+                      unsigned threads) {
+  CellFileOptions options{.sides = named<GridSides>("sides", sides),
+                          .edges = named<PolygonEdges>("edges", edges),
+                          .overlap = named<PolygonOverlap>("overlap", overlap)};
+  if (groups) {
+    options.is_taken = [taken = vector_of<std::int32_t>(*groups)](std::size_t feature, auto&&) {
+      return feature >= taken.size() || taken[feature] >= 0;
+    };
+  }
+  return unlocked([&] { return CellSet::read(path, options, {.threads = threads}); });
+}
+
+// Returns the cells; the number of centers outside of them, of how many, and the first one; and
+// whether most are. There may be no centers.
+std::tuple<CellSet, std::array<std::size_t, 3>, bool> corner_cells(const PairsIn& corners,
+                                                                   std::size_t of_each,
+                                                                   const PairsIn& centers,
+                                                                   unsigned threads) {
+  return unlocked([&] {
+    const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), of_each);
+    CentersOutside found;
+    if (centers.shape(0) > 0) found = centers_outside(cells, rows_of<LonLat>(centers));
+    return std::tuple(CellSet::polygons(cells, {.threads = threads}),
+                      std::array{found.number, found.of, found.first}, found.are_most());
+  });
+}
+
+ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 2> node_shape,
+                                  const PairsIn& centers, std::array<std::size_t, 2> shape) {
+  return to_array<double>(corners_of_grid(rows_of<LonLat>(nodes), {node_shape[0], node_shape[1]},
+                                          rows_of<LonLat>(centers), {shape[0], shape[1]}));
+}
+
+// The members of a column.
+using ColumnText =
+    std::tuple<std::string, bool, std::string, std::vector<std::uint64_t>, std::vector<bool>>;
+
+void add_cell_facts(nb::module_& module) {
+  nb::class_<Column>(module, "Column")
+      .def(
+          "__init__",
+          [](Column* self, const ColumnText& text) {
+            std::apply([&](const auto&... members) { new (self) Column{members...}; }, text);
+          },
+          nb::arg("text"))
+      .def("__reduce__", [](const nb::object& self) {
+        const auto& [name, is_numeric, text, ends, is_json] = nb::cast<const Column&>(self);
+        return nb::make_tuple(self.type(),
+                              nb::make_tuple(ColumnText{name, is_numeric, text, ends, is_json}));
+      });
+  nb::class_<CellFacts> facts(module, "CellFacts");
+  add_array<double, &CellFacts::centers>(facts, "centers");
+  add_array<std::int32_t, &CellFacts::mask>(facts, "mask");
+  facts.def(nb::init<>())
+      .def(nb::init<const CellFacts&>(), nb::arg("facts"))
+      .def_rw("name", &CellFacts::name)
+      .def_rw("convention", &CellFacts::convention)
+      .def_prop_rw(
+          "axes",
+          [](const CellFacts& self) { return std::tuple(self.axes.lon_deg, self.axes.lat_deg); },
+          [](CellFacts& self, const std::tuple<std::vector<double>, std::vector<double>>& axes) {
+            self.axes = {std::get<0>(axes), std::get<1>(axes)};
+          })
+      .def_rw("shape", &CellFacts::shape)
+      .def_rw("columns", &CellFacts::columns)
+      .def_rw("has_corners", &CellFacts::has_corners)
+      .def_rw("remarks", &CellFacts::remarks);
+}
+
+// Adds the functions that make cells.
+void add_makers(nb::class_<CellSet>& cells) {
+  cells
+      .def_static(
+          "voronoi",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return CellSet::voronoi(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
+      .def_static(
+          "triangles",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return CellSet::triangles(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
+      .def_static(
+          "lonlat_grid",
+          [](const NumbersIn& lon, const NumbersIn& lat, nb::handle sides, unsigned threads) {
+            const auto grid_sides = named<GridSides>("sides", sides);
+            const LonLatGrid grid{vector_of<double>(lon), vector_of<double>(lat)};
+            return unlocked(
+                [&] { return CellSet::lonlat_grid(grid, grid_sides, {.threads = threads}); });
+          },
+          nb::arg("lon").noconvert(), nb::arg("lat").noconvert(), nb::arg("sides").none(),
+          nb::arg("threads"))
+      .def_static(
+          "global_grid",
+          [](std::uint64_t nlon, std::uint64_t nlat, nb::handle sides, unsigned threads) {
+            const auto grid_sides = named<GridSides>("sides", sides);
+            return unlocked([&] {
+              return CellSet::lonlat_grid(GlobalGrid{nlon, nlat}, grid_sides, {.threads = threads});
+            });
+          },
+          nb::arg("nlon"), nb::arg("nlat"), nb::arg("sides").none(), nb::arg("threads"))
+      .def_static(
+          "polygons",
+          [](const CellRings& rings, unsigned threads) {
+            return unlocked([&] { return CellSet::polygons(rings, {.threads = threads}); });
+          },
+          nb::arg("rings"), nb::arg("threads"))
+      .def_static("read", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
+                  nb::arg("edges").none(), nb::arg("overlap").none(),
+                  nb::arg("groups").noconvert().none(), nb::arg("threads"));
+}
+
+}  // namespace
+
+void add_cell_set(nb::module_& module) {
+  add_cell_facts(module);
+  nb::class_<CellSet> cells(module, "CellSet");
+  add_makers(cells);
+  cells.def_prop_ro("num_cells", &CellSet::num_cells)
+      .def_prop_ro("is_cover", &CellSet::is_cover)
+      .def_prop_ro("facts", &CellSet::facts, nb::rv_policy::reference_internal)
+      .def("with_facts", &CellSet::with_facts, nb::arg("facts"))
+      .def_prop_ro("areas",
+                   [](const nb::object& self) {
+                     return array_of<double>(self, nb::cast<const CellSet&>(self).areas());
+                   })
+      .def("centers", [](const CellSet& self) { return points_out(self.centers()); })
+      .def("lines", &lines_out)
+      .def("rings", [](const CellSet& self) { return unlocked([&] { return self.rings(); }); })
+      .def("given_rings",
+           [](const CellSet& self) { return unlocked([&] { return self.given_rings(); }); })
+      .def("places",
+           [](const CellSet& self) {
+             return to_array<double>(unlocked([&] { return self.places(); }));
+           })
+      .def("corners", [](const CellSet& self) {
+        return to_array<double>(unlocked([&] { return self.corners(); }));
+      });
+  module.def("corner_cells", &corner_cells, nb::arg("corners").noconvert(), nb::arg("of_each"),
+             nb::arg("centers").noconvert(), nb::arg("threads"));
+  module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
+             nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What a CellSet knows of its cells beside their borders, and what files of weights get of it.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "overlay/cell_set_data.h"
+#include "overlay/graticule.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "rondel/remap.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+// Cells with more corners are written without corners.
+constexpr std::size_t most_corners = 16;
+
+// Throws InvalidInput unless there is nothing, or something for each cell.
+void require_size(const char* what, std::size_t size, std::size_t num_cells) {
+  if (size == 0 || size == num_cells) return;
+  throw InvalidInput(std::string(what) + std::to_string(size) + " values for " +
+                     std::to_string(num_cells) + " cells");
+}
+
+// Returns four corners for each cell of a grid, counterclockwise.
+std::vector<LonLat> corners_of_lines(const LonLatGrid& grid) {
+  std::vector<double> lon = grid.lon_deg;
+  const double least = std::min(lon.front(), lon.back());
+  const double most = std::max(lon.front(), lon.back());
+  const bool goes_around = std::abs(most - least - 360) <= overlay::same_line_degrees;
+  if (goes_around) (lon.front() < lon.back() ? lon.back() : lon.front()) = least + 360;
+  std::vector<LonLat> corners;
+  corners.reserve(4 * (lon.size() - 1) * (grid.lat_deg.size() - 1));
+  for (std::size_t j = 0; j + 1 < grid.lat_deg.size(); ++j) {
+    const auto [south, north] = std::minmax(grid.lat_deg[j], grid.lat_deg[j + 1]);
+    for (std::size_t i = 0; i + 1 < lon.size(); ++i) {
+      const auto [west, east] = std::minmax(lon[i], lon[i + 1]);
+      corners.insert(corners.end(), {{west, south}, {east, south}, {east, north}, {west, north}});
+    }
+  }
+  return corners;
+}
+
+// Returns the number of corners that each cell gets, or 0 if a cell has several rings or too many
+// corners.
+std::size_t corners_of_each(const CellRings& cells) {
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const std::uint64_t ring = cells.cells[i];
+    if (cells.cells[i + 1] == ring) continue;
+    if (cells.cells[i + 1] != ring + 1) return 0;
+    most = std::max<std::size_t>(most, cells.rings[ring + 1] - cells.rings[ring]);
+  }
+  return most > most_corners ? 0 : most;
+}
+
+// Returns the corners of cells that have one ring at most.
+std::vector<LonLat> corners_of_rings(const CellRings& cells) {
+  const std::size_t most = corners_of_each(cells);
+  if (most == 0) return {};
+  const std::vector<LonLat> places = lonlats(cells.points);
+  std::vector<LonLat> corners;
+  corners.reserve(cells.num_cells() * most);
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    if (cells.cells[i] == cells.cells[i + 1]) {
+      corners.insert(corners.end(), most, LonLat{0, 0});
+      continue;
+    }
+    const std::span<const Index> ring = cells.corners_of(cells.cells[i]);
+    for (std::size_t k = 0; k < most; ++k) {
+      corners.push_back(places[ring[std::min(k, ring.size() - 1)]]);
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
+CellSet CellSet::of(CellTable table, GridSides sides, const Execution& execution) {
+  const std::string name = table.facts.name;
+  try {
+    const CellSet cells =
+        table.grid ? lonlat_grid(*table.grid, sides, execution) : polygons(table.cells, execution);
+    return cells.with_facts(std::move(table.facts));
+  } catch (const InvalidInput& error) {
+    throw FileError(name + ": " + error.what());
+  }
+}
+
+CellSet CellSet::with_facts(CellFacts facts) const {
+  const std::size_t size = num_cells();
+  require_size("the centers have ", facts.centers.size(), size);
+  require_size("the axes have ", facts.axes.lon_deg.size() * facts.axes.lat_deg.size(), size);
+  require_size("the mask has ", facts.mask.size(), size);
+  for (const Column& column : facts.columns) {
+    require_size("a column has ", column.ends.size(), size);
+  }
+  std::uint64_t of_shape = facts.shape.empty() ? 0 : 1;
+  for (const std::uint64_t length : facts.shape) {
+    if (__builtin_mul_overflow(of_shape, length, &of_shape)) of_shape = no_index;
+  }
+  require_size("the shape has ", of_shape, size);
+  return CellSet(data_, std::move(facts));
+}
+
+std::vector<LonLat> CellSet::places() const {
+  if (!facts_->centers.empty()) return facts_->centers;
+  std::vector<LonLat> places = facts_->axes.places();
+  return places.empty() ? lonlats(centers()) : places;
+}
+
+std::vector<LonLat> CellSet::corners() const {
+  const system::ArithmeticScope arithmetic;
+  if (!facts_->has_corners) return {};
+  return lines() != nullptr ? corners_of_lines(*lines()) : corners_of_rings(rings());
+}
+
+WeightSide weight_side(const CellSet& cells) {
+  const CellFacts& facts = cells.facts();
+  WeightSide side;
+  side.points = cells.places();
+  side.mask = facts.mask;
+  side.shape = facts.shape;
+  side.corners = cells.corners();
+  side.columns = facts.columns;
+  return side;
+}
+
+WeightFile weight_file(Remap remap) {
+  WeightFile file;
+  file.source = weight_side(remap.source);
+  file.target = weight_side(remap.target);
+  file.method = "Conservative remapping";
+  if (remap.order == 2) file.method += ", second order";
+  file.normalization = name_of(remap.norm);
+  file.weights = std::move(remap.weights);
+  file.source.areas = std::move(remap.source_areas);
+  file.target.areas = std::move(remap.target_areas);
+  file.source.fractions = std::move(remap.source_fractions);
+  file.target.fractions = std::move(remap.target_fractions);
+  return file;
+}
+
+}  // namespace rondel
