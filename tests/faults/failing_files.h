@@ -8,7 +8,7 @@
 #include <string>
 
 #include "faults/failing_allocation.h"
-#include "unit/io_support.h"
+#include "unit/io/support.h"
 
 namespace rondel::test {
 

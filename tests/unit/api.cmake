@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(api_test
-  api_arguments_test.cpp
-  api_arithmetic_test.cpp
-  api_progress_test.cpp
-  api_threads_test.cpp
+  api/arguments_test.cpp
+  api/arithmetic_test.cpp
+  api/progress_test.cpp
+  api/threads_test.cpp
   LIBS rondel_geo rondel_test_support)
 
 # What -ffast-math leaves of the proofs is nothing, so that the library does not compile with it.

@@ -5,11 +5,11 @@ rondel_target_settings(rondel_dual_support)
 target_link_libraries(rondel_dual_support PUBLIC rondel_test_support)
 
 rondel_add_test(dual_test
-  dual_areas_test.cpp
-  dual_cells_test.cpp
-  dual_centroids_test.cpp
-  dual_circumcenters_test.cpp
-  dual_face_batch_test.cpp
-  dual_facets_test.cpp
-  exact_argument_test.cpp
+  dual/areas_test.cpp
+  dual/cells_test.cpp
+  dual/centroids_test.cpp
+  dual/circumcenters_test.cpp
+  dual/face_batch_test.cpp
+  dual/facets_test.cpp
+  exact/argument_test.cpp
   LIBS rondel_dual_support)

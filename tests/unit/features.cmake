@@ -1,5 +1,5 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(features_test
-  features_cells_test.cpp
+  proximity/features_cells_test.cpp
   LIBS rondel_geo)

@@ -4,13 +4,13 @@ if(NOT RONDEL_BUILD_TOOL OR NOT RONDEL_BUILD_PLOT)
   return()
 endif()
 rondel_add_test(unit_plot
-  plot_arcs_test.cpp
-  plot_circles_test.cpp
-  plot_draw_test.cpp
-  plot_field_test.cpp
-  plot_globe_test.cpp
-  plot_ground_test.cpp
-  plot_pixels_test.cpp
-  plot_region_test.cpp
+  plot/arcs_test.cpp
+  plot/circles_test.cpp
+  plot/draw_test.cpp
+  plot/field_test.cpp
+  plot/globe_test.cpp
+  plot/ground_test.cpp
+  plot/pixels_test.cpp
+  plot/region_test.cpp
   LIBS rondel_plot rondel_test_support)
-rondel_compile_alone(unit_plot plot_pixels_test.cpp plot_region_test.cpp)
+rondel_compile_alone(unit_plot plot/pixels_test.cpp plot/region_test.cpp)

@@ -1,16 +1,16 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(predicates_test
-  exact_ball_test.cpp
-  exact_integer_rays_test.cpp
-  exact_integer_steps_test.cpp
-  predicates_distance_test.cpp
-  predicates_oracle_test.cpp
-  predicates_perturbation_test.cpp
-  predicates_rung_test.cpp
-  predicates_sign_test.cpp
-  predicates_symmetry_test.cpp
-  unit_vectors_test.cpp
+  exact/ball_test.cpp
+  exact/integer_rays_test.cpp
+  exact/integer_steps_test.cpp
+  predicates/distance_test.cpp
+  predicates/oracle_test.cpp
+  predicates/perturbation_test.cpp
+  predicates/rung_test.cpp
+  predicates/sign_test.cpp
+  predicates/symmetry_test.cpp
+  exact/unit_vectors_test.cpp
   LIBS rondel_test_support)
-rondel_compile_alone(predicates_test predicates_rung_test.cpp)
-rondel_add_test(predicates_bounds_test predicates_bounds_test.cpp LIBS rondel_test_support)
+rondel_compile_alone(predicates_test predicates/rung_test.cpp)
+rondel_add_test(predicates_bounds_test predicates/bounds_test.cpp LIBS rondel_test_support)
