@@ -75,6 +75,9 @@ std::vector<std::string> SimulatedRanks::run(const std::function<void(Communicat
   num_gone_ = 0;
   std::vector<std::string> errors(num_ranks);
   std::vector<std::thread> threads;
+  threads.reserve(num_ranks);
+  // No rank begins before all have a thread: what one does must not make the start of another fail.
+  std::unique_lock start(mutex_);
   for (std::size_t r = 0; r < num_ranks; ++r) {
     threads.emplace_back([this, r, &errors, &work] {
       {
@@ -91,6 +94,7 @@ std::vector<std::string> SimulatedRanks::run(const std::function<void(Communicat
       leave();
     });
   }
+  start.unlock();
   for (std::thread& thread : threads) thread.join();
   return errors;
 }
