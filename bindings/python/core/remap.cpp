@@ -38,13 +38,11 @@ RemapOut remap_of(const CellSet& source, const CellSet& target, unsigned order, 
   Remap found = watched(
       source.num_cells() + target.num_cells(), threads, listener,
       [&](const Execution& execution) { return remap(source, target, options, execution); });
-  return {std::move(found.weights),
-          std::move(found.source),
-          std::move(found.target),
-          {to_array<double>(std::move(found.source_areas)),
-           to_array<double>(std::move(found.target_areas)),
-           to_array<double>(std::move(found.source_fractions)),
-           to_array<double>(std::move(found.target_fractions))}};
+  return {std::move(found.weights), std::move(found.source), std::move(found.target),
+          std::array{to_array<double>(std::move(found.source_areas)),
+                     to_array<double>(std::move(found.target_areas)),
+                     to_array<double>(std::move(found.source_fractions)),
+                     to_array<double>(std::move(found.target_fractions))}};
 }
 
 void write_remap(const std::string& path, const std::string& format, const Weights& weights,

@@ -42,7 +42,7 @@ nb::tuple side_out(WeightSide& side) {
 }  // namespace
 
 void add_weight_files(nb::module_& module) {
-  nb::class_<WeightSide>(module, "WeightSide");
+  const nb::class_<WeightSide> side(module, "WeightSide");
   module.def("weight_side", &side_of, nb::arg("places").noconvert(), nb::arg("areas").noconvert(),
              nb::arg("shape"), nb::arg("mask").noconvert());
   module.def(
