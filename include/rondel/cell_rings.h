@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
 
@@ -83,14 +84,7 @@ struct LonLatAxes {
   std::vector<double> lon_deg;
   std::vector<double> lat_deg;
 
-  [[nodiscard]] std::vector<LonLat> places() const {
-    std::vector<LonLat> places;
-    places.reserve(lon_deg.size() * lat_deg.size());
-    for (const double lat : lat_deg) {
-      for (const double lon : lon_deg) places.push_back({lon, lat});
-    }
-    return places;
-  }
+  [[nodiscard]] RONDEL_API std::vector<LonLat> places() const;
 };
 
 /// What is known of cells beside their borders. Any of the arrays may be empty.

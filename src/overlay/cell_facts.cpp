@@ -85,6 +85,15 @@ std::vector<LonLat> corners_of_rings(const CellRings& cells) {
 
 }  // namespace
 
+std::vector<LonLat> LonLatAxes::places() const {
+  std::vector<LonLat> places;
+  places.reserve(lon_deg.size() * lat_deg.size());
+  for (const double lat : lat_deg) {
+    for (const double lon : lon_deg) places.push_back({lon, lat});
+  }
+  return places;
+}
+
 CellSet CellSet::of(CellTable table, GridSides sides, const Execution& execution) {
   const std::string name = table.facts.name;
   try {
