@@ -4,7 +4,6 @@
 // Finds the variables that are longitudes and latitudes, and pairs those that belong together: CF
 // 1.11, sections 4.1, 4.2, 5 and 7.1.
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 #include "formats/cf_names.h"
@@ -53,14 +52,6 @@ bool has_unit(const DirectionMarks& marks, const std::string& units) {
   return std::ranges::find(marks.units, lower) != marks.units.end();
 }
 
-// Returns the words of a text, which blanks separate.
-std::vector<std::string> words_of_text(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
 // True if both variables have the same dimensions, in any order.
 bool has_same_dimensions(const VariableHeader& a, const VariableHeader& b) {
   return a.dimensions.size() == b.dimensions.size() &&
@@ -78,7 +69,7 @@ class CoordinateSearch {
     values_ = chosen(query.values);
     for (const VariableHeader& variable : variables) {
       const bool is_asked = values_ == none || &variable == &variables[values_];
-      std::vector<std::string> words = words_of_text(variable.text("coordinates"));
+      std::vector<std::string> words = formats::words_of(variable.text("coordinates"));
       if (is_asked && words.size() > 1) lists_.push_back(std::move(words));
     }
     if (values_ != none && lists_.empty()) add_list_of_mesh();
@@ -121,7 +112,7 @@ class CoordinateSearch {
     const std::size_t topology = find(variables_[values_].text("mesh"));
     if (topology == none) return;
     const std::string attribute = variables_[values_].text("location") + "_coordinates";
-    lists_.push_back(words_of_text(variables_[topology].text(attribute)));
+    lists_.push_back(formats::words_of(variables_[topology].text(attribute)));
   }
 
   // True if the names of both differ only in that one means longitudes and the other latitudes.

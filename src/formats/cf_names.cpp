@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 namespace rondel::formats {
 namespace {
@@ -93,6 +94,13 @@ bool are_partners(std::string_view lon, std::string_view lat) {
     return lower_case(lat) == other.replace(at, word.lon.size(), word.lat);
   }
   return false;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
 }
 
 bool is_connectivity(const VariableHeader& variable) {

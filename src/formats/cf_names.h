@@ -10,10 +10,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "rondel/conventions.h"
 
 namespace rondel::formats {
+
+// Returns the words of a text that spaces separate.
+std::vector<std::string> words_of(const std::string& text);
 
 // Returns the text with ASCII letters in lower case; other characters are not changed.
 std::string lower_case(std::string_view text);

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <sstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -44,8 +44,7 @@ class GridParts {
       if (!is_topology) continue;
       for (const auto& [attribute, text] : variable.texts) {
         if (!attribute.ends_with("_connectivity") && !attribute.ends_with("_coordinates")) continue;
-        std::istringstream words(text);
-        for (std::string word; words >> word;) named_.push_back(word);
+        std::ranges::move(formats::words_of(text), std::back_inserter(named_));
       }
     }
   }

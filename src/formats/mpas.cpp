@@ -38,9 +38,6 @@ using io::NetcdfReader;
 // The largest distance of two places that count as one, in radians. Longitudes in single precision
 // are off by up to 3e-7.
 constexpr double most_apart_of_mpas = 1e-5;
-// How far a latitude may be beyond a pole, in degrees: pi / 2 in single precision is 90.0000025
-// degrees.
-constexpr double rounding_of_pole = 1e-5;
 
 using mesh::MeshArrays;
 
@@ -269,8 +266,7 @@ void require_one_place(const io::NetcdfReader& file, const std::string& kind, Pl
                                                   file.numbers(*z)};
   for (std::size_t i = 0; i < lons.size(); ++i) {
     LonLat place{lons[i], lats[i]};
-    const bool is_place =
-        std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding_of_pole;
+    const bool is_place = is_nearly_place(place);
     if (!is_place && may == PlacesMay::not_be_missing) {
       throw io::BadValue("value " + std::to_string(i) + " of " + io::in_quotes(lon->name) +
                          " and " + io::in_quotes(lat->name) + ", " +

@@ -24,13 +24,6 @@ std::string cells_in_words(std::size_t count, std::size_t of_all) {
   return std::to_string(count) + " of " + std::to_string(of_all) + " cells";
 }
 
-// True if the numbers are a place, up to rounding of single precision.
-bool is_nearly_place(const LonLat& place) {
-  // A latitude of pi / 2 in single precision is 90.0000025 degrees.
-  constexpr double rounding = 1e-5;
-  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
-}
-
 // Reads the rows of a connectivity, cell by cell.
 class ConnectivityReader {
  public:
@@ -205,6 +198,12 @@ const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank)
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                  std::to_string(variable.shape.size()) + " dimensions instead of " +
                  std::to_string(rank));
+}
+
+bool is_nearly_place(const LonLat& place) {
+  // A latitude of pi / 2 in single precision is 90.0000025 degrees.
+  constexpr double rounding = 1e-5;
+  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
 }
 
 bool is_missing_place(const LonLat& place) {

@@ -83,6 +83,8 @@ void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
                 const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh);
 // True if a coordinate of a place is NaN.
 bool is_missing_place(const LonLat& place);
+// True if the numbers are a place, up to rounding of single precision.
+bool is_nearly_place(const LonLat& place);
 // Returns a place, with a latitude that rounding has put beyond a pole moved to the pole. Throws
 // BadValue, with i and the names of the variables, if the numbers are no place.
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);

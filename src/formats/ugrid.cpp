@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -22,14 +21,6 @@ namespace {
 
 using io::BadValue;
 using io::NetcdfReader;
-
-// Returns the words of a text that spaces separate.
-std::vector<std::string> words_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
 
 // Returns the longitudes and latitudes among the variables that an attribute names: those that say
 // what they are, or else the first two.
