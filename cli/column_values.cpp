@@ -3,6 +3,7 @@
 #include "column_values.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <string_view>
 
 #include "command.h"
+#include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/mesh_files.h"
 
@@ -81,6 +83,21 @@ std::vector<double> column_values(const SiteTable& table, const std::string& nam
     begin = end;
   }
   return values;
+}
+
+Column numeric_column(const std::string& name, const std::vector<double>& values) {
+  Column column;
+  column.name = name;
+  column.is_numeric = true;
+  for (const double value : values) {
+    std::array<char, 32> text{};
+    if (!std::isnan(value)) {
+      column.text.append(text.data(),
+                         std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+    }
+    column.ends.push_back(column.text.size());
+  }
+  return column;
 }
 
 }  // namespace rondel::cli

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// A column of numbers that an option names.
+/// Columns of numbers: one that an option names, and one that is computed.
 ///
 /// in    a table of sites whose columns were kept (ReadOptions::keep_columns), or a netCDF file
-/// out   doubles
+/// out   doubles; a column of text
 /// index sites, in the order of the file
 #pragma once
 
@@ -23,5 +23,9 @@ namespace rondel::cli {
 /// means several fields; FileError with the place of the first cell that is not a finite number.
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option);
+
+/// Returns values as a column of text, in the shortest digits that read back as the same doubles;
+/// NaN is an empty cell.
+Column numeric_column(const std::string& name, const std::vector<double>& values);
 
 }  // namespace rondel::cli

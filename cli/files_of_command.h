@@ -2,14 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The files that a command reads and writes, which have to be different ones.
+/// The files that a command reads and writes, which have to be different ones, and names that mean
+/// a part of a file.
 ///
-/// in    names of files, each with the option that it comes from
+/// in    names of files as the command line has them, each with the option that it comes from
 /// out   an exception that names the option and the file, if two of them are one
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "rondel/io.h"
 
 namespace rondel::cli {
 
@@ -29,5 +33,13 @@ struct NamedFile {
 /// \throws FileError if the folder of an output does not exist
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
+
+/// Divides FILE.nc:NAME, a variable of a netCDF file, into the file and the name behind a colon;
+/// the name may have colons itself. Returns the whole path and no name if there is a file of that
+/// name, or if no part before a colon is a netCDF file.
+std::pair<FileName, std::string> netcdf_part(const FileName& file);
+
+/// Returns FILE and the text behind its last colon, except for the colon of C:\.
+std::pair<std::string, std::string> split_at_colon(const std::string& text);
 
 }  // namespace rondel::cli

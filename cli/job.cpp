@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+#include "job.h"
 
-// The job of command.h: it reads with a clock, tells what was left out, and reports in the end.
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -11,8 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "command.h"
-#include "netcdf_part.h"
 #include "progress_line.h"
 #include "report.h"
 #include "rondel/contours.h"
@@ -141,9 +139,7 @@ std::vector<double> Job::shown_values(const Triangulation& triangulation,
     shown[site] = shown[representative];
   }
   std::size_t num_without = 0;
-  std::vector<bool> is_vertex(shown.size(), true);
-  for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
-  for (const Hidden& hidden : triangulation.hidden()) is_vertex[hidden.site] = false;
+  const std::vector<bool> is_vertex = are_vertices(triangulation);
   for (std::size_t i = 0; i < shown.size(); ++i) {
     if (is_vertex[i] && std::isnan(shown[i])) ++num_without;
   }
@@ -161,6 +157,13 @@ std::vector<double> Job::shown_values(const Triangulation& triangulation,
                               "': of each place the first value counts");
   }
   return shown;
+}
+
+std::vector<bool> are_vertices(const Triangulation& triangulation) {
+  std::vector<bool> is_vertex(triangulation.num_sites(), true);
+  for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
+  for (const Hidden& hidden : triangulation.hidden()) is_vertex[hidden.site] = false;
+  return is_vertex;
 }
 
 void Job::time(Stage stage, const std::function<void()>& work) {

@@ -18,6 +18,7 @@
 
 #include "command.h"
 #include "help.h"
+#include "job.h"
 #include "process.h"
 #include "rondel/version.h"
 
@@ -34,8 +35,9 @@ int fail(ExitStatus status, std::string message) {
 // Adds all commands, in the order in which `rondel --help` shows them.
 std::vector<Command> add_commands(CLI::App& tool) {
   return {
-    add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
-        add_check_command(tool), add_contours_command(tool), add_graph_command(tool),
+    add_delaunay_command(tool), add_voronoi_command(tool), add_regions_command(tool),
+        add_hull_command(tool), add_check_command(tool), add_contours_command(tool),
+        add_graph_command(tool),
 #if defined(RONDEL_HAS_PLOT)
         add_plot_command(tool),
 #endif

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-
-// Reads what `rondel mesh scvt` is given: spacings, and places that become sites.
+#include "mesh_spacing.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +11,7 @@
 #include <numbers>
 #include <utility>
 
-#include "mesh.h"
-#include "mesh_make.h"
+#include "command.h"
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_lines.h"
@@ -57,7 +55,7 @@ void require_possible_count(const std::string& what, const mesh::SizeFunction& s
 
 // Chooses the raster such that in the middle of a face of the cube a step is half of the smallest
 // spacing.
-std::size_t raster_steps(const ScvtCommandOptions& options) {
+std::size_t raster_steps(const ScvtFiles& options) {
   double least = std::strtod(options.spacing.c_str(), nullptr);
   for (const std::string& refinement : options.refine) {
     least = std::min(least, std::strtod(split_at_colon(refinement).second.c_str(), nullptr));
@@ -88,13 +86,7 @@ void require_apart(const std::vector<Point>& sites, const std::string& file,
 
 }  // namespace
 
-std::pair<std::string, std::string> split_at_colon(const std::string& text) {
-  const std::size_t at = text.rfind(':');
-  if (at == std::string::npos || at < 2) return {text, {}};
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-std::vector<NamedFile> files_read(const ScvtCommandOptions& options) {
+std::vector<NamedFile> files_read(const ScvtFiles& options) {
   std::vector<NamedFile> files = {
       {"--spacing", options.spacing}, {"--density", options.density}, {"--start", options.start}};
   for (const auto& [option, paths] :
@@ -111,7 +103,7 @@ bool is_file_of_spacings(const std::string& spacing) {
   return !spacing.empty() && *end != '\0';
 }
 
-std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
+std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t count,
                                           const Execution& execution) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
@@ -148,14 +140,14 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
   if (options.slope || !options.refine.empty()) {
     size = size->limited(options.slope.value_or(usual_slope));
   }
-  if (options.scvt.count == 0 && options.start.empty()) {
+  if (count == 0 && options.start.empty()) {
     require_possible_count(
         (is_file_of_spacings(options.spacing) ? "" : "--spacing ") + options.spacing, *size);
   }
   return size;
 }
 
-FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
+FixedSites fixed_sites(const ScvtFiles& options, const mesh::ScvtOptions& scvt,
                        std::size_t num_start, const Execution& execution) {
   FixedSites fixed;
   if (options.fixed.empty() && options.along.empty()) return fixed;

@@ -1,17 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+#include "options.h"
 
-// The options that several commands share.
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 
-#include "command.h"
-#include "netcdf_part.h"
 #include "rondel/mesh_files.h"
-#include "rondel/names.h"
-#include "table_options.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -193,17 +186,6 @@ FileName CommonOptions::other_source(const std::string& other) const {
   return {other, other == "-" && input != "-" ? input_format : std::string()};
 }
 
-std::string CommonOptions::format() const {
-  std::string name = output;
-  while (name.ends_with('/')) name.pop_back();  // at the end of a folder
-  std::string format = std::filesystem::path(name).extension().string();
-  if (!output_format.empty()) format = output_format;
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return format;
-}
-
 void add_build_options(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
@@ -270,9 +252,7 @@ void add_report_options(CLI::App& command, CommonOptions& options) {
 }
 
 void require_array(const char* option, const std::string& path) {
-  CommonOptions array;
-  array.output = path;
-  const std::string ending = array.format();
+  const std::string ending = format_of(path);
   if (ending.empty() || ending == "npy") return;
   throw UsageError(std::string(option) + ": the ending of '" + path + "' is not .npy");
 }
@@ -297,6 +277,59 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
   std::vector<NamedFile> written = {{"--output", options.output}};
   written.insert(written.end(), outputs.begin(), outputs.end());
   require_separate_files(read, written);
+}
+
+CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::string& file,
+                              const std::string& what) {
+  const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };
+  return parser.add_option_function<std::string>(name, take, what)->required();
+}
+
+void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others) {
+  parser
+      .add_option("WEIGHTS", options.input,
+                  "The weights: netCDF (ESMF or SCRIP) or .npz (scipy.sparse)")
+      ->required()
+      ->type_name("");
+  parser
+      .add_option("--input-format", options.input_format,
+                  "Format of WEIGHTS: esmf, scrip or npz (default: by its ending)" + of_others)
+      ->type_name("FORMAT");
+}
+
+void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& options,
+                        const std::function<std::vector<FileName>()>& written) {
+  std::unordered_map<std::string, NetcdfKind> kinds = named_values<NetcdfKind>();
+  kinds.erase("by-name");
+  const CLI::Option* const kind = add_word<NetcdfKind>(
+      parser, "--kind", options.kind, kinds,
+      "The format of netCDF: nc4 (netCDF-4, compressed; of names that end in .nc4), cdf5\n"
+      "or cdf2 (64-bit offset; less than 4 GiB a variable); default: what fits");
+  const CLI::Option* const deflate =
+      parser
+          .add_option("--deflate", options.deflate,
+                      "How much effort the compression of nc4 takes, 0 (none) to 9 (default: 1)")
+          ->check(CLI::Range(0, 9).description(""))
+          ->type_name("N");
+  require_effect(
+      common, kind, [written] { return !written().empty(); }, "on files other than netCDF");
+  require_effect(
+      common, deflate,
+      [written, &options] {
+        const std::vector<FileName> files = written();
+        return std::ranges::any_of(files, [&](const FileName& file) {
+          const bool is_by_name = options.kind == NetcdfKind::by_name;
+          return is_by_name ? file.path.ends_with(".nc4") || file.format == "nc4"
+                            : options.kind == NetcdfKind::netcdf4;
+        });
+      },
+      "without --kind nc4 or the ending .nc4: other files are not compressed");
+}
+
+std::vector<FileName> if_of_format(const FileName& file,
+                                   std::initializer_list<std::string_view> formats) {
+  const bool is_one = std::ranges::find(formats, format_of(file)) != formats.end();
+  return is_one ? std::vector<FileName>{file} : std::vector<FileName>();
 }
 
 }  // namespace rondel::cli

@@ -31,11 +31,4 @@ bool has_terminal();
 /// Returns the largest resident size of this process so far.
 std::uint64_t peak_memory_bytes();
 
-/// Loads a library that the system finds by its name or path; returns nullptr if there is none. It
-/// stays loaded.
-void* open_library(const char* name);
-
-/// Returns the address of a symbol of a library; nullptr if it has none of this name.
-void* symbol_of(void* library, const char* name);
-
 }  // namespace rondel::cli

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -86,9 +85,5 @@ std::uint64_t peak_memory_bytes() {
   constexpr std::uint64_t unit = 1024;  // Linux counts ru_maxrss in KiB
   return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
 }
-
-void* open_library(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
-
-void* symbol_of(void* library, const char* name) { return dlsym(library, name); }
 
 }  // namespace rondel::cli

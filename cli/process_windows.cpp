@@ -74,10 +74,4 @@ std::uint64_t peak_memory_bytes() {
   return counters.PeakWorkingSetSize;
 }
 
-void* open_library(const char* name) { return LoadLibraryA(name); }
-
-void* symbol_of(void* library, const char* name) {
-  return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name));
-}
-
 }  // namespace rondel::cli

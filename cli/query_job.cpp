@@ -3,9 +3,9 @@
 
 #include "query_job.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "process.h"
@@ -32,6 +32,22 @@ ReadOptions query_options(const QueryOptions& options) {
 }
 
 }  // namespace
+
+void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats) {
+  options.common.output = "-";
+  add_input_options(parser, options.common, default_input_help, [&options] {
+    return std::vector<FileName>{options.common.source(), {options.queries, options.query_format}};
+  });
+  parser
+      .add_option("QUERIES", options.queries,
+                  "The points to ask for, in the formats of INPUT; columns that are named\n"
+                  "by an option have the same name in both. One of the two may be -")
+      ->required()
+      ->type_name("");
+  add_output_option(parser, options.common, "Where to write the answers: " + formats);
+  add_build_options(parser, options.common);
+  add_report_options(parser, options.common);
+}
 
 QueryJob::QueryJob(const QueryOptions& options)
     : options_(completed(options)), job_(options_.common) {
@@ -95,9 +111,8 @@ void QueryJob::report(const Counts& answers) {
                      {"write", seconds.write},
                      {"total", seconds.total}};
   json["peak_memory_bytes"] = peak_memory_bytes();
-  std::array<char, 32> time{};
-  std::snprintf(time.data(), time.size(), "%.3f s", seconds.total);
-  text += "\nwrote the answers to " + options_.common.output + " in " + time.data() + '\n';
+  text += "\nwrote the answers to " + options_.common.output + " in " +
+          text_of_seconds(seconds.total) + '\n';
   job_.report(json.dump(2) + '\n', text);
 }
 

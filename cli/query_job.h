@@ -17,11 +17,24 @@
 #include <utility>
 #include <vector>
 
-#include "command.h"
+#include "job.h"
 #include "rondel/query.h"
-#include "run.h"
 
 namespace rondel::cli {
+
+/// The options of locate and nearest; k and within_deg belong to nearest only.
+struct QueryOptions {
+  CommonOptions common;
+  std::string queries;               ///< QUERIES; "-": standard input
+  std::string query_format;          ///< empty: by the ending
+  std::vector<std::string> columns;  ///< --column: columns of INPUT to add to the answers
+  std::uint64_t k = 0;               ///< -k; 0: not given
+  double within_deg = -1;            ///< --within; negative: not given
+};
+
+/// Adds INPUT, QUERIES and where the answers go, by default standard output. `formats` says for the
+/// help in which formats answers are written.
+void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats);
 
 /// One run: reads both files, triangulates the sites and makes the locator.
 class QueryJob {

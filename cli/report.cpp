@@ -24,13 +24,6 @@ Json json_of(const Tally& tally) {
           {"perturbed", tally.perturbed}};
 }
 
-// Returns a time in seconds with three decimals.
-std::string text_of(double seconds) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f s", seconds);
-  return text;
-}
-
 // The counts that all reports of triangulations contain.
 struct Counts {
   std::uint64_t sites;
@@ -84,6 +77,12 @@ void tell(const std::string& file, const std::vector<std::string>& remarks) {
   for (const std::string& remark : remarks) {
     std::fprintf(stderr, "rondel: %s: %s\n", file.c_str(), remark.c_str());
   }
+}
+
+std::string text_of_seconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f s", seconds);
+  return text;
 }
 
 std::string count(std::size_t number, const std::string& one, const std::string& many) {
@@ -162,7 +161,7 @@ std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output) {
   const Counts counts = counts_of(triangulation);
   return sites_line(counts) + '\n' + faces_line(counts) + '\n' + "wrote " + what + " to " + output +
-         " in " + text_of(seconds.total) + '\n';
+         " in " + text_of_seconds(seconds.total) + '\n';
 }
 
 std::string out_of_core_json_report(const OutOfCoreReport& report, Model model,
@@ -183,13 +182,13 @@ std::string out_of_core_summary(const OutOfCoreReport& report, Model model, cons
   if (report.num_resumed > 0)
     buckets += ", " + std::to_string(report.num_resumed) + " of them done before";
   return sites_line(counts) + '\n' + faces_line(counts) + ", " + buckets + '\n' +
-         "wrote the triangulation to " + output + " in " + text_of(seconds.total) + '\n';
+         "wrote the triangulation to " + output + " in " + text_of_seconds(seconds.total) + '\n';
 }
 
 std::string hull_summary(const Triangulation& hull, const HullSize& size, const Seconds& seconds,
                          const std::string& output) {
   return sites_line(counts_of(hull)) + '\n' + hull_line(hull, size) + '\n' + "wrote the hull to " +
-         output + " in " + text_of(seconds.total) + '\n';
+         output + " in " + text_of_seconds(seconds.total) + '\n';
 }
 
 }  // namespace rondel::cli

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "command.h"
+#include "job.h"
 #include "rondel/hull.h"
 #include "rondel/out_of_core.h"
 
@@ -20,6 +20,9 @@ namespace rondel::cli {
 
 /// Returns "1 site" or "2 sites".
 std::string count(std::size_t number, const std::string& one, const std::string& many);
+
+/// Returns a time in seconds with three decimals: "0.125 s".
+std::string text_of_seconds(double seconds);
 
 /// Writes a reader's remarks on a file to standard error, one a line: "rondel: mesh.nc: 3 of 162
 /// cells are ...".

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+#include "targets.h"
 
-// Targets of interpolation: points of a file, or the centers of a grid that "grid:DEG" or
-// "grid:NLONxNLAT" names.
-#include <charconv>
 #include <cmath>
+#include <optional>
 
-#include "netcdf_part.h"
-#include "remap.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/interpolate.h"
 #include "rondel/mesh_files.h"
 #include "validate.h"
 
@@ -24,6 +22,34 @@ constexpr std::uint64_t most_parallels = 1'000'000;
   throw UsageError("'" + text +
                    "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
                    "has so many cells");
+}
+
+Weights bilinear_from(const NetcdfSites& grid, const Targets& targets) {
+  const std::string& name = grid.table.name;
+  const std::optional<LonLatAxes> axes = axes_of_grid(grid.table.positions, grid.shape);
+  if (!axes) {
+    throw FileError(name +
+                    ": --method bilinear needs netCDF with a grid along axes of longitude and "
+                    "latitude; --method linear takes any sites");
+  }
+  try {
+    Weights weights = bilinear_weights(*axes, targets.side.points, rounding_of(*axes));
+    return grid.mask.empty() ? weights : without_columns(weights, grid.mask);
+  } catch (const InvalidInput& error) {  // of the axes: all positions are known to be valid
+    throw FileError(name + ": " + error.what());
+  }
+}
+
+Weights given_to_nearest(Job& job, const NetcdfSites& grid, const Targets& targets) {
+  const Triangulation triangulation = job.triangulate(targets.table);
+  std::vector<Index> every_target(targets.table.sites.size());
+  for (std::size_t t = 0; t < every_target.size(); ++t) every_target[t] = static_cast<Index>(t);
+  const SiteTable sources = grid.table.selection(grid.unmasked());
+  const Weights weights = with_places(sources, [&] {
+    return nearest_d2s_weights(Interpolator(triangulation), sources.sites, job.execution());
+  });
+  return renumbered(weights, every_target, every_target.size(), unmasked_sites(grid),
+                    grid.table.sites.size());
 }
 
 }  // namespace
@@ -83,6 +109,27 @@ Targets read_targets(const FileName& target, const ReadOptions& read) {
   const SiteTable& table = targets.table;
   targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;
+}
+
+std::vector<Index> unmasked_sites(const NetcdfSites& grid) {
+  const std::vector<bool> is_kept = grid.unmasked();
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < is_kept.size(); ++i) {
+    if (is_kept[i]) numbers.push_back(static_cast<Index>(i));
+  }
+  return numbers;
+}
+
+Weights regrid_weights(Job& job, RegridMethod method, const NetcdfSites& grid,
+                       const Targets& targets) {
+  Weights weights;
+  job.time(Stage::query, [&] {
+    weights = method == RegridMethod::bilinear ? bilinear_from(grid, targets)
+                                               : given_to_nearest(job, grid, targets);
+  });
+  weights.sites_hash = point_set_hash(grid.table.sites);
+  weights.targets_hash = point_set_hash(targets.table.sites);
+  return weights;
 }
 
 }  // namespace rondel::cli

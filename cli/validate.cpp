@@ -10,6 +10,8 @@
 #include <limits>
 #include <string_view>
 
+#include "rondel/types.h"
+
 namespace rondel::cli {
 namespace {
 
@@ -94,6 +96,8 @@ std::string bytes_error(const std::string& text) {
 }
 
 std::uint64_t bytes_of(const std::string& text) { return parsed_bytes(text); }
+
+std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
 
 std::string seed_error(const std::string& text) {
   return whole_error(text, 0, std::numeric_limits<std::uint64_t>::max());

@@ -30,6 +30,9 @@ std::uint64_t bytes_of(const std::string& text);
 /// Checks a whole decimal number in [min, max].
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max);
 
+/// Checks a number of sites: at least 1, at most as many as an index can count.
+std::string count_error(const std::string& text);
+
 /// Checks the seed of random numbers.
 std::string seed_error(const std::string& text);
 

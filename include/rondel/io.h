@@ -39,10 +39,17 @@ struct FileName {
   std::string format;  ///< "ply", "npy" ...; if empty, the ending of the path decides
 };
 
+/// Returns the format of a file in lower case, "ply": the one that is named, or the ending of the
+/// path, where slashes at the end do not count; empty if it has none.
+RONDEL_API std::string format_of(const FileName& file);
+
 /// The formats in which netCDF is written. by_name is netCDF-4 if the name of the file ends in
 /// .nc4, and otherwise one of the classic formats. CDF-2 is read by every program, and its
 /// variables have less than 4 GiB; netCDF-4 (HDF5) is compressed.
 enum class NetcdfKind : std::uint8_t { by_name, cdf2, cdf5, netcdf4 };
+
+/// Returns the name of a value: "by_name", "cdf2", "cdf5", "nc4"; empty for other numbers.
+RONDEL_API std::string_view name_of(NetcdfKind kind) noexcept;
 
 /// Options for writing netCDF. Equal calls give equal bytes; for netCDF-4 this holds for equal
 /// versions of netCDF-C and HDF5, which are recorded in the file.

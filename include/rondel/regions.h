@@ -128,15 +128,28 @@ struct LonLatRegions {
 RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg = 0.01,
                                          const Execution& execution = {});
 
+/// True if the format can hold regions: .geojson .gpkg .fgb .parquet.
+RONDEL_API bool can_write_regions(const FileName& file);
+
+/// Checks, before any work, that write_regions() has what it needs for the format of a file: GDAL
+/// for .gpkg, .fgb and .parquet, nothing for others.
+/// \throws FileError if GDAL is not found, or has no driver for the format
+RONDEL_API void require_region_writer(const FileName& file);
+
 /// Writes cells, one feature for each cell that has rings: a Polygon or MultiPolygon, cut at the
 /// antimeridian and the poles. Its properties are `area` (steradians) and the columns. The polygons
 /// are those of region_polygons(): valid, and equal along borders. The geometry of a cell without
-/// polygons is null.
-/// \param file  .geojson (RFC 7946)
+/// polygons is null; GDAL's formats leave out such a cell. The file appears whole or not at all.
+/// \param file  .geojson (RFC 7946), or what GDAL writes: .gpkg (GeoPackage), .fgb (FlatGeobuf),
+///         .parquet (GeoParquet), with a MultiPolygon for each feature, and integers in a column
+///         that has no other numbers. libgdal (3.0 or newer) is loaded when it is needed: the one
+///         that the environment variable RONDEL_GDAL names, or the newest that the system finds.
 /// \param columns  one value for each cell; names that are taken change as in free_names()
-/// \param ids  the member `id` of each feature, as JSON, empty for none; no cells: there are no ids
+/// \param ids  .geojson: the member `id` of each feature, as JSON, empty for none; no cells: there
+///         are no ids
 /// \throws InvalidInput if columns, ids or offsets do not fit, or the tolerance is not positive
-/// \throws FileError if the file cannot be written, or has another ending
+/// \throws FileError if the file cannot be written, has another ending, or needs a GDAL that is not
+///         there
 RONDEL_API void write_regions(const FileName& file, const CellRings& cells,
                               std::span<const Column> columns = {}, double tolerance_deg = 0.01,
                               const Execution& execution = {}, const Column& ids = {});

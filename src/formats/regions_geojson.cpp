@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/regions_gdal.h"
 #include "io/cell_formats.h"
 #include "io/ending.h"
 #include "io/flat_arrays.h"
@@ -145,6 +146,24 @@ bool is_complete(const Column& column, std::size_t num_rows) {
          (column.ends.empty() || column.ends.back() == column.text.size());
 }
 
+// Returns the polygons of all cells in compressed rows.
+LonLatRegions polygons_of(const RegionsToWrite& job) {
+  const std::vector<map::PolygonsOfRegion> drawn = draw(job);
+  LonLatRegions all;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    for (const map::PolygonWithHoles& polygon : drawn[i]) {
+      for (const std::vector<LonLat>& ring : polygon.rings) {
+        all.positions.insert(all.positions.end(), ring.begin(), ring.end());
+        all.rings.push_back(all.positions.size());
+      }
+      all.polygons.push_back(all.rings.size() - 1);
+      all.owners.push_back(static_cast<Index>(i));
+    }
+  }
+  return all;
+}
+
+// GDAL writes the formats that are not here (regions_gdal.cpp).
 constexpr std::array<io::Writer<RegionsToWrite>, 1> region_writers = {
     {{".geojson", &write_regions_geojson}}};
 
@@ -168,20 +187,12 @@ LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
   const system::Call call(execution);
   formats::require_rings(cells);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  const std::vector<map::PolygonsOfRegion> drawn =
-      formats::draw({cells, {}, tolerance, execution, {}});
-  LonLatRegions all;
-  for (std::size_t i = 0; i < drawn.size(); ++i) {
-    for (const map::PolygonWithHoles& polygon : drawn[i]) {
-      for (const std::vector<LonLat>& ring : polygon.rings) {
-        all.positions.insert(all.positions.end(), ring.begin(), ring.end());
-        all.rings.push_back(all.positions.size());
-      }
-      all.polygons.push_back(all.rings.size() - 1);
-      all.owners.push_back(static_cast<Index>(i));
-    }
-  }
-  return all;
+  return formats::polygons_of({cells, {}, tolerance, execution, {}});
+}
+
+bool can_write_regions(const FileName& file) {
+  return io::ending(file) == formats::region_writers.front().ending ||
+         formats::is_format_of_gdal(file);
 }
 
 void write_regions(const FileName& file, const CellRings& cells, std::span<const Column> columns,
@@ -195,8 +206,13 @@ void write_regions(const FileName& file, const CellRings& cells, std::span<const
                                       }),
                   "columns");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  io::write_whole<formats::RegionsToWrite>(formats::region_writers, file, "regions are written as",
-                                           {cells, columns, tolerance, execution, ids});
+  const formats::RegionsToWrite job{cells, columns, tolerance, execution, ids};
+  if (formats::is_format_of_gdal(file)) {
+    formats::write_regions_gdal(file, formats::polygons_of(job), areas(cells), columns);
+  } else {
+    io::write_whole<formats::RegionsToWrite>(formats::region_writers, file,
+                                             "regions are written as", job);
+  }
 }
 
 }  // namespace rondel

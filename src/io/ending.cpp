@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rondel/error.h"
+#include "system/enum_names.h"
 
 namespace rondel::io {
 
@@ -55,3 +56,16 @@ void throw_unknown_ending(const FileName& file, std::string_view what,
 }
 
 }  // namespace rondel::io
+
+namespace rondel {
+
+std::string format_of(const FileName& file) {
+  const std::string found = io::ending(file);
+  return found.empty() ? found : found.substr(1);
+}
+
+std::string_view name_of(NetcdfKind kind) noexcept {
+  return system::name_in({"by_name", "cdf2", "cdf5", "nc4"}, kind);
+}
+
+}  // namespace rondel

@@ -3,7 +3,6 @@
 #include "io/netcdf_library.h"
 
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -47,27 +46,9 @@ void* open_netcdf_library() {
   return nullptr;
 }
 
-// Loads functions of the library, and remembers whether one is missing.
-class NetcdfSymbols {
- public:
-  explicit NetcdfSymbols(void* library) : library_(library) {}
-
-  template <class Function>
-  void get(Function& function, const char* name) {
-    void* const address = system::symbol_of(library_, name);
-    has_all_ = has_all_ && address != nullptr;
-    std::memcpy(&function, &address, sizeof function);
-  }
-  [[nodiscard]] bool has_all() const { return has_all_; }
-
- private:
-  void* library_;
-  bool has_all_ = true;
-};
-
 // Loads all functions; returns false if one is missing.
 bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
-  NetcdfSymbols from(library);
+  system::SymbolLoader from(library);
   from.get(netcdf.error_text, "nc_strerror");
   from.get(netcdf.open, "nc_open");
   from.get(netcdf.open_memory, "nc_open_mem");

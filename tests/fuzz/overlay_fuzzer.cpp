@@ -132,6 +132,9 @@ void test_grid(const CellSet& cells, ByteSource& source) {
 void test_file(const RegionPieces& pieces) {
   const ScratchFolder folder;
   const std::string path = folder.file("regions.geojson");
+  require(can_write_regions(path), "a format of regions can be written");
+  require(!can_write_regions(folder.file("regions.csv")), "other formats cannot");
+  require_region_writer(path);
   write_regions(path, pieces.rings, {}, 5);
   const LonLatRegions drawn = region_polygons(pieces.rings, 5);
   require(drawn.rings.back() == drawn.positions.size(), "rings have all positions");

@@ -54,6 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t what = source.below(3);
   const SiteTable table = fuzz::next_table(source, fuzz::next_limit(source, 100));
   fuzz::require(can_write_sites(path), "a format of sites can be written");
+  fuzz::require(path.ends_with('.' + format_of(path)), "the ending is the format");
   fuzz::require(!can_write_sites(folder.file("sites.obj")), "other formats cannot");
   if (table.sites.empty()) return 0;
   if (what == 0 || table.positions.empty()) {

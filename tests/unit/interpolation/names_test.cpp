@@ -12,6 +12,7 @@
 
 #include "rondel/cell_set.h"
 #include "rondel/graphs.h"
+#include "rondel/io.h"
 #include "rondel/polygon_files.h"
 #include "rondel/query.h"
 #include "rondel/regrid.h"
@@ -59,6 +60,7 @@ TEST(names, lead_back_to_their_values) {
   expect_names<GridSides>({"parallels", "great_circles"});
   expect_names<PolygonEdges>({"lonlat", "geodesic"});
   expect_names<PolygonOverlap>({"keep", "error", "first"});
+  expect_names<NetcdfKind>({"by_name", "cdf2", "cdf5", "nc4"});
   expect_names<RemapNorm>({"destarea", "fracarea"});
   expect_names<CellOverlap>({"error", "first", "share"});
   expect_names<Model>({"projected", "weighted"});

@@ -102,6 +102,13 @@ TEST(ending, is_of_the_format_or_of_the_path) {
   EXPECT_FALSE(io::has_netcdf_ending(FileName{"a.n", ""}));
 }
 
+TEST(ending, is_the_format_of_a_file) {
+  EXPECT_EQ(format_of("data/Stations.CSV"), "csv");
+  EXPECT_EQ(format_of({"a.csv", ".Npy"}), "npy");
+  EXPECT_EQ(format_of("cells.zarr/"), "zarr");
+  EXPECT_EQ(format_of("-"), "");
+}
+
 TEST(ending, says_which_netcdf_is_written) {
   const auto kind = [](const std::string& path, const std::string& format,
                        NetcdfKind asked = NetcdfKind::by_name) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "rondel/error.h"
@@ -121,6 +122,27 @@ TEST(overlay_written, properties_and_cells_without_rings) {
   EXPECT_EQ(properties["name"], "b\"c");
   EXPECT_EQ(properties["area_"], 2);
   EXPECT_NEAR(properties["area"].get<double>(), cells.areas()[4], 1e-15);
+}
+
+TEST(overlay_written, files_of_gdal_are_written_where_it_is_there) {
+  const std::string path = temporary_path("regions.gpkg");
+  const CellRings cells = CellSet::voronoi(triangulation_of("uniform", 10, 6)).rings();
+  EXPECT_TRUE(can_write_regions(path));
+  EXPECT_TRUE(can_write_regions({"regions", "fgb"}));
+  EXPECT_FALSE(can_write_regions("regions.npy"));
+  EXPECT_NO_THROW(require_region_writer("regions.geojson"));
+  const auto error_of = [](const auto& work) {
+    try {
+      work();
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string missing = error_of([&] { require_region_writer(path); });
+  EXPECT_EQ(error_of([&] { write_regions(path, cells); }), missing);
+  EXPECT_TRUE(missing.empty() || missing.find("GDAL") != std::string::npos) << missing;
+  EXPECT_EQ(std::filesystem::exists(path), missing.empty());
 }
 
 TEST(overlay_written, arrays_that_do_not_fit_are_refused) {

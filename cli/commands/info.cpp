@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
+// are in one place or hidden, and which columns there are.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "job.h"
+#include "process.h"
+#include "report.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The least and the largest of some numbers. It is empty until a number is added.
+struct Range {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  [[nodiscard]] bool is_empty() const { return min > max; }
+};
+
+// The range of a coordinate, in the unit of the file: degrees, or any unit of length.
+struct NamedRange {
+  const char* name;
+  Range range;
+};
+
+// All that the report says beside the table itself.
+struct Facts {
+  std::vector<NamedRange> bounds;
+  Range height;  // |p - center| - radius
+  std::size_t at_center = 0;
+  Triangulation triangulation;  // of the sites that are not at the center
+};
+
+// Returns the bounds of the coordinates in which the sites were given.
+std::vector<NamedRange> coordinate_bounds(const SiteTable& table) {
+  if (table.is_lonlat()) {
+    Range lon;
+    Range lat;
+    for (const LonLat& position : table.positions) {
+      lon.add(position.lon_deg);
+      lat.add(position.lat_deg);
+    }
+    return {{"lon", lon}, {"lat", lat}};
+  }
+  Range x;
+  Range y;
+  Range z;
+  for (const Point& site : table.sites) {
+    x.add(site.x);
+    y.add(site.y);
+    z.add(site.z);
+  }
+  return {{"x", x}, {"y", y}, {"z", z}};
+}
+
+// Returns also the bounds of the radii in degrees, if the sites are circles.
+std::vector<NamedRange> bounds_of(const SiteTable& table) {
+  std::vector<NamedRange> bounds = coordinate_bounds(table);
+  if (table.radii_deg.empty()) return bounds;
+  Range radius;
+  for (const double radius_deg : table.radii_deg) radius.add(radius_deg);
+  bounds.push_back({"radius", radius});
+  return bounds;
+}
+
+// Scales the coordinates, so that no square overflows or underflows.
+double length(double x, double y, double z) {
+  const double scale = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  if (scale == 0) return 0;
+  x /= scale;
+  y /= scale;
+  z /= scale;
+  return scale * std::sqrt(x * x + y * y + z * z);
+}
+
+// Returns the range of |p - center| - radius: how far sites are above (positive) or below the
+// sphere.
+Range heights_of(std::span<const Point> sites, const Sphere& sphere) {
+  const Point& c = sphere.center;
+  const double radius = std::sqrt(sphere.squared_radius);
+  Range range;
+  for (const Point& p : sites) {
+    range.add(length(p.x - c.x, p.y - c.y, p.z - c.z) - radius);
+  }
+  return range;
+}
+
+// A site at the center is reported here, and is not an error.
+Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
+  Facts facts;
+  facts.bounds = bounds_of(table);
+  facts.height = heights_of(table.sites, sphere);
+  SiteTable rays;
+  rays.name = table.name;
+  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites),
+                       [&](const Point& site) { return site != sphere.center; });
+  facts.at_center = table.sites.size() - rays.sites.size();
+  facts.triangulation = job.triangulate(rays);
+  return facts;
+}
+
+// Returns null for a range without numbers, since JSON has no infinities.
+Json json_of(const Range& range) {
+  if (range.is_empty()) return nullptr;
+  return {{"min", range.min}, {"max", range.max}};
+}
+
+// Returns null if there are no sites.
+Json json_of_coordinates(const SiteTable& table) {
+  if (table.sites.empty()) return nullptr;
+  return table.is_lonlat() ? "lonlat" : "xyz";
+}
+
+// Returns the object of --json. Names of columns that are not UTF-8 are mended by the replacement
+// character.
+std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& seconds) {
+  Json bounds = Json::object();
+  for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
+  Json columns = Json::array();
+  for (const Column& column : table.columns) {
+    columns.push_back({{"name", column.name}, {"kind", column.is_numeric ? "number" : "text"}});
+  }
+  const Triangulation& triangulation = facts.triangulation;
+  const Json json = {{"sites", table.sites.size()},
+                     {"coordinates", json_of_coordinates(table)},
+                     {"circles", !table.radii_deg.empty()},
+                     {"bounds", bounds},
+                     {"distance_from_sphere", json_of(facts.height)},
+                     {"at_center", facts.at_center},
+                     {"duplicates", triangulation.duplicates().size()},
+                     {"hidden", triangulation.hidden().size()},
+                     {"unlocated", table.num_unlocated},
+                     {"dimension", triangulation.dimension()},
+                     {"model", name_of(triangulation.model())},
+                     {"columns", columns},
+                     {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
+                     {"peak_memory_bytes", peak_memory_bytes()}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+// Returns a line with 9 digits; nothing for an empty range.
+std::string text_of(const char* name, const Range& range) {
+  if (range.is_empty()) return {};
+  char text[128];
+  std::snprintf(text, sizeof text, "%s: %.9g to %.9g\n", name, range.min, range.max);
+  return text;
+}
+
+// Returns an empty text if there are no sites, since the table then does not say which coordinates
+// it has.
+std::string coordinates_of(const SiteTable& table) {
+  if (table.sites.empty()) return {};
+  const std::string given = ", given as ";
+  if (table.radii_deg.empty()) {
+    return given + (table.is_lonlat() ? "longitude and latitude" : "x, y, z");
+  }
+  return given + (table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius");
+}
+
+// Returns the report for people.
+std::string text_of(const SiteTable& table, const Facts& facts) {
+  const Triangulation& triangulation = facts.triangulation;
+  std::string text =
+      table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
+  for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
+  text += text_of("distance from the sphere", facts.height);
+  if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';
+  text += "duplicates: " + std::to_string(triangulation.duplicates().size()) + '\n';
+  if (triangulation.model() == Model::weighted) {
+    text += "hidden: " + std::to_string(triangulation.hidden().size()) + '\n';
+  }
+  if (table.columns.empty()) return text;
+  text += "columns:";
+  for (const Column& column : table.columns) {
+    text += (&column == table.columns.data() ? " " : ", ") + column.name +
+            (column.is_numeric ? " (number)" : " (text)");
+  }
+  return text + '\n';
+}
+
+ExitStatus run_info(const CommonOptions& options) {
+  CommonOptions common = options;
+  common.read.keep_columns = true;
+  Job job(common);
+  const SiteTable table = job.read();
+  const Facts facts = find_facts(table, job, common.build.sphere);
+  job.report(json_of(table, facts, job.seconds()), text_of(table, facts));
+  return done;
+}
+
+}  // namespace
+
+Command add_info_command(CLI::App& tool) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* parser = tool.add_subcommand("info", "Say what a file of sites holds");
+  add_input_options(*parser, *options);
+  add_build_options(*parser, *options);
+  add_report_options(*parser, *options);
+  parser->footer(
+      "Prints the number of sites, their bounds, exact duplicates, the distance from\n"
+      "the sphere, and the columns.\n\n"
+      "Example:\n"
+      "  rondel info stations.csv");
+  return {parser, [options] { return run_info(*options); }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel interpolate: carries values at sites to targets, or makes the weights for that.
+// in    sites, with values or without; targets
+// out   values at the targets, weights
+// index sources (columns of the weights) and targets (rows), in the order of their files
+#include "rondel/interpolate.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "column_values.h"
+#include "field_carrier.h"
+#include "process.h"
+#include "report.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/fields.h"
+#include "rondel/regrid.h"
+#include "rondel/weight_files.h"
+#include "targets.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel interpolate`.
+struct InterpolateOptions {
+  CommonOptions common;                // INPUT: the sites
+  std::string target;                  // --to; "-": standard input
+  std::string weights;                 // --weights; empty: values
+  std::string weight_format;           // --weight-format
+  std::vector<std::string> columns;    // --value
+  InterpolationOptions interpolation;  // --method, unless it is one of `regrid`
+  std::optional<RegridMethod> regrid;  // --method bilinear or nearest_d2s
+  NetcdfOptions netcdf;                // --kind --deflate
+
+  [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
+  [[nodiscard]] FileName target_file() const { return common.other_source(target); }
+};
+
+// The sites and the fields are read from one file.
+constexpr double same_places_deg = 1e-9;
+
+void report(Job& job, const InterpolateOptions& options, const InterpolateCounts& counts) {
+  const Seconds seconds = job.seconds();
+  const nlohmann::ordered_json json = {{"sites", counts.sites},
+                                       {"targets", counts.targets},
+                                       {"duplicates", counts.duplicates},
+                                       {"left_out", counts.left_out},
+                                       {"missing", counts.missing},
+                                       {"seconds",
+                                        {{"read", seconds.read},
+                                         {"interpolate", seconds.query},
+                                         {"write", seconds.write},
+                                         {"total", seconds.total}}},
+                                       {"peak_memory_bytes", peak_memory_bytes()}};
+  std::string text =
+      count(counts.sites, "site", "sites") + " to " + count(counts.targets, "target", "targets");
+  if (counts.duplicates > 0) {
+    text += ", " + count(counts.duplicates, "duplicate", "duplicates") +
+            (options.interpolation.shared_place == SharedPlace::mean ? " (the mean counts)"
+                                                                     : " (the first site counts)");
+  }
+  if (counts.left_out > 0)
+    text += ", left out " + std::to_string(counts.left_out) + " without value";
+  text += "; targets without value: " + std::to_string(counts.missing) + '\n';
+  if (!options.weights.empty()) text += "wrote the weights to " + options.weights + '\n';
+  job.report(json.dump(2) + '\n', text);
+}
+
+void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
+                         const Targets& targets, const std::optional<Weights>& weights,
+                         InterpolateCounts& counts) {
+  FieldSet fields;
+  fields.num_points = targets.table.sites.size();
+  FieldCarrier carrier(job, options.interpolation, table, targets, weights, counts);
+  for (const std::string& name : options.columns) {
+    FieldArray array;
+    array.name = name;
+    array.values = carrier.carry(column_values(table, name, "--value"));
+    fields.arrays.push_back(std::move(array));
+  }
+  job.time(Stage::write,
+           [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
+}
+
+// Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
+// a time is in memory.
+void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+                        const Targets& targets, const std::optional<Weights>& weights,
+                        InterpolateCounts& counts) {
+  const SiteTable& table = grid.table;
+  const auto [file, variable] = netcdf_part(options.source_file());
+  std::vector<std::string> names = options.columns;
+  if (names.empty() && !variable.empty()) names.push_back(variable);
+  const FieldFile in(file, names, table.sites.size(), {}, {}, {table.positions, same_places_deg});
+  FieldSet out;
+  out.num_points = targets.table.sites.size();
+  out.arrays = in.fields().arrays;
+  out.axes = in.fields().axes;
+  tell(file.path, in.fields().remarks);
+  FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
+  FieldCarrier carrier(job, options.interpolation, table, targets, weights, counts);
+  for (std::size_t a = 0; a < out.arrays.size(); ++a) {
+    for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
+      std::vector<double> values(table.sites.size());
+      in.read(a, f, values);
+      for (std::size_t i = 0; i < grid.mask.size(); ++i) {
+        if (grid.mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
+      }
+      const std::vector<double> carried = carrier.carry(std::move(values));
+      job.time(Stage::write, [&] { writer.write(carried); });
+    }
+  }
+  job.time(Stage::write, [&] { writer.finish(); });
+}
+
+// Turns weights of the cells that are not masked into weights of all cells.
+void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFile& file) {
+  Weights& weights = file.weights;
+  for (Index& column : weights.columns) column = numbers[column];
+  weights.num_columns = table.sites.size();
+  weights.sites_hash = point_set_hash(table.sites);
+  std::vector<double> areas(table.sites.size(), 0);
+  for (std::size_t k = 0; k < numbers.size(); ++k) areas[numbers[k]] = file.source.areas[k];
+  file.source.areas = std::move(areas);
+}
+
+// Adds the weights and the areas of the sites, by a triangulation of the cells that are not masked.
+void interpolate_weights(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+                         const Targets& targets, InterpolateCounts& counts, WeightFile& file) {
+  const SiteTable& table = grid.table;
+  const std::vector<Index> numbers = unmasked_sites(grid);
+  const bool has_masked = numbers.size() < table.sites.size();
+  SiteTable kept;  // the triangulation refers to it
+  if (has_masked) kept = table.selection(grid.unmasked());
+  const Triangulation triangulation =
+      triangulated(job, options.interpolation, has_masked ? kept : table, counts);
+  const Interpolator interpolator(triangulation);
+  job.time(Stage::query, [&] {
+    file.weights = with_places(targets.table, [&] {
+      return interpolator.weights(targets.table.sites, options.interpolation, job.execution());
+    });
+  });
+  job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
+  if (has_masked) spread(numbers, table, file);
+}
+
+void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+                      Targets& targets, std::optional<Weights>& weights,
+                      InterpolateCounts& counts) {
+  WeightFile file;
+  if (weights) {
+    file.weights = std::move(*weights);
+    file.method = name_of(*options.regrid);
+  } else {
+    interpolate_weights(job, options, grid, targets, counts, file);
+    file.method = name_of(options.interpolation.method);
+  }
+  file.normalization = "none";
+  file.source.points = grid.table.is_lonlat() ? grid.table.positions : lonlats(grid.table.sites);
+  if (grid.shape.size() > 1) file.source.shape = grid.shape;
+  file.source.mask = grid.mask;
+  file.target = std::move(targets.side);
+  if (options.target.starts_with("grid:")) {
+    file.target.corners = CellSet::lonlat_grid(grid_of(options.target)).corners();
+    file.target.areas = grid_of(options.target).areas();
+  }
+  for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
+    if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
+  }
+  job.time(Stage::write, [&] {
+    write_weights({options.weights, options.weight_format}, file, options.netcdf);
+  });
+}
+
+ExitStatus run_interpolate(const InterpolateOptions& options) {
+  const CommonOptions& common = options.common;
+  const bool is_netcdf = is_netcdf_file(netcdf_part(options.source_file()).first);
+  const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
+  if (has_values != !common.output.empty()) {
+    throw UsageError("--value and --output go together: values of a column to a file");
+  }
+  if (!has_values && options.weights.empty()) {
+    throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
+  }
+  require_separate_files({{"INPUT", common.input}, {"--to", options.target}},
+                         {{"--output", common.output}, {"--weights", options.weights}});
+  if (has_values) {
+    require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
+  }
+  const bool is_nearest = !options.regrid && options.interpolation.method == Method::nearest;
+  if (common.build.model == Model::weighted && !is_nearest) {
+    throw UsageError("--method: weighted sites have no method but nearest");
+  }
+  Job job(common);
+  ReadOptions read = common.read;
+  read.keep_columns = has_values && !is_netcdf;
+  const NetcdfSites grid = job.read_grid(options.source_file(), read, options.columns);
+  const SiteTable& table = grid.table;
+  Targets targets = read_targets(options.target_file(), common.read);
+  const SiteTable* const tables[] = {&table, &targets.table};
+  require_angles(common.read, tables);
+  InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
+  std::optional<Weights> weights;
+  if (options.regrid) weights = regrid_weights(job, *options.regrid, grid, targets);
+  if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, weights, counts);
+  if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, weights, counts);
+  if (!options.weights.empty()) {
+    counts.missing = 0;
+    write_weights_of(job, options, grid, targets, weights, counts);
+  }
+  report(job, options, counts);
+  return done;
+}
+
+// Adds --method, of interpolation or of regridding.
+void add_method(CLI::App& parser, InterpolateOptions& options) {
+  using AnyMethod = std::variant<Method, RegridMethod>;
+  std::unordered_map<std::string, AnyMethod> methods;
+  for (const auto& [name, method] : named_values<Method>()) methods.emplace(name, method);
+  for (const std::string_view name : names_of<RegridMethod>()) {
+    methods.emplace(name, *from_name<RegridMethod>(name));
+  }
+  const auto take = [&options, methods](const std::string& text) {
+    const AnyMethod& method = methods.at(text);
+    if (const auto* regrid = std::get_if<RegridMethod>(&method)) options.regrid = *regrid;
+    if (const auto* plain = std::get_if<Method>(&method)) options.interpolation.method = *plain;
+  };
+  parser
+      .add_option_function<std::string>(
+          "--method", take,
+          "nearest, linear, laplace, sibson (default), hermite or cubic between any sites;\n"
+          "bilinear on a grid along axes; or nearest_d2s, each site given to its nearest target")
+      ->check([methods](const std::string& text) {
+        return methods.contains(text) ? std::string() : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+}
+
+// Adds how values are interpolated, also at targets outside and at sites that share a place.
+void add_methods(CLI::App& parser, InterpolateOptions& options) {
+  add_method(parser, options);
+  const CLI::Option* const outside = add_word<Outside>(
+      parser, "--outside", options.interpolation.outside, named_values<Outside>(),
+      "A target in no triangle that the center sees: nan (default), nearest or error");
+  const CLI::Option* const duplicates = add_word<SharedPlace>(
+      parser, "--duplicates", options.interpolation.shared_place, named_values<SharedPlace>(),
+      "Sites in one place: first (default: the one with the lowest number), mean or error");
+  for (const CLI::Option* const option : {outside, duplicates}) {
+    require_effect(
+        options.common, option, [&options] { return !options.regrid; },
+        "with --method bilinear or nearest_d2s");
+  }
+}
+
+// Adds the file for the weights themselves, which may be written beside the values or instead.
+void add_weight_options(CLI::App& parser, InterpolateOptions& options) {
+  parser
+      .add_option("--weights", options.weights,
+                  "Where to write the weights: .nc or .nc4 (ESMF), .npz (scipy.sparse)")
+      ->type_name("FILE");
+  const CLI::Option* const weight_format =
+      parser
+          .add_option("--weight-format", options.weight_format,
+                      "Format of the weights: esmf, scrip (for CDO) or npz")
+          ->type_name("FORMAT");
+  require_effect(
+      options.common, weight_format, [&options] { return !options.weights.empty(); },
+      "without --weights");
+}
+
+}  // namespace
+
+Command add_interpolate_command(CLI::App& tool) {
+  auto options = std::make_shared<InterpolateOptions>();
+  CLI::App* parser =
+      tool.add_subcommand("interpolate", "Carry values at sites to other points, or make weights");
+  add_input_options(*parser, options->common, default_input_help, [given = options.get()] {
+    return std::vector<FileName>{given->source_file(), given->target_file()};
+  });
+  add_second_input(
+      *parser, "--to", options->target,
+      "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
+      "or values at places, or the centers of the cells of a grid, grid:DEG or\n"
+      "grid:NLONxNLAT")
+      ->type_name("TARGET");
+  parser
+      ->add_option(
+          "--value", options->columns,
+          "The column with the values, for GeoJSON a property, for netCDF a variable (default\n"
+          "there: that of INPUT.nc:NAME, or all), one of several times of it as 'NAME[3]',\n"
+          "'NAME[-1]' or NAME_2001-07-15; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("COL");
+  add_output_option(*parser, options->common,
+                    "Where to write the values at the targets: .csv .tsv .npy .nc .nc4");
+  add_weight_options(*parser, *options);
+  require_effect(
+      options->common, parser->get_option("--format"),
+      [given = options.get()] { return !given->common.output.empty(); }, "without --output");
+  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
+    std::vector<FileName> written = if_of_format(given->common.target(), {"nc", "nc4"});
+    for (FileName& file :
+         if_of_format({given->weights, given->weight_format}, {"nc", "nc4", "esmf", "scrip"})) {
+      written.push_back(std::move(file));
+    }
+    return written;
+  });
+  add_methods(*parser, *options);
+  add_build_options(*parser, options->common);
+  for (const char* const name : {"--model", "--center"}) {
+    require_effect(
+        options->common, parser->get_option(name),
+        [given = options.get()] { return given->regrid != RegridMethod::bilinear; },
+        "with --method bilinear");
+  }
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "A site whose value is missing (empty, nan, NA, null) takes no part in that column, as if\n"
+      "it were not in the file; weights are those of all sites. With bilinear and nearest_d2s a\n"
+      "target that needs a missing value has none. bilinear takes netCDF with a grid along\n"
+      "longitudes and latitudes: between the last row and the pole of a grid around the globe it\n"
+      "goes to the mean of that row; other targets outside have no value. With nearest_d2s\n"
+      "(ESMF's nearest destination to source) a target has the sum of what it is given. Grids go "
+      "from longitude -180\n"
+      "eastward and from the south pole northward; centers have the digits of an exact\n"
+      "division, rounded once. DEG divides 180.\n\n"
+      "Examples:\n"
+      "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
+      "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
+      "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
+      "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
+      "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4\n"
+      "  rondel interpolate model.nc --to grid:1 --method bilinear -o on-grid.nc");
+  return {parser, [options] { return run_interpolate(*options); }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel mesh: the commands that make, judge and convert meshes.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <vector>
+
+#include "command.h"
+
+namespace rondel::cli {
+
+Command add_mesh_command(CLI::App& tool) {
+  CLI::App* const parser = tool.add_subcommand("mesh", "Make, judge and convert meshes of models");
+  parser->require_subcommand(1);
+  const std::vector<Command> commands = {
+      add_mesh_scvt_command(*parser),    add_mesh_icosahedral_command(*parser),
+      add_mesh_points_command(*parser),  add_mesh_partition_command(*parser),
+      add_mesh_convert_command(*parser), add_mesh_cull_command(*parser),
+      add_mesh_quality_command(*parser)};
+  parser->footer("'rondel mesh COMMAND --help' explains a command.");
+  return {parser, [commands] {
+            const auto at = std::ranges::find_if(
+                commands, [](const Command& command) { return command.parser->parsed(); });
+            return at->run();
+          }};
+}
+
+}  // namespace rondel::cli

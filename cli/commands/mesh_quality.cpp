@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel mesh quality: reports shapes and sizes of the cells of a mesh, and fails if a number of
+// the report is not within a bound that --require gives.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh_output.h"
+#include "rondel/error.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel mesh quality`.
+struct MeshQualityOptions {
+  CommonOptions common;  // INPUT: sites or a mesh
+  std::string report;    // --report; empty: not written
+  // --require: a name of quality_value() and its bound.
+  std::vector<std::pair<std::string, double>> required;
+};
+
+// A requirement is NAME=NUMBER; these are its two parts.
+std::string name_part(const std::string& text) { return text.substr(0, text.find('=')); }
+std::string bound_part(const std::string& text) { return text.substr(text.find('=') + 1); }
+
+// Returns what is wrong with a requirement; empty if nothing is.
+std::string requirement_error(const std::string& text) {
+  if (text.find('=') == std::string::npos) return "'" + text + "' is not NAME=NUMBER";
+  try {
+    mesh::quality_value({}, name_part(text));
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return finite_error(bound_part(text));
+}
+
+// True if a number is better when it is larger; all others are better when smaller.
+bool is_at_least(const std::string& name) {
+  return name.starts_with("min-") || name.starts_with("min_") || name.starts_with("share");
+}
+
+// Returns the requirements that are not met, in one line.
+std::string unmet(const MeshQualityOptions& options, const mesh::Quality& quality) {
+  std::string text;
+  for (const auto& [name, bound] : options.required) {
+    const double value = mesh::quality_value(quality, name);
+    if (is_at_least(name) ? value >= bound : value <= bound) continue;
+    std::array<char, 96> line;
+    std::snprintf(line.data(), line.size(), " is %.6g, not %.6g or %s", value, bound,
+                  is_at_least(name) ? "more" : "less");
+    text += (text.empty() ? "" : "; ") + name + line.data();
+  }
+  return text;
+}
+
+ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
+  require_separate_files({{"INPUT", options.common.input}}, {{"--report", options.report}});
+  Job job(options.common);
+  const mesh::MeshArrays arrays = read_mesh_or_sites(job, options.common, {}, true);
+  const mesh::Quality quality = mesh::quality(arrays, job.execution());
+  if (!options.report.empty()) {
+    write_mesh_report(options.report, arrays, quality, job.execution());
+  }
+  job.report(mesh::quality_json(quality), mesh::quality_text(quality));
+  const std::string text = unmet(options, quality);
+  if (!text.empty()) throw std::runtime_error(options.common.input + ": " + text);
+  return done;
+}
+
+}  // namespace
+
+Command add_mesh_quality_command(CLI::App& mesh) {
+  auto options = std::make_shared<MeshQualityOptions>();
+  CLI::App* parser = mesh.add_subcommand("quality", "Report how good a mesh is");
+  add_input_options(*parser, options->common, mesh_input_help);
+  parser
+      ->add_option_function<std::vector<std::string>>(
+          "--require",
+          [target = options.get()](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              target->required.emplace_back(name_part(text), std::stod(bound_part(text)));
+            }
+          },
+          "Fail (exit status 1) unless a number of the report is within this bound: min-...\n"
+          "and share-... at least, others at most. min-dv-dc is min-edge-ratio. May be repeated")
+      ->check(requirement_error)
+      ->allow_extra_args(false)
+      ->type_name("NAME=NUMBER");
+  add_mesh_report_option(*parser, options->report, "--report,--picture");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "INPUT is sites, or a mesh as 'rondel mesh convert' reads it.\n\n"
+      "Examples:\n"
+      "  rondel mesh quality sites.csv\n"
+      "  rondel mesh quality mesh.nc --require min-dv-dc=0.05 --require num-obtuse=0");
+  return {parser, [options] { return run_mesh_quality(*options); }};
+}
+
+}  // namespace rondel::cli

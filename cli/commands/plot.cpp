@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel plot draws figures of the triangulation and its dual on the globe, and pages to turn it.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "column_values.h"
+#include "globe.h"
+#include "job.h"
+#include "levels.h"
+#include "plot_draw.h"
+#include "plot_options.h"
+#include "plot_page.h"
+#include "rondel/contours.h"
+#include "rondel/diagram.h"
+#include "rondel/globe.h"
+#include "run_pieces.h"
+
+namespace rondel::cli {
+namespace {
+
+// Returns the format of an ending; nothing for .html and endings that are not known.
+std::optional<FigureFormat> figure_format(const std::string& name) {
+  for (const auto& [known, format] : {std::pair{"png", FigureFormat::png},
+                                      {"svg", FigureFormat::svg},
+                                      {"pdf", FigureFormat::pdf}}) {
+    if (name == known) return format;
+  }
+  return std::nullopt;
+}
+
+// Returns the directions of the sites from the center of the sphere.
+std::vector<Point> directions(std::span<const Point> sites, const Point& center) {
+  std::vector<Point> result(sites.size());
+  std::ranges::transform(sites, result.begin(), [&](const Point& p) {
+    // The coordinates are halved, so that a difference of huge coordinates is finite.
+    const Point half{p.x / 2 - center.x / 2, p.y / 2 - center.y / 2, p.z / 2 - center.z / 2};
+    return half == Point{} ? Point{} : normalized(half);
+  });
+  return result;
+}
+
+// Views the middle of the sites if they are on one side of the globe, so that their mean is far
+// from the center. Otherwise views the globe from a little north of the equator at the meridian of
+// Greenwich.
+View default_view(std::span<const Point> sites, double up_deg) {
+  Point sum{};
+  for (const Point& p : sites) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  const double length = std::hypot(sum.x, sum.y, sum.z);
+  if (length <= 0.5 * static_cast<double>(sites.size())) return View({0, 20}, up_deg);
+  const double degrees = 180 / std::numbers::pi;
+  return View(
+      {std::atan2(sum.y, sum.x) * degrees, std::atan2(sum.z, std::hypot(sum.x, sum.y)) * degrees},
+      up_deg);
+}
+
+// Returns the points in the view frame.
+std::vector<Point> turned(std::vector<Point> points, const View& view) {
+  std::ranges::transform(points, points.begin(), [&](const Point& p) { return view.turn(p); });
+  return points;
+}
+
+// Returns the arcs of the isolines as pairs of positions in lines.points.
+std::vector<ArcEnds> line_arcs(const Isolines& lines) {
+  std::vector<ArcEnds> arcs;
+  for (std::size_t line = 0; line < lines.num_lines(); ++line) {
+    const auto begin = static_cast<Index>(lines.line_offsets[line]);
+    const auto end = static_cast<Index>(lines.line_offsets[line + 1]);
+    for (Index i = begin; i + 1 < end; ++i) arcs.push_back({i, i + 1});
+    if (lines.is_closed[line] != 0) arcs.push_back({end - 1, begin});
+  }
+  return arcs;
+}
+
+// Returns the vertices: all sites except duplicates, hidden ones and one at the center of the
+// sphere, which a hull may have as a corner.
+std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Point> points) {
+  const std::vector<bool> is_vertex = are_vertices(triangulation);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool has_direction = points[i] != Point{};
+    if (is_vertex[i] && has_direction) points[count++] = points[i];
+  }
+  points.resize(count);
+  return points;
+}
+
+// Adds the field, its isolines and the scale of its colors.
+void add_values(Figure& figure, const PlotOptions& options, const Triangulation& triangulation,
+                std::span<const Point> directions, std::vector<double> values,
+                const Execution& execution) {
+  figure.scale = scale_of(values, options.values);
+  if (options.contours > 0) {
+    const auto levels = levels_at(options.contours, values, "--contours");
+    const Isolines lines = isolines(triangulation, values, levels, execution);
+    figure.isolines = {turned(lines.points, figure.view), line_arcs(lines)};
+  }
+  if (filling(options) == Fill::cells) {
+    figure.filled->values = std::move(values);
+  } else if (filling(options) == Fill::field) {
+    std::vector<Triple> faces;
+    for (Index f = 0; f < triangulation.num_faces(); ++f) {
+      const auto& [a, b, c] = triangulation.faces()[f];
+      const bool has_values =
+          !std::isnan(values[a]) && !std::isnan(values[b]) && !std::isnan(values[c]);
+      if (has_values && !triangulation.is_ghost(f)) faces.push_back(triangulation.faces()[f]);
+    }
+    figure.field = {{directions.begin(), directions.end()}, std::move(values), std::move(faces)};
+  }
+}
+
+// Computes the layers of a picture in the view frame.
+// \param values  a value for each site; empty without --values
+Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
+                   const SiteTable& table, std::vector<double> values, const Execution& execution) {
+  const Show show = shown(options);
+  Figure figure;
+  figure.style = options.style;
+  figure.style.show_sites = options.show_sites.value_or(options.values.empty());
+  std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
+  figure.view = options.view.empty() ? default_view(sites, options.up_deg)
+                                     : View({options.view[0], options.view[1]}, options.up_deg);
+  if (options.show_coast.value_or(table.is_lonlat())) {
+    const CoastLines coast = coast_lines();
+    figure.coast = seen(coast.positions, coast.offsets, figure.view);
+  }
+  if (options.show_circles) {
+    figure.circles = real_circles(table, triangulation, sites);
+    for (Circle& circle : figure.circles) circle.axis = figure.view.turn(circle.axis);
+  }
+  std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
+  sites = turned(std::move(sites), figure.view);
+  std::vector<Point> points = in_order_of_arcs(arcs, sites);
+  const std::vector<Point> in_view = options.values.empty() ? std::vector<Point>() : sites;
+  figure.sites = vertices(triangulation, std::move(sites));
+  figure.spacing = median_spacing(arcs, points);
+  const bool has_filled_cells = filling(options) == Fill::area || filling(options) == Fill::cells;
+  const bool has_cells = show == Show::voronoi || show == Show::both;
+  if (show == Show::delaunay || show == Show::both) {
+    figure.triangulation = {std::move(points), std::move(arcs)};
+  }
+  if (has_cells || has_filled_cells) {
+    auto [cells, cell_areas] = diagram(triangulation, execution);
+    cells.points = turned(std::move(cells.points), figure.view);
+    if (has_cells) {
+      figure.diagram.arcs = cell_arcs(cells);
+      figure.diagram.points = cells.points;
+    }
+    if (has_filled_cells) figure.filled = {std::move(cells), std::move(cell_areas), {}};
+  }
+  if (!options.values.empty()) {
+    add_values(figure, options, triangulation, in_view, std::move(values), execution);
+  }
+  return figure;
+}
+
+// Warns of a drawing of very many arcs, which programs take minutes to open. Pictures of pixels are
+// not affected.
+void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat format) {
+  const std::size_t arcs =
+      figure.triangulation.arcs.size() + figure.diagram.arcs.size() + figure.circles.size();
+  if (options.common.quiet || format == FigureFormat::png || arcs < 200'000) return;
+  if (is_dense(figure, format)) {
+    std::cerr << "rondel: " << options.common.output << " holds pixels, as " << arcs
+              << " arcs are closer together than these; --size N for more of them\n";
+    return;
+  }
+  std::cerr << "rondel: " << options.common.output << " holds up to " << arcs
+            << " arcs and will be large; a .png is small\n";
+}
+
+// Checks the options about the view and the circles before any file is read.
+void require_view(const PlotOptions& options) {
+  if (!options.view.empty() && std::abs(options.view[1]) > 90) {
+    throw UsageError("--view: the latitude is outside [-90, 90]");
+  }
+  if (options.show_circles && options.common.build.model != Model::weighted) {
+    throw UsageError("--circles: sites are circles with --radius or --model weighted");
+  }
+}
+
+// Checks the options about values: fields and isolines need a column, and the model projected.
+void require_values(const PlotOptions& options) {
+  const bool needs_values = filling(options) == Fill::cells || filling(options) == Fill::field;
+  if (options.values.empty() && needs_values) throw UsageError("--fill: --values names no column");
+  if (options.values.empty() && options.contours > 0) {
+    throw UsageError("--contours: --values names no column");
+  }
+  const bool is_page = options.common.format() == "html";
+  const bool is_field = filling(options) == Fill::field && !is_page;
+  const bool is_linear = is_field || options.contours > 0;
+  if (options.common.build.model == Model::weighted && is_linear) {
+    throw UsageError("--values: of weighted sites only --fill cells shows values");
+  }
+}
+
+ExitStatus run_plot(const PlotOptions& options) {
+  const bool is_page = options.common.format() == "html";
+  const auto format = figure_format(options.common.format());
+  require_output(options.common, is_page || format.has_value(), ".png .svg .pdf .html");
+  require_view(options);
+  require_values(options);
+  if (is_page) return run_page(options);
+  CommonOptions common = options.common;
+  common.read.keep_columns = !options.values.empty();
+  Job job(common);
+  std::vector<std::string> names;
+  if (!options.values.empty()) names.push_back(options.values);
+  const SiteTable table = job.read(common.source(), common.read, names);
+  const Triangulation triangulation = job.triangulate(table);
+  std::vector<double> values = values_of_figure(options, job, table, triangulation);
+  Figure figure;
+  job.time(Stage::dual, [&] {
+    figure = make_figure(options, triangulation, table, std::move(values), job.execution());
+  });
+  warn_of_size(options, figure, *format);
+  job.time(Stage::write, [&] {
+    write_file(options.common.output, draw(figure, *format, is_dense(figure, *format),
+                                           num_workers(options.common.threads)));
+  });
+  job.report(triangulation, "the figure");
+  return done;
+}
+
+}  // namespace
+
+Command add_plot_command(CLI::App& tool) {
+  const auto options = std::make_shared<PlotOptions>();
+  CLI::App* parser =
+      tool.add_subcommand("plot", "Draw the triangulation or the cells on the globe");
+  add_input_options(*parser, options->common);
+  add_output_option(*parser, options->common,
+                    "Where to write the figure, .png .svg .pdf, or a page with a globe to\nturn, "
+                    "zoom and point at, .html")
+      ->required();
+  add_plot_options(*parser, *options);
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "The globe is seen from far away (orthographic projection). Edges are arcs of great\n"
+      "circles; edges of ghost faces, which the center of the sphere does not see, are left\n"
+      "out. The same input gives the same bytes. 100,000 arcs and more that are closer\n"
+      "together than pixels are pixels in .svg and .pdf, too: --size says how many.\n\n"
+      "A page (.html) is one file for any browser, without a server or a network. It carries\n"
+      "all columns of INPUT, which are shown for the site that is picked and can be searched.\n"
+      "What is shown can be switched there; the options say how it begins.\n\n"
+      "Examples:\n"
+      "  rondel plot stations.csv -o stations.png --view -60 35\n"
+      "  rondel plot stations.csv -o cells.svg --show voronoi --fill area\n"
+      "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf\n"
+      "  rondel plot stations.csv --values temperature --contours 5 -o warm.png\n"
+      "  rondel plot stations.csv -o globe.html\n"
+      "  rondel plot cities.csv --values population -o cities.html\n"
+      "  rondel plot stations.csv --values temperature --contours 5 -o warm.html");
+  return {parser, [options, parser] {
+            for (const char* name : {"--back", "--size", "--line-width"}) {
+              if (parser->count(name) > 0) options->only_pictures = name;
+            }
+            if (options->show == Show::none) options->only_pictures = "--show none";
+            if (options->fill == Fill::field) options->only_pictures = "--fill field";
+            return run_plot(*options);
+          }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What `rondel voronoi` has of `rondel regions`: the same options, for the same results.
+///
+/// in    sites, or lines and polygons; polygons that clip; a column that groups
+/// out   features, each with the polygons of one cell, group or piece
+/// index rows of INPUT: sites or features
+#pragma once
+
+#include "region_features.h"
+
+namespace rondel::cli {
+
+/// Adds the options that say how cells are clipped and joined, with those of add_build_options().
+/// \pre this comes between add_input_options() and add_report_options()
+void add_region_options(CLI::App& parser, RegionsOptions& options);
+
+/// True if one of the options asks for clipped or joined cells, or for their areas in another unit.
+bool makes_regions(const RegionsOptions& options);
+
+/// Makes and writes the regions, and reports. \throws UsageError, FileError
+ExitStatus write_regions_of(const RegionsOptions& options);
+
+}  // namespace rondel::cli

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Interpolation of one field after another.
+///
+/// in    values at sites; NaN where there is none
+/// out   values at targets
+/// index sites and targets in the order of their files
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "job.h"
+#include "rondel/interpolate.h"
+#include "targets.h"
+
+namespace rondel::cli {
+
+/// The numbers of the report.
+struct InterpolateCounts {
+  std::size_t sites = 0;
+  std::size_t targets = 0;
+  std::size_t duplicates = 0;  ///< sites in the place of another one
+  std::size_t left_out = 0;    ///< values of sites that are not there
+  std::size_t missing = 0;     ///< values of targets, or rows, that are not there
+};
+
+/// Triangulates the sites and counts their duplicates. \throws FileError for two sites in one
+/// place, if the options say so
+Triangulation triangulated(Job& job, const InterpolationOptions& options, const SiteTable& table,
+                           InterpolateCounts& counts);
+
+/// Interpolates fields at the targets. Methods of regridding have weights. All fields without gaps
+/// share one triangulation; successive fields with the same gaps share another one.
+class FieldCarrier {
+ public:
+  /// \param weights  those of a method of regridding
+  FieldCarrier(Job& job, const InterpolationOptions& options, const SiteTable& table,
+               const Targets& targets, const std::optional<Weights>& weights,
+               InterpolateCounts& counts)
+      : job_(job),
+        options_(options),
+        table_(table),
+        targets_(targets),
+        weights_(weights),
+        counts_(counts) {}
+
+  /// Returns the values at the targets.
+  std::vector<double> carry(std::vector<double> values);
+
+ private:
+  std::vector<double> interpolated(std::vector<double> values);
+
+  Job& job_;
+  const InterpolationOptions& options_;
+  const SiteTable& table_;
+  const Targets& targets_;
+  const std::optional<Weights>& weights_;  // of a method of regridding
+  InterpolateCounts& counts_;
+  std::optional<Interpolator> whole_;
+  std::optional<Interpolator> partial_;
+  SiteTable kept_;  // the sites of `partial_`
+  std::vector<bool> is_known_;
+};
+
+}  // namespace rondel::cli

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// GDAL, which is loaded when a file is to be written that only GDAL can write; Rondel is built and
+// runs without it. The members are functions of its C interface, whose binary form is the same
+// since GDAL 3.0.
+//
+// in    a library on this machine
+// out   pointers to its functions
+#pragma once
+
+#include <string>
+
+namespace rondel::formats {
+
+// GDAL's opaque handles; its documentation says which function takes which handle.
+using GdalHandle = void*;
+
+// The functions of GDAL that are called. Prefixes of GDAL's names: GDAL (datasets and drivers),
+// OSR (spatial references), OGR (layers L, fields Fld, features F, geometries G), CPL (errors and
+// settings), VSI (files, here in memory); load() in gdal.cpp says which member has which name.
+struct Gdal {
+  void (*all_register)();
+  const char* (*version_info)(const char*);
+  void (*push_error_handler)(void*);
+  void (*pop_error_handler)();
+  void* quiet_error_handler;
+  const char* (*last_error)();
+  void (*set_config_option)(const char*, const char*);
+  GdalHandle (*driver_by_name)(const char*);
+  GdalHandle (*create)(GdalHandle, const char*, int, int, int, int, char**);
+  int (*start_transaction)(GdalHandle, int);
+  int (*commit_transaction)(GdalHandle);
+  void (*close)(GdalHandle);
+  GdalHandle (*new_reference)(const char*);
+  int (*set_well_known_reference)(GdalHandle, const char*);
+  void (*set_axis_mapping)(GdalHandle, int);
+  void (*destroy_reference)(GdalHandle);
+  GdalHandle (*create_layer)(GdalHandle, const char*, GdalHandle, int, char**);
+  GdalHandle (*create_field)(const char*, int);
+  int (*add_field)(GdalHandle, GdalHandle, int);
+  void (*destroy_field)(GdalHandle);
+  GdalHandle (*definition)(GdalHandle);
+  GdalHandle (*create_feature)(GdalHandle);
+  void (*set_integer)(GdalHandle, int, long long);
+  void (*set_double)(GdalHandle, int, double);
+  void (*set_text)(GdalHandle, int, const char*);
+  int (*geometry_of_wkb)(const void*, GdalHandle, GdalHandle*, int);
+  int (*give_geometry)(GdalHandle, GdalHandle);
+  int (*add_feature)(GdalHandle, GdalHandle);
+  void (*destroy_feature)(GdalHandle);
+  unsigned char* (*take_bytes)(const char*, unsigned long long*, int);
+  void (*free_bytes)(void*);
+};
+
+// Returns the library that the environment variable RONDEL_GDAL names, or else the newest that the
+// system finds, with its drivers registered. Throws FileError, which begins with `path`, if there
+// is no GDAL.
+const Gdal& load_gdal(const std::string& path);
+
+// While this object exists, GDAL does not print the errors of this thread; last_error() returns
+// them.
+class QuietGdal {
+ public:
+  explicit QuietGdal(const Gdal& gdal) : gdal_(gdal) {
+    gdal_.push_error_handler(gdal_.quiet_error_handler);
+  }
+  ~QuietGdal() { gdal_.pop_error_handler(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+
+ private:
+  const Gdal& gdal_;
+};
+
+}  // namespace rondel::formats

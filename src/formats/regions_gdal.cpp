@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Writes regions by GDAL, first into its memory, so that the file appears whole or not at all.
+#include "formats/regions_gdal.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "formats/gdal.h"
+#include "io/ending.h"
+#include "rondel/error.h"
+#include "system/mutex.h"
+
+namespace rondel::formats {
+namespace {
+
+// A format with the ending of its files and the name of GDAL's driver.
+struct GdalFormat {
+  std::string_view ending;
+  const char* driver;
+};
+constexpr std::array<GdalFormat, 3> gdal_formats = {
+    {{".gpkg", "GPKG"}, {".fgb", "FlatGeobuf"}, {".parquet", "Parquet"}}};
+
+// Values of GDAL's enumerations.
+constexpr int type_multi_polygon = 6, type_polygon = 3;
+constexpr int field_real = 2, field_text = 4, field_integer = 12;
+constexpr int traditional_axes = 0;  // longitude first
+
+// Returns the format of a file; null if GDAL is not needed for it.
+const GdalFormat* gdal_format(const FileName& file) {
+  return io::find_format<GdalFormat>(gdal_formats, file);
+}
+
+// Files in GDAL's memory have one name in the process.
+system::Mutex& gdal_lock() {
+  static system::Mutex lock;
+  return lock;
+}
+
+// Writes well-known binary (WKB), in the byte order of this machine.
+class WkbWriter {
+ public:
+  // Begins a geometry: the order of its bytes and its type.
+  void begin(int type) {
+    const unsigned char order = std::endian::native == std::endian::little ? 1 : 0;
+    append(&order, 1);
+    add_number(static_cast<std::uint32_t>(type));
+  }
+  void add_number(std::uint32_t number) { append(&number, sizeof number); }
+  void add_position(const LonLat& position) {
+    append(&position.lon_deg, sizeof(double));
+    append(&position.lat_deg, sizeof(double));
+  }
+  [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    const auto* const first = static_cast<const unsigned char*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+
+  std::vector<unsigned char> bytes_;
+};
+
+// Returns the polygons [first, past) as one MultiPolygon.
+std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t first,
+                                  std::size_t past) {
+  WkbWriter wkb;
+  wkb.begin(type_multi_polygon);
+  wkb.add_number(static_cast<std::uint32_t>(past - first));
+  for (std::size_t p = first; p < past; ++p) {
+    wkb.begin(type_polygon);
+    wkb.add_number(static_cast<std::uint32_t>(regions.polygons[p + 1] - regions.polygons[p]));
+    for (std::uint64_t r = regions.polygons[p]; r < regions.polygons[p + 1]; ++r) {
+      wkb.add_number(static_cast<std::uint32_t>(regions.rings[r + 1] - regions.rings[r]));
+      for (std::uint64_t k = regions.rings[r]; k < regions.rings[r + 1]; ++k) {
+        wkb.add_position(regions.positions[k]);
+      }
+    }
+  }
+  return wkb.bytes();
+}
+
+// Returns the number if the whole text is one.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+// A column of numbers has integers of 64 bits if all of them are such, texts if doubles would round
+// others, and else doubles.
+int field_type(const Column& column) {
+  if (!column.is_numeric) return field_text;
+  for (std::size_t row = 0; row < column.ends.size(); ++row) {
+    const std::string_view text = column.cell(row);
+    if (text.empty() || number_in<std::int64_t>(text)) continue;
+    return column.has_wide_integers() ? field_text : field_real;
+  }
+  return field_integer;
+}
+
+// The names of the fields. GeoPackage takes upper and lower case for one, and has columns of its
+// own.
+std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
+  const bool is_sqlite = format.ending == ".gpkg";
+  std::set<std::string> taken = {"area"};
+  if (is_sqlite) taken.insert({"fid", "geom"});
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
+  return free_names(std::move(names), std::move(taken), is_sqlite);
+}
+
+// A dataset in GDAL's memory. What fails is told with the path of the file that it becomes.
+class GdalFile {
+ public:
+  GdalFile(const std::string& path, const GdalFormat& format)
+      : gdal_(load_gdal(path)),
+        quiet_(gdal_),
+        path_(path),
+        name_("/vsimem/rondel" + std::string(format.ending)) {
+    // Files have equal bytes in every run.
+    gdal_.set_config_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
+    dataset_ = gdal_.create(driver(path, format), name_.c_str(), 0, 0, 0, 0, nullptr);
+    require(dataset_ != nullptr);
+  }
+  ~GdalFile() {
+    if (dataset_ != nullptr) gdal_.close(dataset_);
+    gdal_.free_bytes(gdal_.take_bytes(name_.c_str(), nullptr, 1));
+    gdal_.set_config_option("OGR_CURRENT_DATE", nullptr);
+  }
+  GdalFile(const GdalFile&) = delete;
+  GdalFile& operator=(const GdalFile&) = delete;
+
+  // Returns GDAL's driver. \throws FileError if GDAL was built without it
+  static GdalHandle driver(const std::string& path, const GdalFormat& format) {
+    const Gdal& gdal = load_gdal(path);
+    if (GdalHandle const found = gdal.driver_by_name(format.driver)) return found;
+    throw FileError(path + ": GDAL " + gdal.version_info("RELEASE_NAME") + " has no driver '" +
+                    format.driver +
+                    "'; in Python, Regions.to_geopandas().to_parquet() writes such files");
+  }
+
+  // Makes the table: its name, the coordinate system and the fields. Field 0 is the area, and field
+  // k + 1 is column k.
+  void make_layer(const std::string& layer_name, std::span<const Column> columns,
+                  std::span<const std::string> names) {
+    GdalHandle const reference = gdal_.new_reference(nullptr);
+    gdal_.set_well_known_reference(reference, "WGS84");
+    gdal_.set_axis_mapping(reference, traditional_axes);
+    layer_ =
+        gdal_.create_layer(dataset_, layer_name.c_str(), reference, type_multi_polygon, nullptr);
+    gdal_.destroy_reference(reference);
+    require(layer_ != nullptr);
+    add_field("area", field_real);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      types_.push_back(field_type(columns[k]));
+      add_field(names[k].c_str(), types_.back());
+    }
+    gdal_.start_transaction(dataset_, 0);  // faster, in formats that have transactions
+  }
+
+  // Adds a feature. A cell of a column that is empty stays NULL, unless it is an empty text of
+  // GeoJSON.
+  void add(std::size_t row, double area, std::span<const Column> columns,
+           const std::vector<unsigned char>& wkb) {
+    GdalHandle geometry = nullptr;
+    require(gdal_.geometry_of_wkb(wkb.data(), nullptr, &geometry, static_cast<int>(wkb.size())) ==
+            0);
+    GdalHandle const feature = gdal_.create_feature(gdal_.definition(layer_));
+    gdal_.give_geometry(feature, geometry);
+    gdal_.set_double(feature, 0, area);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const bool is_text = !columns[k].is_json.empty() && !columns[k].is_json[row];
+      if (is_text || !columns[k].cell(row).empty()) set(feature, k, columns[k].cell(row));
+    }
+    const int error = gdal_.add_feature(layer_, feature);
+    gdal_.destroy_feature(feature);
+    require(error == 0);
+  }
+
+  // Closes the dataset, which completes its bytes, and returns them.
+  std::string finish() {
+    gdal_.commit_transaction(dataset_);
+    gdal_.close(std::exchange(dataset_, nullptr));
+    unsigned long long size = 0;
+    const unsigned char* const bytes = gdal_.take_bytes(name_.c_str(), &size, 0);
+    require(bytes != nullptr);
+    return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)};
+  }
+
+ private:
+  // Throws GDAL's last message unless a call was successful.
+  void require(bool is_done) const {
+    if (!is_done) throw FileError(path_ + ": GDAL: " + gdal_.last_error());
+  }
+
+  void add_field(const char* field_name, int type) {
+    GdalHandle const field = gdal_.create_field(field_name, type);
+    const int error = gdal_.add_field(layer_, field, 1);
+    gdal_.destroy_field(field);
+    require(error == 0);
+  }
+
+  // Sets column k of a feature from its text.
+  void set(GdalHandle feature, std::size_t k, std::string_view text) const {
+    const int field = static_cast<int>(k) + 1;
+    if (types_[k] == field_integer) {
+      gdal_.set_integer(feature, field, number_in<std::int64_t>(text).value_or(0));
+    } else if (types_[k] == field_real) {
+      gdal_.set_double(feature, field, number_in<double>(text).value_or(std::nan("")));
+    } else {
+      gdal_.set_text(feature, field, std::string(text).c_str());
+    }
+  }
+
+  const Gdal& gdal_;
+  QuietGdal quiet_;
+  std::string path_;
+  std::string name_;
+  GdalHandle dataset_ = nullptr;
+  GdalHandle layer_ = nullptr;
+  std::vector<int> types_;
+};
+
+}  // namespace
+
+bool is_format_of_gdal(const FileName& file) { return gdal_format(file) != nullptr; }
+
+void write_regions_gdal(const FileName& file, const LonLatRegions& regions,
+                        std::span<const double> areas, std::span<const Column> columns) {
+  const std::lock_guard lock(gdal_lock());
+  const GdalFormat& format = *gdal_format(file);
+  GdalFile made(file.path, format);
+  const std::string stem = std::filesystem::path(file.path).stem().string();
+  made.make_layer(file.path == "-" ? "cells" : stem, columns, field_names(columns, format));
+  // Polygons of one cell follow each other; they are one feature.
+  for (std::size_t p = 0; p < regions.owners.size();) {
+    const std::size_t first = p;
+    const Index owner = regions.owners[p];
+    while (p < regions.owners.size() && regions.owners[p] == owner) ++p;
+    made.add(owner, areas[owner], columns, wkb_of(regions, first, p));
+  }
+  write_file(file.path, made.finish());
+}
+
+}  // namespace rondel::formats
+
+namespace rondel {
+
+void require_region_writer(const FileName& file) {
+  if (const formats::GdalFormat* const format = formats::gdal_format(file)) {
+    (void)formats::GdalFile::driver(file.path, *format);
+  }
+}
+
+}  // namespace rondel
