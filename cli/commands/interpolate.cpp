@@ -265,6 +265,16 @@ void add_methods(CLI::App& parser, InterpolateOptions& options) {
   }
 }
 
+// Returns the outputs that are netCDF: values, weights.
+std::vector<FileName> netcdf_outputs(const InterpolateOptions& options) {
+  std::vector<FileName> written = if_of_format(options.common.target(), {"nc", "nc4"});
+  for (FileName& file :
+       if_of_format({options.weights, options.weight_format}, {"nc", "nc4", "esmf", "scrip"})) {
+    written.push_back(std::move(file));
+  }
+  return written;
+}
+
 // Adds the file for the weights themselves, which may be written beside the values or instead.
 void add_weight_options(CLI::App& parser, InterpolateOptions& options) {
   parser
@@ -310,14 +320,8 @@ Command add_interpolate_command(CLI::App& tool) {
   require_effect(
       options->common, parser->get_option("--format"),
       [given = options.get()] { return !given->common.output.empty(); }, "without --output");
-  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
-    std::vector<FileName> written = if_of_format(given->common.target(), {"nc", "nc4"});
-    for (FileName& file :
-         if_of_format({given->weights, given->weight_format}, {"nc", "nc4", "esmf", "scrip"})) {
-      written.push_back(std::move(file));
-    }
-    return written;
-  });
+  add_netcdf_options(*parser, options->common, options->netcdf,
+                     [given = options.get()] { return netcdf_outputs(*given); });
   add_methods(*parser, *options);
   add_build_options(*parser, options->common);
   for (const char* const name : {"--model", "--center"}) {

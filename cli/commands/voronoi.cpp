@@ -71,13 +71,12 @@ Command add_voronoi_command(CLI::App& tool) {
   add_region_options(*parser, *options);
   for (const char* const name :
        {"--clip", "--clip-value", "--edges", "--overlap", "--group", "--densify"}) {
-    parser->get_option(name)->group("");  // in the help of `rondel regions`
+    parser->get_option(name)->group("Clipped and joined cells, as 'rondel regions' makes them");
   }
   add_report_options(*parser, options->common);
   parser->footer(
       "Areas are in steradians; --earth-radius adds square kilometres. Hidden sites, which\n"
-      "only circles and other weighted sites may be, have no cell. The options of 'rondel\n"
-      "regions', which clips and joins cells, are taken here, too.\n\n"
+      "only circles and other weighted sites may be, have no cell.\n\n"
       "GeoPackage, FlatGeobuf and GeoParquet are written by GDAL (libgdal 3.0 or newer), which\n"
       "is looked for where the system has its libraries, or where RONDEL_GDAL says.\n\n"
       "Examples:\n"
