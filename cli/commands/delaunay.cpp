@@ -153,7 +153,7 @@ void add_arrays(CLI::App& command, DelaunayOptions& options) {
 }
 
 // Adds the options for sites that do not fit into memory. They go to another program path
-// (out_of_core.cpp), which has no circumcenters.
+// (run_out_of_core), which has no circumcenters.
 void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
   const char* const group = "More sites than fit into memory: .npy to .npy";
   CLI::Option* scratch =
