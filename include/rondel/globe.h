@@ -77,7 +77,7 @@ RONDEL_API std::string globe_page(const SiteTable& table, const Triangulation& t
 
 /// Writes globe_page() to a file, completely or not at all; "-" is standard output. \throws
 /// FileError also.
-RONDEL_API void write_globe(const std::string& path, const SiteTable& table,
+RONDEL_API void write_globe(const FileName& file, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
                             const GlobeOptions& options = {}, const Execution& execution = {});
 

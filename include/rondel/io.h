@@ -26,7 +26,8 @@
 
 namespace rondel {
 
-/// The name of a file, and its format.
+/// The name of a file, and its format; or a string in place of a file, which every function that
+/// takes a FileName reads or writes.
 struct FileName {
   FileName(std::string name, std::string format_name = "")
       : path(std::move(name)), format(std::move(format_name)) {}
@@ -35,8 +36,17 @@ struct FileName {
   FileName(const std::filesystem::path& name, std::string format_name = "")
       : path(name.string()), format(std::move(format_name)) {}
 
-  std::string path;    ///< "-" is standard input or output
-  std::string format;  ///< "ply", "npy" ...; if empty, the ending of the path decides
+  /// Returns a string as a file. Readers copy it; writers give it the bytes of the file when these
+  /// are complete, and leave it as it is if they fail.
+  /// \param content  it must live as long as the result is used
+  /// \param format_name  as `format`
+  /// \param name  stands for the file in messages
+  RONDEL_API static FileName in_memory(std::string& content, std::string format_name,
+                                       std::string name = "<memory>");
+
+  std::string path;              ///< "-" is standard input or output
+  std::string format;            ///< "ply", "npy" ...; if empty, the ending of the path decides
+  std::string* bytes = nullptr;  ///< the string that is read or written; null for a file
 };
 
 /// Returns the format of a file in lower case, "ply": the one that is named, or the ending of the
@@ -194,15 +204,15 @@ RONDEL_API void write_sites(const FileName& file, std::span<const Point> sites,
                             const Execution& execution = {});
 
 /// Writes indices as .npy (uint32). \param shape its product is the number of values
-RONDEL_API void write_indices(const std::string& path, std::span<const Index> values,
+RONDEL_API void write_indices(const FileName& file, std::span<const Index> values,
                               std::span<const std::uint64_t> shape);
 
 /// Writes numbers as .npy (float64). \param shape its product is the number of values; empty: (n,)
-RONDEL_API void write_numbers(const std::string& path, std::span<const double> values,
+RONDEL_API void write_numbers(const FileName& file, std::span<const double> values,
                               std::span<const std::uint64_t> shape = {});
 
 /// Writes bytes to a file, completely or not at all.
-RONDEL_API void write_file(const std::string& path, std::string_view bytes);
+RONDEL_API void write_file(const FileName& file, std::string_view bytes);
 
 /// Removes the temporary files of all outputs in progress. Handlers of signals that end the program
 /// call it: it may be called at any moment, and what is being written is lost.

@@ -211,7 +211,7 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
 CellTable read_cells(const FileName& file) {
   const system::ArithmeticScope arithmetic;
   const std::pair<FileName, std::string> part = io::split_part(file);
-  io::FileBytes bytes(part.first.path, true);
+  io::FileBytes bytes(part.first, true);
   if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(part.first)) {
     io::throw_unknown_ending(part.first,
                              "cells of models are read from netCDF:", io::netcdf_endings);

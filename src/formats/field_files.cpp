@@ -58,7 +58,7 @@ std::size_t FieldArray::num_fields() const {
 }
 
 struct FieldFile::OpenFields {
-  explicit OpenFields(const std::string& path) : bytes(path) {}
+  explicit OpenFields(const FileName& file) : bytes(file) {}
 
   io::FileBytes bytes;
   std::optional<io::NetcdfReader> netcdf;
@@ -71,7 +71,7 @@ struct FieldFile::OpenFields {
 FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
                      std::uint64_t num_points, const ReadOptions& options,
                      std::span<const std::uint64_t> shape, const WantedPlaces& places)
-    : content_(std::make_unique<OpenFields>(file.path)) {
+    : content_(std::make_unique<OpenFields>(file)) {
   OpenFields& content = *content_;
   const formats::FieldsToRead wanted{names, num_points, options, shape, places};
   if (is_netcdf_file(file, content.bytes)) {
@@ -125,7 +125,7 @@ bool can_write_fields(const FileName& file) {
 }
 
 struct FieldWriter::BegunFields {
-  explicit BegunFields(const std::string& path) : file(path) {}
+  explicit BegunFields(const FileName& name) : file(name) {}
 
   io::AtomicFile file;
   std::unique_ptr<formats::FieldSink> sink;
@@ -144,7 +144,7 @@ FieldWriter::FieldWriter(const FileName& file, const FieldSet& fields, const Wei
   }
   const FieldBeginning& writer =
       io::require_format<FieldBeginning>(field_writers, file, "fields are written as");
-  output_ = std::make_unique<BegunFields>(file.path);
+  output_ = std::make_unique<BegunFields>(file);
   output_->sink = io::in_file(file.path, [&] {
     return writer.begin(output_->file, {fields, points, io::with_kind(netcdf, file)});
   });

@@ -428,7 +428,7 @@ class MpasReader {
 
 MeshArrays read_mpas(const FileName& file, const Execution& execution) {
   const system::Call call(execution);
-  io::FileBytes bytes(file.path, true);
+  io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(),
                      [&] { return formats::read_mpas_arrays(io::NetcdfReader(bytes), execution); });
 }

@@ -45,7 +45,7 @@ struct NamedVariable {
 // Returns the variable of the first name, or an empty name if there are no names.
 NamedVariable named_variable(const FileName& file, std::span<const std::string> names) {
   if (names.empty()) return {};
-  io::FileBytes bytes(file.path, true);
+  io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(), [&]() -> NamedVariable {
     const io::NetcdfReader reader(bytes);
     const std::string wanted = io::full_name(reader.variables(), names.front());
@@ -58,7 +58,7 @@ NamedVariable named_variable(const FileName& file, std::span<const std::string> 
 // with centers.
 std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::string& variable) {
   try {
-    io::FileBytes bytes(file.path, true);
+    io::FileBytes bytes(file, true);
     CellTable table = io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
       return formats::cells_in(reader, bytes.name(), variable);

@@ -199,7 +199,7 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
   CellTable table;
   std::string remark;
   {
-    io::FileBytes bytes(file.path, true);
+    io::FileBytes bytes(file, true);
     if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
       io::throw_unknown_ending(file, "meshes are read from netCDF:", io::netcdf_endings);
     }

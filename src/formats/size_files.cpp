@@ -77,7 +77,7 @@ struct NetcdfFields {
 
 // Finds the fields of that name, or all fields without one.
 NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
-  io::FileBytes bytes(file.path, true);
+  io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
     NetcdfFields found;

@@ -82,7 +82,7 @@ WeightFile read_weights(const FileName& file) {
   if (!is_known && !file.format.empty()) {
     io::throw_unknown_ending(file, "weights are read from", weight_endings);
   }
-  io::FileBytes bytes(file.path, true);
+  io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(), [&] {
     if (io::is_netcdf(bytes.head())) {
       return formats::read_weights_netcdf(io::NetcdfReader(bytes));

@@ -26,9 +26,10 @@ std::string temporary_name(const std::string& directory) {
          std::to_string(counter.fetch_add(1)) + ".tmp";
 }
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+AtomicFile::AtomicFile(const FileName& file) : path_(file.path), string_(file.bytes) {
+  if (string_ != nullptr) return;
   buffer_.reserve(buffer_size);
-  if (path == "-") {
+  if (path_ == "-") {
     path_ = "<stdout>";
     descriptor_ = system::standard_output;
     system::keep_bytes(descriptor_);
@@ -40,6 +41,10 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::write(std::string_view bytes) {
+  if (string_ != nullptr) {
+    buffer_ += bytes;
+    return;
+  }
   if (buffer_.size() + bytes.size() > buffer_size) flush();
   if (bytes.size() >= buffer_size) {
     drain(bytes);
@@ -75,6 +80,10 @@ void AtomicFile::expect(std::uint64_t size) {
 }
 
 void AtomicFile::commit() {
+  if (string_ != nullptr) {
+    string_->swap(buffer_);
+    return;
+  }
   flush();
   if (is_reserved_ && system::resize(descriptor_, num_drained_) != 0) fail(errno);
   rename();

@@ -5,7 +5,7 @@
 // name in the same directory, and renamed at the end.
 //
 // in    a path, and the bytes of the file from front to back
-// out   a file
+// out   a file, or a string in memory
 //
 // Writers that know the size of their file reserve it first: a full disk is then noticed before the
 // work, not after it.
@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "rondel/export.h"
+#include "rondel/io.h"
 
 namespace rondel::io {
 
@@ -38,12 +39,14 @@ RONDEL_API std::string temporary_name(const std::string& directory);
 //    those permissions; where the group cannot be kept, its rights are those of others. A file that
 //    this process may not write is refused.
 //
+// A string in memory gets all bytes at once, by commit().
+//
 // On Windows paths are UTF-8, a symbolic link is replaced itself, a temporary file is deleted by
 // the system if its process ends before the renaming, and the permissions of every file are those
 // that its directory gives to new files.
 class RONDEL_API AtomicFile {
  public:
-  explicit AtomicFile(const std::string& path);
+  explicit AtomicFile(const FileName& file);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -97,7 +100,8 @@ class RONDEL_API AtomicFile {
   void make_temporary(const std::function<bool(const std::string&)>& make);
 
   std::string path_;
-  std::string target_;  // path_ with symbolic links resolved
+  std::string* string_;  // null for a file; otherwise all bytes are kept in the buffer
+  std::string target_;   // path_ with symbolic links resolved
   std::string directory_;
   std::string temporary_;  // empty when the target is written directly or has no name yet
   bool is_nameless_ = false;

@@ -3,9 +3,20 @@
 #include "io/ending.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "rondel/error.h"
 #include "system/enum_names.h"
+
+namespace rondel {
+
+FileName FileName::in_memory(std::string& content, std::string format_name, std::string name) {
+  FileName file(std::move(name), std::move(format_name));
+  file.bytes = &content;
+  return file;
+}
+
+}  // namespace rondel
 
 namespace rondel::io {
 

@@ -71,7 +71,7 @@ template <typename Job>
 void write_whole(std::span<const Writer<Job>> writers, const FileName& output,
                  std::string_view what, const Job& job) {
   const Writer<Job>& writer = require_format(writers, output, what);
-  AtomicFile file(output.path);
+  AtomicFile file(output);
   writer.write(file, job);
   file.commit();
 }

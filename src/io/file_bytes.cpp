@@ -33,20 +33,32 @@ bool had_standard_input(bool has_bytes) {
 
 }  // namespace
 
-FileBytes::FileBytes(const std::string& path, bool may_be_zip)
-    : name_(path == "-" ? "<stdin>" : path),
-      descriptor_(path == "-" ? system::standard_input : system::open_to_read(path)) {
-  if (descriptor_.value < 0) fail(errno);
-  if (path == "-") system::keep_bytes(descriptor_.value);
-  claimed_size_ = system::size_of(descriptor_.value);
-  bytes_ = system::make_large_array<char>(head_size);
-  read_up_to(head_size);
-  if (path == "-" && had_standard_input(num_read_ > 0) && num_read_ == 0) {
-    throw FileError(name_ + ": standard input can be read once, and has been read before");
+FileBytes::FileBytes(const FileName& file, bool may_be_zip) : name_(file.path), descriptor_(-1) {
+  if (file.bytes == nullptr) {
+    open(file.path);
+  } else {
+    claimed_size_ = num_read_ = file.bytes->size();
+    is_at_end_ = true;
+    bytes_ = system::make_large_array<char>(num_read_);
+    std::ranges::copy(*file.bytes, bytes_.get());
   }
   for (const auto& [magic, format] : compressed) {
     if (!head().starts_with(magic) || (may_be_zip && format == std::string_view("zip"))) continue;
     throw FileError(name_ + ": compressed (" + format + "); unpack it first");
+  }
+}
+
+void FileBytes::open(const std::string& path) {
+  const bool is_input = path == "-";
+  if (is_input) name_ = "<stdin>";
+  descriptor_.value = is_input ? system::standard_input : system::open_to_read(path);
+  if (descriptor_.value < 0) fail(errno);
+  if (is_input) system::keep_bytes(descriptor_.value);
+  claimed_size_ = system::size_of(descriptor_.value);
+  bytes_ = system::make_large_array<char>(head_size);
+  read_up_to(head_size);
+  if (is_input && had_standard_input(num_read_ > 0) && num_read_ == 0) {
+    throw FileError(name_ + ": standard input can be read once, and has been read before");
   }
 }
 
@@ -77,6 +89,11 @@ void FileBytes::grow(std::size_t capacity) {
 }
 
 void FileBytes::read_at(std::uint64_t place, char* bytes, std::size_t size) const {
+  if (descriptor_.value < 0) {
+    if (place + size > num_read_) throw FileError(name_ + ": shorter than it says");
+    std::copy_n(bytes_.get() + place, size, bytes);
+    return;
+  }
   while (size > 0) {
     const std::ptrdiff_t count = system::read_at(descriptor_.value, place, bytes, size);
     if (count < 0) fail(errno);

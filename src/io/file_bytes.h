@@ -3,7 +3,7 @@
 
 // The whole content of a file for reading.
 //
-// in    a path, or "-" for standard input
+// in    a path, "-" for standard input, or a string in memory
 // out   bytes
 #pragma once
 
@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "rondel/io.h"
 #include "system/huge_pages.h"
 
 namespace rondel::io {
@@ -22,7 +23,7 @@ class FileBytes {
  public:
   // Opens the file and reads its head. "-" is standard input. Throws FileError:
   // "stations.csv: No such file or directory", "stations.csv: compressed (gzip); unpack it first".
-  explicit FileBytes(const std::string& path, bool may_be_zip = false);
+  explicit FileBytes(const FileName& file, bool may_be_zip = false);
 
   // Returns the name of the file for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -54,6 +55,8 @@ class FileBytes {
   // Makes room for `capacity` bytes and reads them.
   void grow(std::size_t capacity);
   void read_up_to(std::size_t size);
+  // Opens what the path names and reads its head.
+  void open(const std::string& path);
   [[noreturn]] void fail(int error) const;
 
   std::string name_;

@@ -138,7 +138,7 @@ class PolygonReader {
 }  // namespace
 
 map::PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds) {
-  FileBytes bytes(file.path);
+  FileBytes bytes(file);
   map::PolygonFeatures features;
   features.name = bytes.name();
   (void)require_format<PolygonFormat>(polygon_formats, file, "polygons are read from");

@@ -117,7 +117,7 @@ bool is_netcdf_file(const FileName& file) {
   std::error_code error;
   if (file.format.empty() && std::filesystem::is_regular_file(file.path, error)) {
     try {
-      const io::FileBytes bytes(file.path, true);
+      const io::FileBytes bytes(file, true);
       if (io::is_netcdf(bytes.head())) return true;
     } catch (const FileError&) {
       // The reader will report the error.

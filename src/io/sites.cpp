@@ -88,7 +88,7 @@ SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
 
 SiteTable read_sites(const FileName& file, const ReadOptions& options, const Execution& execution) {
   const system::Call call(execution);
-  io::FileBytes bytes(file.path);
+  io::FileBytes bytes(file);
   SiteTable table;
   table.name = bytes.name();
   const bool is_csv = file.path == "-" && file.format.empty();
@@ -116,8 +116,8 @@ void write_sites(const FileName& output, std::span<const Point> sites,
                                     {sites, positions, radii_deg, execution});
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
-  io::AtomicFile file(path);
+void write_file(const FileName& name, std::string_view bytes) {
+  io::AtomicFile file(name);
   file.write(bytes);
   file.commit();
 }

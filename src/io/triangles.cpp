@@ -58,7 +58,7 @@ void io::MeshToWrite::write_faces(
 
 std::vector<Triple> read_triangles(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  io::FileBytes bytes(file.path);
+  io::FileBytes bytes(file);
   const TriangleReader& reader =
       io::require_format<TriangleReader>(triangle_readers, file, "triangles are read from");
   if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");

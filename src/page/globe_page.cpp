@@ -200,10 +200,9 @@ std::string globe_page(const SiteTable& table, const Triangulation& triangulatio
                                         {"@VERSION@", version}});
 }
 
-void write_globe(const std::string& path, const SiteTable& table,
-                 const Triangulation& triangulation, const Diagram& diagram,
-                 const GlobeOptions& options, const Execution& execution) {
-  write_file(path, globe_page(table, triangulation, diagram, options, execution));
+void write_globe(const FileName& file, const SiteTable& table, const Triangulation& triangulation,
+                 const Diagram& diagram, const GlobeOptions& options, const Execution& execution) {
+  write_file(file, globe_page(table, triangulation, diagram, options, execution));
 }
 
 }  // namespace rondel

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "file_name.h"
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
@@ -40,10 +41,9 @@ std::optional<LinesOut> lines_out(const CellSet& cells) {
                   to_array<double>(std::move(lines.lat_deg)), std::string(name_of(sides))};
 }
 
-// Reads the cells of a file; polygons whose group is below 0 are left out.
-CellSet read_cell_set(const std::string& path, nb::handle sides, nb::handle edges,
-                      nb::handle overlap, const std::optional<IndicesIn>& groups,
-                      unsigned threads) {
+// Reads the cells of a file, or of bytes of GeoJSON; polygons whose group is below 0 are left out.
+CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb::handle overlap,
+                      const std::optional<IndicesIn>& groups, unsigned threads) {
   CellFileOptions options{.sides = named<GridSides>("sides", sides),
                           .edges = named<PolygonEdges>("edges", edges),
                           .overlap = named<PolygonOverlap>("overlap", overlap)};
@@ -52,7 +52,9 @@ CellSet read_cell_set(const std::string& path, nb::handle sides, nb::handle edge
       return feature >= taken.size() || taken[feature] >= 0;
     };
   }
-  return unlocked([&] { return CellSet::read(path, options, {.threads = threads}); });
+  return read_from(path, [&](const FileName& file) {
+    return unlocked([&] { return CellSet::read(file, options, {.threads = threads}); });
+  });
 }
 
 // Returns the cells; the number of centers outside of them, of how many, and the first one; and

@@ -4,9 +4,9 @@
 #include "rondel/contours.h"
 
 #include <cstdint>
-#include <string>
 
 #include "arrays.h"
+#include "file_name.h"
 #include "interrupt.h"
 #include "module.h"
 
@@ -22,10 +22,13 @@ Contours traced(const Triangulation& t, const NumbersIn& values, const NumbersIn
 }
 
 template <class Contours, auto write>
-void write_contours(const std::string& path, const Contours& contours, double tolerance_deg,
-                    unsigned threads) {
-  run_watched(contours.points.size(), threads, nb::none(),
-              [&](const Execution& execution) { write(path, contours, tolerance_deg, execution); });
+std::optional<nb::bytes> write_contours(const PathOut& path, const Contours& contours,
+                                        double tolerance_deg) {
+  return written(path, [&](const FileName& file) {
+    run_watched(contours.points.size(), 0, nb::none(), [&](const Execution& execution) {
+      write(file, contours, tolerance_deg, execution);
+    });
+  });
 }
 
 }  // namespace
@@ -49,10 +52,10 @@ void add_contours(nb::module_& module) {
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
   module.def("bands", &traced<Bands, bands>, nb::arg("triangulation"),
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
-  module.def("write_isolines", &write_contours<Isolines, write_isolines>, nb::arg("path"),
-             nb::arg("isolines"), nb::arg("tolerance_deg"), nb::arg("threads"));
-  module.def("write_bands", &write_contours<Bands, write_bands>, nb::arg("path"), nb::arg("bands"),
-             nb::arg("tolerance_deg"), nb::arg("threads"));
+  module.def("write_isolines", &write_contours<Isolines, write_isolines>, nb::arg("path").none(),
+             nb::arg("isolines"), nb::arg("tolerance_deg"));
+  module.def("write_bands", &write_contours<Bands, write_bands>, nb::arg("path").none(),
+             nb::arg("bands"), nb::arg("tolerance_deg"));
 }
 
 }  // namespace rondel::python

@@ -15,6 +15,7 @@
 
 #include "arrays.h"
 #include "columns.h"
+#include "file_name.h"
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/io.h"
@@ -44,22 +45,26 @@ PolygonsOut polygons_out(LonLatPolygons&& polygons) {
 void add_files(nb::module_& module) {
   module.def(
       "write_cells",
-      [](const std::string& path, const Triangulation& t, const PointsIn& points,
+      [](const PathOut& path, const Triangulation& t, const PointsIn& points,
          const Diagram& diagram, const std::vector<ColumnIn>& columns, double tolerance_deg) {
-        run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
-          write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, execution);
+        return written(path, [&](const FileName& file) {
+          run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
+            write_cells(file, make_table(points, columns), t, diagram, tolerance_deg, execution);
+          });
         });
       },
-      nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
-      nb::arg("columns"), nb::arg("tolerance_deg"));
+      nb::arg("path").none(), nb::arg("triangulation"), nb::arg("points").noconvert(),
+      nb::arg("diagram"), nb::arg("columns"), nb::arg("tolerance_deg"));
   module.def(
       "write_triangles",
-      [](const std::string& path, const Triangulation& t, const PointsIn& points) {
-        run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
-          write_triangles(path, make_table(points, {}), t, execution);
+      [](const PathOut& path, const Triangulation& t, const PointsIn& points) {
+        return written(path, [&](const FileName& file) {
+          run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
+            write_triangles(file, make_table(points, {}), t, execution);
+          });
         });
       },
-      nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert());
+      nb::arg("path").none(), nb::arg("triangulation"), nb::arg("points").noconvert());
   module.def(
       "cell_polygons",
       [](const Triangulation& t, const Diagram& diagram, double tolerance_deg) {

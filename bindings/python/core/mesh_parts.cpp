@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "arrays.h"
+#include "file_name.h"
 #include "interrupt.h"
 #include "mesh_sizes.h"
 #include "module.h"
@@ -91,15 +92,15 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
 
 // Returns the lines of a file; `read` is read_lines() or read_places().
 template <auto read>
-std::vector<ArrayOut<double>> lines_of_file(const std::string& path, nb::handle edges,
+std::vector<ArrayOut<double>> lines_of_file(const PathIn& path, nb::handle edges,
                                             unsigned threads) {
   const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
   std::vector<ArrayOut<double>> lines;
-  for (std::vector<Point>& line : watched_quietly(0, threads, [&](const Execution& execution) {
-         return read(FileName{path, {}}, options, execution);
-       })) {
-    lines.push_back(points_out(std::move(line)));
-  }
+  std::vector<std::vector<Point>> found = read_from(path, [&](const FileName& file) {
+    return watched_quietly(
+        0, threads, [&](const Execution& execution) { return read(file, options, execution); });
+  });
+  for (std::vector<Point>& line : found) lines.push_back(points_out(std::move(line)));
   return lines;
 }
 

@@ -15,6 +15,7 @@
 
 #include "arrays.h"
 #include "columns.h"
+#include "file_name.h"
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
@@ -63,16 +64,18 @@ void add_region_functions(nb::module_& module) {
       nb::arg("progress").none());
   module.def(
       "feature_cells",
-      [](const std::string& path, double tolerance, nb::handle edges, nb::handle overlap,
+      [](const PathIn& path, double tolerance, nb::handle edges, nb::handle overlap,
          const CellSet* within, unsigned threads, const nb::object& listener) {
         const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
                                      .overlap = named<PolygonOverlap>("overlap", overlap)};
-        return watched(0, threads, listener, [&](const Execution& execution) {
-          const FeatureTable table = read_features(path, options, execution);
-          return within == nullptr
-                     ? feature_cells(table.lines, table.polygons, tolerance, execution)
-                     : clipped_feature_cells(table.lines, table.polygons, tolerance, *within,
-                                             execution);
+        return read_from(path, [&](const FileName& file) {
+          return watched(0, threads, listener, [&](const Execution& execution) {
+            const FeatureTable table = read_features(file, options, execution);
+            return within == nullptr
+                       ? feature_cells(table.lines, table.polygons, tolerance, execution)
+                       : clipped_feature_cells(table.lines, table.polygons, tolerance, *within,
+                                               execution);
+          });
         });
       },
       nb::arg("path"), nb::arg("tolerance"), nb::arg("edges").none(), nb::arg("overlap").none(),
@@ -110,13 +113,15 @@ void add_regions(nb::module_& module) {
       .def("polygons", &polygons_of, nb::arg("tolerance_deg"), nb::arg("threads"))
       .def(
           "write",
-          [](const CellRings& self, const std::string& path, const std::vector<ColumnIn>& columns,
+          [](const CellRings& self, const PathOut& path, const std::vector<ColumnIn>& columns,
              double tolerance_deg) {
-            run_watched(self.corners.size(), 0, nb::none(), [&](const Execution& execution) {
-              write_regions(path, self, make_columns(columns), tolerance_deg, execution);
+            return written(path, [&](const FileName& file) {
+              run_watched(self.corners.size(), 0, nb::none(), [&](const Execution& execution) {
+                write_regions(file, self, make_columns(columns), tolerance_deg, execution);
+              });
             });
           },
-          nb::arg("path"), nb::arg("columns"), nb::arg("tolerance_deg"));
+          nb::arg("path").none(), nb::arg("columns"), nb::arg("tolerance_deg"));
   add_region_functions(module);
 }
 

@@ -181,7 +181,7 @@ class Isolines(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        return written(path, lambda name: _core.write_isolines(name, self._found, tolerance, 0))
+        return written(path, lambda name: _core.write_isolines(name, self._found, tolerance))
 
     def plot(self, ax: Any = None, *, projection: Any = None, **options: Any) -> Axes:
         """Draws the lines on axes like those of `SphericalDelaunay.plot`.
@@ -270,7 +270,7 @@ class Bands(Described):
             The FeatureCollection, or None if `path` is given.
 
         """
-        return written(path, lambda name: _core.write_bands(name, self._found, tolerance, 0))
+        return written(path, lambda name: _core.write_bands(name, self._found, tolerance))
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

@@ -10,9 +10,7 @@ from __future__ import annotations
 import io
 import json
 import os
-import pathlib
 import shutil
-import tempfile
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
@@ -56,10 +54,9 @@ def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase | None = Non
 
     """
 
-    def write(name: str) -> None:
-        _core.write_triangles(name, self._triangulation, self.points)
-
-    return written(path, write)
+    return written(
+        path, lambda name: _core.write_triangles(name, self._triangulation, self.points)
+    )
 
 
 @overload
@@ -112,40 +109,28 @@ def cells_to_geojson(
     """
     values = checked_properties(properties, ("site", "area"), len(self.points), as_json=True)
     columns = json_columns(values)
-
-    def write(name: str) -> None:
-        _core.write_cells(
-            name,
-            self.delaunay._triangulation,
-            self.points,
-            self._diagram,
-            columns,
-            float(tolerance_deg),
-        )
-
-    return written(path, write)
+    cells = self.delaunay._triangulation, self.points, self._diagram
+    return written(
+        path, lambda name: _core.write_cells(name, *cells, columns, float(tolerance_deg))
+    )
 
 
-def written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
-    """What `write` makes: in the file, or parsed."""
+def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes | None]) -> Any:
+    """What `write` makes, bytes of GeoJSON for None: in the file, or parsed."""
     if isinstance(path, (str, os.PathLike)):
         name = os.fspath(path)
         if not name.endswith(".geojson"):
             raise ValueError(f"the name of a GeoJSON file ends in .geojson: {name}")
         write(name)
         return None
-    with tempfile.TemporaryDirectory() as folder:
-        made = pathlib.Path(folder) / "rondel.geojson"
-        write(str(made))
-        if path is None:
-            # A function is called for each object, so that Ctrl-C ends the reading.
-            return json.loads(made.read_bytes(), object_hook=lambda found: found)
-        if isinstance(path, (io.RawIOBase, io.BufferedIOBase)):
-            with made.open("rb") as content:
-                shutil.copyfileobj(content, path)
-        else:
-            with made.open(encoding="utf-8", newline="") as text:
-                shutil.copyfileobj(text, path)
+    text = write(None) or b""
+    if path is None:
+        # A function is called for each object, so that Ctrl-C ends the reading.
+        return json.loads(text, object_hook=lambda found: found)
+    content: Any = io.BytesIO(text)
+    if not isinstance(path, (io.RawIOBase, io.BufferedIOBase)):
+        content = io.TextIOWrapper(content, "utf-8", newline="")
+    shutil.copyfileobj(content, path)
     return None
 
 

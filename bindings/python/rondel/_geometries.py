@@ -6,9 +6,7 @@ from __future__ import annotations
 
 import json
 import os
-import pathlib
 import re
-import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
 
@@ -58,9 +56,9 @@ def features_of(
     features: Any,
     edges: Edges,
     overlap: PolygonOverlap,
-    read: Callable[[str, Edges, PolygonOverlap], Any],
+    read: Callable[[str | bytes, Edges, PolygonOverlap], Any],
 ) -> Any:
-    """The result of `read`, which gets a file with the features, and the rules."""
+    """The result of `read`, which gets a file or bytes with the features, and the rules."""
     rules = edges, overlap
     if is_file(features):
         return read(os.fspath(features), *rules)
@@ -73,7 +71,7 @@ def _is_geodesic(edges: Edges) -> bool:
     return edges == "geodesic"
 
 
-def _of_objects(geometries: Any, edges: Edges, read: Callable[[str], Any]) -> Any:
+def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any]) -> Any:
     collection = _collection(geometries, edges)
     try:
         text = json.dumps(collection, allow_nan=False, default=_plain)
@@ -81,15 +79,12 @@ def _of_objects(geometries: Any, edges: Edges, read: Callable[[str], Any]) -> An
         raise ValueError(
             f"{_first_not_finite(collection)} has a position that is not finite"
         ) from None
-    with tempfile.TemporaryDirectory() as folder:
-        name = str(pathlib.Path(folder) / "geometries.geojson")
-        pathlib.Path(name).write_text(text, "utf-8")
-        try:
-            return read(name)
-        except OSError as error:
-            problem = re.sub(r"^[:0-9]*: ", "", str(error).partition(name)[2])
-            problem = re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
-            raise ValueError(f"geometries: {problem}") from None
+    try:
+        return read(text.encode())
+    except OSError as error:
+        problem = re.sub(r"^geometries[:0-9]*: ", "", str(error))
+        problem = re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
+        raise ValueError(f"geometries: {problem}") from None
 
 
 def _plain(value: Any) -> Any:

@@ -32,6 +32,34 @@ TEST(atomic_file, appears_complete) {
   EXPECT_EQ(directory.num_files(), 1U);
 }
 
+TEST(atomic_file, a_string_gets_the_bytes_of_the_file_at_the_end) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.npy");
+  std::string bytes = "before";
+  {
+    AtomicFile file(FileName::in_memory(bytes, "npy"));
+    file.reserve(9);
+    file.expect(7);
+    file.write("text");
+    EXPECT_TRUE(file.is_direct());
+  }
+  EXPECT_EQ(bytes, "before");
+  const std::vector<Index> values(100'000, 7);
+  const std::array<std::uint64_t, 1> shape = {values.size()};
+  write_indices(path, values, shape);
+  write_indices(FileName::in_memory(bytes, "npy"), values, shape);
+  EXPECT_EQ(bytes, read_all(path));
+}
+
+TEST(atomic_file, a_string_is_read_like_a_file) {
+  std::string bytes = "lon,lat\n1,2\n3,4\n";
+  const SiteTable table = read_sites(FileName::in_memory(bytes, "csv", "places"));
+  EXPECT_EQ(table.sites.size(), 2U);
+  EXPECT_EQ(table.where(1), "places:3");
+  std::string empty;
+  EXPECT_THROW(read_sites(FileName::in_memory(empty, "csv")), FileError);
+}
+
 TEST(atomic_file, is_closed_whatever_becomes_of_it) {
   const TemporaryDirectory directory;
   const auto num_open = [] {
