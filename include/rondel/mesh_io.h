@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "rondel/export.h"
@@ -55,11 +57,30 @@ struct MeshFileOptions {
 ///    each block have their numbers, from 1 on.
 /// \throws InvalidInput if the arrays do not fit together, or have numbers that no mesh has
 /// \throws FileError also if CDF-2 cannot hold the mesh
-RONDEL_API void write(const std::string& path, const MeshArrays& arrays,
+RONDEL_API void write(const FileName& file, const MeshArrays& arrays,
                       const MeshFileOptions& options = {}, const Execution& execution = {});
 
+/// A variable of a file, with its values.
+struct FileVariable {
+  std::string name;
+  std::vector<std::string> dimensions;  ///< the last one varies fastest
+  std::vector<std::uint64_t> shape;     ///< the lengths of the dimensions
+  std::variant<std::vector<std::int32_t>, std::vector<double>> values;
+};
+
+/// The variables and attributes of a file of MPAS.
+struct MpasContent {
+  std::vector<FileVariable> variables;
+  std::vector<std::pair<std::string, std::variant<std::string, double>>> attributes;
+};
+
+/// Returns what write() writes of a mesh for MPAS, except for what follows from other variables
+/// (weights, qualities, marks of the border, edges of edges) and for the origin of the file.
+/// \throws InvalidInput as write() does
+RONDEL_API MpasContent mpas_content(const MeshArrays& arrays, const Execution& execution = {});
+
 /// Writes which cells are neighbors, as METIS reads it: MPAS's graph.info.
-RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
+RONDEL_API void write_graph(const FileName& file, const MeshArrays& arrays,
                             const Execution& execution = {});
 
 /// Reads an MPAS mesh of the sphere or a part of it, written by any program. A mesh that write()

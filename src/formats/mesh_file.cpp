@@ -61,7 +61,7 @@ void MeshFile::write(const NetcdfOptions& options) {
   out_.begin(options);
   std::size_t done = 0;
   for (const auto& write : writes_) {
-    write();
+    write(nullptr);
     system::announce(execution_, "write", ++done, writes_.size());
   }
   out_.finish();
@@ -93,13 +93,13 @@ std::string_view name_of(MeshFormat format) noexcept {
   return system::name_in({"mpas", "ugrid", "scrip", "esmf", "exodus"}, format);
 }
 
-void write(const std::string& path, const MeshArrays& arrays, const MeshFileOptions& options,
+void write(const FileName& name, const MeshArrays& arrays, const MeshFileOptions& options,
            const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   const formats::CellCorners corners(arrays);
   formats::CellBlocks blocks;
-  io::AtomicFile output(path);
+  io::AtomicFile output(name);
   formats::MeshFile file(output, arrays, execution);
   switch (options.format) {
     case MeshFormat::mpas:
@@ -119,18 +119,18 @@ void write(const std::string& path, const MeshArrays& arrays, const MeshFileOpti
       formats::define_exodus(file, corners, blocks);
       break;
   }
-  NetcdfOptions netcdf = io::with_kind({options.kind, options.deflate}, path);
+  NetcdfOptions netcdf = io::with_kind({options.kind, options.deflate}, name);
   if (netcdf.kind == NetcdfKind::by_name) netcdf.kind = NetcdfKind::cdf5;
-  io::in_file(path, [&] { file.write(netcdf); });
+  io::in_file(name.path, [&] { file.write(netcdf); });
   output.commit();
 }
 
 // Writes the graph in the format of METIS: the numbers of cells and edges, then a line for each
 // cell with its neighbors, counted from 1.
-void write_graph(const std::string& path, const MeshArrays& arrays, const Execution& execution) {
+void write_graph(const FileName& name, const MeshArrays& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
-  io::AtomicFile file(path);
+  io::AtomicFile file(name);
   const auto edges = std::ranges::count_if(
       arrays.cells_on_edge, [](const auto& cells) { return !meshing::is_at_border(cells); });
   file.write(std::to_string(arrays.num_cells()) + ' ' + std::to_string(edges) + '\n');

@@ -20,6 +20,7 @@
 #include "io/netcdf_writer.h"
 #include "rondel/mesh.h"
 #include "rondel/mesh_io.h"
+#include "system/parallel.h"
 
 namespace rondel::formats {
 
@@ -41,13 +42,19 @@ class MeshFile {
   template <typename T, typename Fill>
   void add(io::NetcdfVariable variable, std::size_t rows, std::size_t of_each, Fill fill) {
     out_.add_variable(std::move(variable));
-    writes_.push_back([this, rows, of_each, fill] {
-      out_.write_rows<T>(execution_.threads, rows, of_each,
-                         [&](std::size_t begin, std::size_t end, T* values) {
-                           for (std::size_t i = begin; i < end; ++i, values += of_each) {
-                             fill(i, values);
-                           }
-                         });
+    writes_.push_back([this, rows, of_each, fill](Values* kept) {
+      const auto fill_rows = [&](std::size_t begin, std::size_t end, T* values) {
+        for (std::size_t i = begin; i < end; ++i, values += of_each) fill(i, values);
+      };
+      if (kept == nullptr) {
+        out_.write_rows<T>(execution_.threads, rows, of_each, fill_rows);
+      } else if constexpr (sizeof(T) > 1) {  // the numbers of MPAS, which no text is
+        auto& all = kept->emplace<std::vector<T>>(rows * of_each);
+        system::parallel_for(execution_.threads, rows, rows_per_piece,
+                             [&](std::size_t begin, std::size_t end) {
+                               fill_rows(begin, end, all.data() + begin * of_each);
+                             });
+      }
     });
   }
   // Defines a variable of doubles with fill(row, values).
@@ -89,11 +96,33 @@ class MeshFile {
   // Writes header and values. Throws BadValue if the mesh is too large for the netCDF format.
   void write(const NetcdfOptions& options);
 
+  // Returns the variables that is_wanted(name) takes, with their values, which are not written.
+  template <class Wanted>
+  [[nodiscard]] std::vector<mesh::FileVariable> content(const Wanted& is_wanted) const {
+    std::vector<mesh::FileVariable> found;
+    for (std::size_t k = 0; k < writes_.size(); ++k) {
+      const io::NetcdfVariable& defined = out_.variables()[k];
+      if (!is_wanted(defined.name)) continue;
+      mesh::FileVariable& taken = found.emplace_back();
+      taken.name = defined.name;
+      for (const std::size_t d : defined.dimensions) {
+        taken.dimensions.push_back(out_.dimensions()[d].name);
+        taken.shape.push_back(out_.dimensions()[d].size);
+      }
+      writes_[k](&taken.values);
+    }
+    return found;
+  }
+
  private:
+  using Values = decltype(mesh::FileVariable::values);
+  static constexpr std::size_t rows_per_piece = 4096;
+
   const mesh::MeshArrays& arrays_;
   const Execution& execution_;
   io::NetcdfWriter out_;
-  std::vector<std::function<void()>> writes_;
+  // Each writes the values of a variable, or keeps them if there is a place for them.
+  std::vector<std::function<void(Values*)>> writes_;
 };
 
 // Return the longitude, from 0 to less than a full circle, and the latitude of a point, in radians

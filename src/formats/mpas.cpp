@@ -27,6 +27,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/version.h"
 #include "rondel/weights.h"
+#include "system/job.h"
 #include "system/shortest_text.h"
 
 namespace rondel::formats {
@@ -347,3 +348,31 @@ void define_mpas(MeshFile& file) {
 }
 
 }  // namespace rondel::formats
+
+namespace rondel::mesh {
+
+MpasContent mpas_content(const MeshArrays& arrays, const Execution& execution) {
+  constexpr std::array<std::string_view, 15> left_out = {
+      "indexToCellID",        "indexToEdgeID",   "indexToVertexID", "cellQuality",
+      "gridSpacing",          "nEdgesOnEdge",    "edgesOnEdge",     "weightsOnEdge",
+      "boundaryVertex",       "triangleQuality", "nominalMinDc",    "obtuseTriangle",
+      "triangleAngleQuality", "source",          "file_id"};
+  const auto is_taken = [&](std::string_view name) {
+    return std::ranges::find(left_out, name) == left_out.end();
+  };
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  std::string nothing;
+  io::AtomicFile output(FileName::in_memory(nothing, {}));
+  formats::MeshFile file(output, arrays, execution);
+  formats::define_mpas(file);
+  MpasContent result{file.content(is_taken), {}};
+  for (const io::NetcdfAttribute& attribute : file.netcdf().attributes()) {
+    if (!is_taken(attribute.name)) continue;
+    result.attributes.emplace_back(attribute.name, attribute.text);
+    if (!attribute.numbers.empty()) result.attributes.back().second = attribute.numbers[0];
+  }
+  return result;
+}
+
+}  // namespace rondel::mesh

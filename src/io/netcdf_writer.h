@@ -49,6 +49,12 @@ class NetcdfWriter {
   void add_attribute(std::string name, std::string text);
   void add_attribute(NetcdfAttribute attribute);
   void add_variable(NetcdfVariable variable);
+
+  // Return what has been added.
+  [[nodiscard]] const std::vector<NetcdfDimension>& dimensions() const { return dimensions_; }
+  [[nodiscard]] const std::vector<NetcdfAttribute>& attributes() const { return attributes_; }
+  [[nodiscard]] const std::vector<NetcdfVariable>& variables() const { return variables_; }
+
   // Writes the header of this version, 1, 2 or 5; with 0, the lowest version that suffices. Throws
   // BadValue if the version does not suffice.
   void begin(int version = 0);

@@ -138,6 +138,7 @@ void test_sites(std::string_view bytes) {
   const auto format = static_cast<mesh::MeshFormat>(bytes.empty() ? 0 : bytes[0] & 3);
   mesh::write(path, arrays, {.format = format});
   mesh::write_graph(folder().file("graph.info"), arrays);
+  require(!mesh::mpas_content(arrays).variables.empty(), "a mesh has variables");
   if (format != mesh::MeshFormat::mpas) {
     expect_mesh_or_message(path);
     return;

@@ -5,12 +5,14 @@
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "arrays.h"
@@ -57,6 +59,28 @@ void write_mesh(const MeshArrays& arrays, const std::string& path, nb::handle fo
   });
 }
 
+// Returns the variables of a file of MPAS as a dictionary of pairs of dimensions and values, and
+// its attributes.
+std::tuple<nb::dict, nb::dict> mpas_content_of(const MeshArrays& arrays) {
+  mesh::MpasContent content = watched_quietly(
+      arrays.num_cells(), 0,
+      [&](const Execution& execution) { return mesh::mpas_content(arrays, execution); });
+  nb::dict variables;
+  for (mesh::FileVariable& variable : content.variables) {
+    const std::vector<std::size_t> shape(variable.shape.begin(), variable.shape.end());
+    variables[variable.name.c_str()] = std::visit(
+        [&]<class T>(std::vector<T>& values) {
+          return nb::make_tuple(
+              nb::tuple(nb::cast(variable.dimensions)),
+              nb::cast(to_array<T>(std::move(values))).attr("reshape")(nb::cast(shape)));
+        },
+        variable.values);
+  }
+  nb::dict attributes;
+  for (const auto& [name, value] : content.attributes) attributes[name.c_str()] = nb::cast(value);
+  return {variables, attributes};
+}
+
 WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
   mesh::TangentialWeights found = watched_quietly(
       arrays.num_cells(), threads,
@@ -90,6 +114,7 @@ void add_mesh(nb::module_& module) {
   add_array<double, &MeshArrays::kite_areas>(type, "kite_areas");
   add_array<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
   type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
+  type.def("mpas_content", &mpas_content_of);
   type.def("write", &write_mesh, nb::arg("path"), nb::arg("format").none(), nb::arg("is_cdf2"),
            nb::arg("threads"));
   type.def(

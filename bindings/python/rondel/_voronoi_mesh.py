@@ -17,7 +17,6 @@ from ._arrays import as_name, as_threads, frozen
 from ._geometries import Edges
 from ._mesh_making import ScvtReport
 from ._mesh_parts import plot_mesh, removed_cells
-from ._mpas_dataset import dataset_of
 from ._pickled import arrays_of, with_arrays
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
@@ -350,4 +349,7 @@ class Mesh:
             As in the file, numbers start at 1 and rows are filled with 0.
 
         """
-        return dataset_of(self._arrays, self.density)
+        import xarray
+
+        variables, attributes = self._arrays.mpas_content()
+        return xarray.Dataset(variables, attrs=attributes)

@@ -15,6 +15,8 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "io/atomic_file.h"
 #include "io/bad_value.h"
@@ -72,6 +74,36 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
     EXPECT_EQ(mesh::read_mpas(path("m.nc")), arrays);
     EXPECT_EQ(mesh::read_mesh(path("m.nc")), arrays);
   }
+}
+
+TEST_F(MeshFiles, a_string_gets_the_bytes_of_the_file) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 12)), {});
+  for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::exodus}) {
+    mesh::write(path("m.nc"), arrays, {.format = format});
+    std::string in_memory;
+    mesh::write(FileName::in_memory(in_memory, "nc"), arrays, {.format = format});
+    EXPECT_EQ(in_memory, bytes("m.nc"));
+  }
+}
+
+TEST_F(MeshFiles, the_content_of_mpas_is_that_of_the_file) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 12)), {.radius = 3});
+  std::string in_memory;
+  mesh::write(FileName::in_memory(in_memory, "nc"), arrays);
+  const io::NetcdfReader file{std::string_view(in_memory)};
+  const mesh::MpasContent content = mesh::mpas_content(arrays);
+  EXPECT_EQ(content.variables.size(), 30U);
+  for (const mesh::FileVariable& variable : content.variables) {
+    const io::NetcdfReader::Variable& there = file.require(variable.name);
+    EXPECT_EQ(there.shape, variable.shape) << variable.name;
+    std::visit(
+        [&](const auto& values) {
+          EXPECT_EQ(file.numbers(there), std::vector<double>(values.begin(), values.end()))
+              << variable.name;
+        },
+        variable.values);
+  }
+  EXPECT_EQ(content.attributes.size(), 5U);
 }
 
 // What a file is says its content, not its name.
