@@ -25,86 +25,90 @@ if TYPE_CHECKING:
 OffsetArray = npt.NDArray[np.int64]
 
 
-def isolines(
-    self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
-) -> Isolines:
-    """Computes lines of equal value of the field that is linear in each triangle.
+class Contours:
+    """Contours of values: methods of `SphericalDelaunay`."""
 
-    Parameters
-    ----------
-    values : array_like, shape (n,)
-        A value for each site. Triangles with a corner whose value is NaN or masked are left out. Of
-        sites in one place the first one that has a value counts.
-    levels : float or array_like, shape (k,)
-        One level, or several in increasing order.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+    def isolines(
+        self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
+    ) -> Isolines:
+        """Computes lines of equal value of the field that is linear in each triangle.
 
-    Returns
-    -------
-    Isolines
-        The lines of each level.
+        Parameters
+        ----------
+        values : array_like, shape (n,)
+            A value for each site. Triangles with a corner whose value is NaN or masked are left
+            out. Of sites in one place the first one that has a value counts.
+        levels : float or array_like, shape (k,)
+            One level, or several in increasing order.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
-    Raises
-    ------
-    InvalidInput
-        If a value is infinite, the levels do not increase, or the sites are weighted.
+        Returns
+        -------
+        Isolines
+            The lines of each level.
 
-    Notes
-    -----
-    Lines pass edges where linear interpolation between their ends has the level; values equal to
-    the level belong to the higher side. No line visits a point twice.
+        Raises
+        ------
+        InvalidInput
+            If a value is infinite, the levels do not increase, or the sites are weighted.
 
-    Examples
-    --------
-    >>> import rondel
-    >>> tri = rondel.delaunay([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
-    >>> tri.isolines([0, 0, 0, 0, 1, -1], 0.5)
-    <rondel.Isolines: 1 level, 1 line>
+        Notes ----- Lines pass edges where linear interpolation between their ends has the level;
+        values equal to the level belong to the higher side. No line visits a point twice.
 
-    """
-    return Isolines(_core.isolines(self._triangulation, *_as_input(self, values, levels, threads)))
+        Examples
+        --------
+        >>> import rondel
+        >>> x = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+        >>> tri = rondel.delaunay(x)
+        >>> tri.isolines([0, 0, 0, 0, 1, -1], 0.5)
+        <rondel.Isolines: 1 level, 1 line>
 
+        """
+        return Isolines(
+            _core.isolines(self._triangulation, *_as_input(self, values, levels, threads))
+        )
 
-def bands(
-    self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
-) -> Bands:
-    """Computes the regions between levels of the field that is linear in each triangle.
+    def bands(
+        self: Triangulated, values: ArrayLike, levels: ArrayLike, *, threads: int | None = None
+    ) -> Bands:
+        """Computes the regions between levels of the field that is linear in each triangle.
 
-    Together the regions are the triangles with values, without gaps: where two regions meet, both
-    have the same points, which are those of the isolines.
+        Together the regions are the triangles with values, without gaps: where two regions meet,
+        both have the same points, which are those of the isolines.
 
-    Parameters
-    ----------
-    values : array_like, shape (n,)
-        A value for each site. Triangles with a corner whose value is NaN or masked are left out. Of
-        sites in one place the first one that has a value counts.
-    levels : float or array_like, shape (k,)
-        One level, or several in increasing order, which make k + 1 bands.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        Parameters
+        ----------
+        values : array_like, shape (n,)
+            A value for each site. Triangles with a corner whose value is NaN or masked are left
+            out. Of sites in one place the first one that has a value counts.
+        levels : float or array_like, shape (k,)
+            One level, or several in increasing order, which make k + 1 bands.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
 
-    Returns
-    -------
-    Bands
-        The regions: band k has the values from ``levels[k - 1]`` to below ``levels[k]``.
+        Returns
+        -------
+        Bands
+            The regions: band k has the values from ``levels[k - 1]`` to below ``levels[k]``.
 
-    Raises
-    ------
-    InvalidInput
-        If a value is infinite, the levels do not increase, or the sites are weighted.
+        Raises
+        ------
+        InvalidInput
+            If a value is infinite, the levels do not increase, or the sites are weighted.
 
-    Examples
-    --------
-    >>> import rondel
-    >>> tri = rondel.delaunay([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])
-    >>> len(tri.bands([0, 0, 0, 0, 1, -1], [-0.5, 0.5]).band_offsets) - 1
-    3
+        Examples
+        --------
+        >>> import rondel
+        >>> x = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+        >>> tri = rondel.delaunay(x)
+        >>> len(tri.bands([0, 0, 0, 0, 1, -1], [-0.5, 0.5]).band_offsets) - 1
+        3
 
-    """
-    return Bands(_core.bands(self._triangulation, *_as_input(self, values, levels, threads)))
+        """
+        return Bands(_core.bands(self._triangulation, *_as_input(self, values, levels, threads)))
 
 
 def _as_input(

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _contours, _core, _geo, _globe, _plot, _tables, _zarr
+from . import _core
 from ._arrays import (
     as_center,
     as_floats,
@@ -22,12 +22,18 @@ from ._arrays import (
     frozen,
     is_weighted,
 )
+from ._contours import Contours
 from ._diagram import Diagram
+from ._geo import TriangleShapes
+from ._globe import Globes
 from ._graphs import Graphs
 from ._mesh import Mesh
+from ._plot import TrianglePictures
 from ._queries import Queries
+from ._tables import TriangleTables
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
 from ._winds import VectorInterpolation
+from ._zarr import ZarrGroups
 
 
 class Location(NamedTuple):
@@ -74,7 +80,18 @@ class CheckReport(NamedTuple):
         return self.is_valid
 
 
-class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
+class SphericalDelaunay(
+    Mesh,  # faces and who is next to whom
+    Queries,  # nearest, k_nearest, within, distance
+    VectorInterpolation,  # weights, interpolate, gradient, interpolate_vectors, interpolate_winds
+    Graphs,  # graph, edge_index, hull_polygon, alpha_shape, largest_empty_circles
+    Contours,  # isolines, bands
+    TriangleShapes,  # to_geojson, to_geopandas, to_xarray
+    TriangleTables,  # to_netcdf, to_parquet
+    ZarrGroups,  # to_zarr
+    TrianglePictures,  # lonlat_triangles, plot
+    Globes,  # save_html, view
+):
     """The Delaunay or regular triangulation of points on or close to a sphere.
 
     It is exact for every finite input and unique: it depends only on the set of points, not on
@@ -366,19 +383,6 @@ class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
 
     def _facts(self) -> list[tuple[str, str]]:
         return [*super()._facts(), ("model", self.model)]
-
-    to_geojson = _geo.triangles_to_geojson
-    to_geopandas = _geo.triangles_to_geopandas
-    to_xarray = _geo.triangles_to_xarray
-    to_netcdf = _tables.triangles_to_netcdf
-    to_parquet = _tables.triangles_to_parquet
-    to_zarr = _zarr.triangles_to_zarr
-    lonlat_triangles = _plot.lonlat_triangles
-    plot = _plot.plot_triangles
-    isolines = _contours.isolines
-    bands = _contours.bands
-    save_html = _globe.save_html
-    view = _globe.view
 
 
 def delaunay(

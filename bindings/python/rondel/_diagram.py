@@ -10,10 +10,15 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _geo, _globe, _plot, _regions, _tables
+from . import _core
 from ._arrays import ORIGIN, frozen
 from ._dimensions import FlatMesh
+from ._geo import CellShapes
+from ._globe import Globes
+from ._plot import CellPictures
+from ._regions import CellRegions
 from ._repr import Described
+from ._tables import CellTables
 from ._types import FloatArray, IntArray, Model, Triangulated
 
 Kind = TypeVar("Kind", bound="Diagram[Any]")
@@ -33,7 +38,15 @@ class Cells(NamedTuple):
     points: FloatArray
 
 
-class Diagram(Described, Generic[Delaunay]):
+class Diagram(
+    Described,
+    CellShapes,  # to_geojson, to_geopandas, to_xarray
+    CellTables,  # to_netcdf, to_parquet
+    CellRegions,  # clip, dissolve
+    CellPictures,  # plot
+    Globes,  # save_html, view
+    Generic[Delaunay],
+):
     """The dual of a `SphericalDelaunay`. Attributes are computed when they are first read."""
 
     # The kind of diagram that is the dual of triangulations of a model. (Triangulations know only
@@ -208,14 +221,3 @@ class Diagram(Described, Generic[Delaunay]):
 
     def _facts(self) -> list[tuple[str, str]]:
         return self._delaunay._facts()
-
-    to_geojson = _geo.cells_to_geojson
-    to_geopandas = _geo.cells_to_geopandas
-    clip = _regions.clip_cells
-    dissolve = _regions.dissolve_cells
-    to_xarray = _geo.cells_to_xarray
-    to_netcdf = _tables.cells_to_netcdf
-    to_parquet = _tables.cells_to_parquet
-    plot = _plot.plot_cells
-    save_html = _globe.save_html
-    view = _globe.view

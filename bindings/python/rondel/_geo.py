@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Triangulations and diagrams for other libraries: GeoJSON, GeoPandas, xarray (UGRID).
-
-The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerDiagram`.
-"""
+"""Triangulations and diagrams for other libraries: GeoJSON, GeoPandas, xarray (UGRID)."""
 
 from __future__ import annotations
 
@@ -11,7 +8,7 @@ import io
 import json
 import os
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
@@ -19,100 +16,219 @@ import numpy as np
 from . import _core
 from ._arrays import degrees_of
 from ._properties import checked_properties, frame_column, json_columns, with_gaps
-from ._types import Divided, FloatArray, IntArray, Triangulated
+from ._types import Divided, FloatArray, IntArray, Properties, Triangulated
 
 if TYPE_CHECKING:
     import geopandas
     import xarray
 
 Path: TypeAlias = "str | os.PathLike[str]"
-Properties: TypeAlias = Mapping[str, Any]
 
 
-@overload
-def triangles_to_geojson(self: Triangulated, path: None = None) -> dict[str, Any]: ...
-@overload
-def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase) -> None: ...
-def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase | None = None) -> Any:
-    """The faces as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
+class TriangleShapes:
+    """Conversions of triangulations: methods of `SphericalDelaunay`."""
 
-    A feature for each solid face, with the property `sites`, the indices of its corners.
+    @overload
+    def to_geojson(self: Triangulated, path: None = None) -> dict[str, Any]: ...
+    @overload
+    def to_geojson(self: Triangulated, path: Path | io.IOBase) -> None: ...
+    def to_geojson(self: Triangulated, path: Path | io.IOBase | None = None) -> Any:
+        """The faces as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
 
-    Parameters
-    ----------
-    path : path-like or file object, optional
-        Where to write the text; otherwise it is returned, parsed.
+        A feature for each solid face, with the property `sites`, the indices of its corners.
 
-    Returns
-    -------
-    dict or None
+        Parameters
+        ----------
+        path : path-like or file object, optional
+            Where to write the text; otherwise it is returned, parsed.
 
-    Raises
-    ------
-    OSError
-        If the file cannot be written; then nothing is left of it.
+        Returns
+        -------
+        dict or None
 
-    """
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
 
-    return written(
-        path, lambda name: _core.write_triangles(name, self._triangulation, self.points)
-    )
+        """
+        return written(
+            path, lambda name: _core.write_triangles(name, self._triangulation, self.points)
+        )
+
+    def to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:
+        """The solid faces as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+
+        Returns
+        -------
+        geopandas.GeoDataFrame
+            The polygons of `to_geojson`. The index is the face; the columns `site_0`, `site_1` and
+            `site_2` are its corners. Polygons that cross the antimeridian are multipolygons, cut
+            there.
+
+        Raises
+        ------
+        ImportError
+            If GeoPandas is not installed.
+
+        """
+        faces = np.flatnonzero(~self.ghost)
+        corners = self.simplices[faces]
+        columns = {f"site_{k}": corners[:, k] for k in range(3)}
+        return _frame(columns, _core.face_polygons(self._triangulation), faces)
+
+    def to_xarray(self: Triangulated) -> xarray.Dataset:
+        """The triangulation as a UGRID mesh: sites are nodes, solid triangles faces.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
+
+        """
+        return _ugrid("Delaunay triangulation", self.lonlat, self.simplices[~self.ghost])
 
 
-@overload
-def cells_to_geojson(
-    self: Divided,
-    path: None = None,
-    *,
-    properties: Properties | None = None,
-    tolerance_deg: float = 0.01,
-) -> dict[str, Any]: ...
-@overload
-def cells_to_geojson(
-    self: Divided,
-    path: Path | io.IOBase,
-    *,
-    properties: Properties | None = None,
-    tolerance_deg: float = 0.01,
-) -> None: ...
-def cells_to_geojson(
-    self: Divided,
-    path: Path | io.IOBase | None = None,
-    *,
-    properties: Properties | None = None,
-    tolerance_deg: float = 0.01,
-) -> Any:
-    """The cells as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
+class CellShapes:
+    """Conversions of diagrams: methods of `SphericalVoronoi` and `PowerDiagram`."""
 
-    A feature for each cell, with the properties `site` (its index) and `area` (steradians).
+    @overload
+    def to_geojson(
+        self: Divided,
+        path: None = None,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> dict[str, Any]: ...
+    @overload
+    def to_geojson(
+        self: Divided,
+        path: Path | io.IOBase,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> None: ...
+    def to_geojson(
+        self: Divided,
+        path: Path | io.IOBase | None = None,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> Any:
+        """The cells as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
 
-    Parameters
-    ----------
-    path : path-like or file object, optional
-        Where to write the text; otherwise it is returned, parsed.
-    properties : mapping of str to sequence, optional
-        More properties: for each a value for every site. Numbers, booleans, texts and what else
-        JSON has stay what they are; None, nan, what is masked and, with a warning, infinities are
-        null, dates ISO 8601 texts. No property is called `site` or `area`.
-    tolerance_deg : float, optional
-        How far the straight lines of a polygon may be from its arcs, in degrees.
+        A feature for each cell, with the properties `site` (its index) and `area` (steradians).
 
-    Returns
-    -------
-    dict or None
+        Parameters
+        ----------
+        path : path-like or file object, optional
+            Where to write the text; otherwise it is returned, parsed.
+        properties : mapping of str to sequence, optional
+            More properties: for each a value for every site. Numbers, booleans, texts and what else
+            JSON has stay what they are; None, nan, what is masked and, with a warning, infinities
+            are null, dates ISO 8601 texts. No property is called `site` or `area`.
+        tolerance_deg : float, optional
+            How far the straight lines of a polygon may be from its arcs, in degrees.
 
-    Raises
-    ------
-    OSError
-        If the file cannot be written; then nothing is left of it.
+        Returns
+        -------
+        dict or None
 
-    """
-    values = checked_properties(properties, ("site", "area"), len(self.points), as_json=True)
-    columns = json_columns(values)
-    cells = self.delaunay._triangulation, self.points, self._diagram
-    return written(
-        path, lambda name: _core.write_cells(name, *cells, columns, float(tolerance_deg))
-    )
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
+
+        """
+        values = checked_properties(properties, ("site", "area"), len(self.points), as_json=True)
+        columns = json_columns(values)
+        cells = self.delaunay._triangulation, self.points, self._diagram
+        return written(
+            path, lambda name: _core.write_cells(name, *cells, columns, float(tolerance_deg))
+        )
+
+    def to_geopandas(
+        self: Divided, *, properties: Properties | None = None, tolerance_deg: float = 0.01
+    ) -> geopandas.GeoDataFrame:
+        """The cells as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+
+        Parameters
+        ----------
+        properties : mapping of str to sequence, optional
+            More columns: for each a value for every site. They keep their types. None of them is
+            called `site`, `area` or `geometry`.
+        tolerance_deg : float, optional
+            How far the straight lines of a polygon may be from its arcs, in degrees.
+
+        Returns
+        -------
+        geopandas.GeoDataFrame
+            The polygons of `to_geojson`, with the columns `site` (also the index) and `area`
+            (steradians). Polygons that cross the antimeridian are multipolygons, cut there.
+
+        Raises
+        ------
+        ImportError
+            If GeoPandas is not installed.
+
+        """
+        given = checked_properties(properties, ("site", "area", "geometry"), len(self.points))
+        sites = self.delaunay.vertices
+        columns: dict[str, Any] = {"site": sites, "area": self._diagram.areas[sites]}
+        for name, values in given.items():
+            columns[name] = frame_column(values)[sites]
+        polygons = _core.cell_polygons(
+            self.delaunay._triangulation, self._diagram, float(tolerance_deg)
+        )
+        return _frame(columns, polygons, sites)
+
+    def to_xarray(self: Divided, *, properties: Properties | None = None) -> xarray.Dataset:
+        """The diagram as a UGRID mesh: corners of cells are nodes, cells are faces.
+
+        Parameters
+        ----------
+        properties : mapping of str to sequence, optional
+            More variables of faces: for each a value for every site. What is masked is NaN, NaT or
+            None.
+
+        Returns
+        -------
+        xarray.Dataset
+            With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it. Faces are in the
+            order of sites. Sites without a cell, as duplicates, have no face: the variable `site`
+            says whose each face is. `face_lon` and `face_lat` are the sites, `face_area` the areas
+            in steradians. Cells have different numbers of corners, and rows are filled up with -1.
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed.
+
+        """
+        offsets, rings, points = self.cells
+        sizes = np.diff(offsets)
+        sites = np.flatnonzero(sizes)
+        faces = np.full((len(sites), sizes.max(initial=3)), -1, np.int32)
+        faces[np.arange(faces.shape[1]) < sizes[sites, None]] = rings
+        mesh = _ugrid("Voronoi diagram", degrees_of(points, self.center), faces)
+        taken = tuple(map(str, mesh.variables))
+        given = checked_properties(
+            properties, (*taken, "site", "face_lon", "face_lat", "face_area"), len(self.points)
+        )
+        _add_positions(mesh, "face", "n_face", self.delaunay.lonlat[sites])
+        face = {"mesh": "mesh", "location": "face", "coordinates": "face_lon face_lat"}
+        mesh["site"] = ("n_face", sites.astype(np.int32), {"long_name": "site of the cell", **face})
+        area = {"long_name": "area of the cell", "units": "sr"}
+        mesh["face_area"] = ("n_face", self._diagram.areas[sites], {**area, **face})
+        mesh["face_area"].encoding["_FillValue"] = None
+        for name, values in given.items():
+            mesh[name] = ("n_face", with_gaps(values)[sites], face)
+        return mesh
 
 
 def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes | None]) -> Any:
@@ -132,63 +248,6 @@ def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes |
         content = io.TextIOWrapper(content, "utf-8", newline="")
     shutil.copyfileobj(content, path)
     return None
-
-
-def triangles_to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:
-    """The solid faces as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
-
-    Returns
-    -------
-    geopandas.GeoDataFrame
-        The polygons of `to_geojson`. The index is the face; the columns `site_0`, `site_1` and
-        `site_2` are its corners. Polygons that cross the antimeridian are multipolygons, cut there.
-
-    Raises
-    ------
-    ImportError
-        If GeoPandas is not installed.
-
-    """
-    faces = np.flatnonzero(~self.ghost)
-    corners = self.simplices[faces]
-    columns = {f"site_{k}": corners[:, k] for k in range(3)}
-    return _frame(columns, _core.face_polygons(self._triangulation), faces)
-
-
-def cells_to_geopandas(
-    self: Divided, *, properties: Properties | None = None, tolerance_deg: float = 0.01
-) -> geopandas.GeoDataFrame:
-    """The cells as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
-
-    Parameters
-    ----------
-    properties : mapping of str to sequence, optional
-        More columns: for each a value for every site. They keep their types. None of them is called
-        `site`, `area` or `geometry`.
-    tolerance_deg : float, optional
-        How far the straight lines of a polygon may be from its arcs, in degrees.
-
-    Returns
-    -------
-    geopandas.GeoDataFrame
-        The polygons of `to_geojson`, with the columns `site` (also the index) and `area`
-        (steradians). Polygons that cross the antimeridian are multipolygons, cut there.
-
-    Raises
-    ------
-    ImportError
-        If GeoPandas is not installed.
-
-    """
-    given = checked_properties(properties, ("site", "area", "geometry"), len(self.points))
-    sites = self.delaunay.vertices
-    columns: dict[str, Any] = {"site": sites, "area": self._diagram.areas[sites]}
-    for name, values in given.items():
-        columns[name] = frame_column(values)[sites]
-    polygons = _core.cell_polygons(
-        self.delaunay._triangulation, self._diagram, float(tolerance_deg)
-    )
-    return _frame(columns, polygons, sites)
 
 
 def _frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
@@ -211,67 +270,6 @@ def polygon_frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopanda
     several, part = np.unique(row[~is_single], return_inverse=True)
     geometry[several] = shapely.multipolygons(made[~is_single], indices=part)
     return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
-
-
-def triangles_to_xarray(self: Triangulated) -> xarray.Dataset:
-    """The triangulation as a UGRID mesh: sites are nodes, solid triangles faces.
-
-    Returns
-    -------
-    xarray.Dataset
-        With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it.
-
-    Raises
-    ------
-    ImportError
-        If xarray is not installed.
-
-    """
-    return _ugrid("Delaunay triangulation", self.lonlat, self.simplices[~self.ghost])
-
-
-def cells_to_xarray(self: Divided, *, properties: Properties | None = None) -> xarray.Dataset:
-    """The diagram as a UGRID mesh: corners of cells are nodes, cells faces, in the order of sites.
-
-    Parameters
-    ----------
-    properties : mapping of str to sequence, optional
-        More variables of faces: for each a value for every site. What is masked is NaN, NaT or
-        None.
-
-    Returns
-    -------
-    xarray.Dataset
-        With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it. Sites without a
-        cell, as duplicates, have no face: the variable `site` says whose each face is. `face_lon`
-        and `face_lat` are the sites, `face_area` the areas in steradians. Cells have different
-        numbers of corners, and rows are filled up with -1.
-
-    Raises
-    ------
-    ImportError
-        If xarray is not installed.
-
-    """
-    offsets, rings, points = self.cells
-    sizes = np.diff(offsets)
-    sites = np.flatnonzero(sizes)
-    faces = np.full((len(sites), sizes.max(initial=3)), -1, np.int32)
-    faces[np.arange(faces.shape[1]) < sizes[sites, None]] = rings
-    mesh = _ugrid("Voronoi diagram", degrees_of(points, self.center), faces)
-    taken = tuple(map(str, mesh.variables))
-    given = checked_properties(
-        properties, (*taken, "site", "face_lon", "face_lat", "face_area"), len(self.points)
-    )
-    _add_positions(mesh, "face", "n_face", self.delaunay.lonlat[sites])
-    face = {"mesh": "mesh", "location": "face", "coordinates": "face_lon face_lat"}
-    mesh["site"] = ("n_face", sites.astype(np.int32), {"long_name": "site of the cell", **face})
-    area = {"long_name": "area of the cell", "units": "sr"}
-    mesh["face_area"] = ("n_face", self._diagram.areas[sites], {**area, **face})
-    mesh["face_area"].encoding["_FillValue"] = None
-    for name, values in given.items():
-        mesh[name] = ("n_face", with_gaps(values)[sites], face)
-    return mesh
 
 
 def _ugrid(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:

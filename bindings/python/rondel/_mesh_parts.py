@@ -81,7 +81,7 @@ def fixed_points(
     """Returns the fixed places, and the number of those on and beside lines that are left out."""
     rules = count, spacings, steps, gradient, as_threads(threads)
 
-    def read(features: Any, places: Callable[[str, Edges, int], list[FloatArray]]) -> Any:
+    def read(features: Any, places: Callable[[str | bytes, Edges, int], list[FloatArray]]) -> Any:
         return features_of(
             features, edges, "keep", lambda name, rule, _: places(name, rule, rules[-1])
         )

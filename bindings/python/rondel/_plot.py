@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures with Matplotlib, on a map of Cartopy where that is installed.
-
-The functions are methods of `SphericalDelaunay`, `SphericalVoronoi`, `PowerDiagram` and `Regions`.
-"""
+"""Pictures with Matplotlib, on a map of Cartopy where that is installed."""
 
 from __future__ import annotations
 
@@ -22,74 +19,75 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = [
+    "CellPictures",
     "LonLatTriangles",
-    "lonlat_triangles",
-    "plot_cells",
-    "plot_regions",
-    "plot_triangles",
+    "RegionPictures",
+    "TrianglePictures",
 ]
 
 
-def lonlat_triangles(self: Triangulated) -> LonLatTriangles:
-    """The solid faces as triangles of the plane of longitude and latitude.
+class TrianglePictures:
+    """Pictures of triangulations: methods of `SphericalDelaunay`."""
 
-    For `matplotlib.tri`, which knows nothing of the antimeridian: triangles that cross it are
-    there twice, at both ends of the map, and those at a pole reach up to its latitude.
+    def lonlat_triangles(self: Triangulated) -> LonLatTriangles:
+        """The solid faces as triangles of the plane of longitude and latitude.
 
-    Returns
-    -------
-    LonLatTriangles
-        ``.triangulation()`` is for ``tripcolor`` and ``tricontourf``, with ``values[.sites]`` of
-        values at sites or ``facecolors=values[.faces]`` of values on faces. Limit the axes to
-        longitudes from -180 to 180.
+        For `matplotlib.tri`, which knows nothing of the antimeridian: triangles that cross it are
+        there twice, at both ends of the map, and those at a pole reach up to its latitude.
 
-    """
-    return flat_triangles(self.lonlat, self.simplices, np.flatnonzero(~self.ghost))
+        Returns
+        -------
+        LonLatTriangles
+            ``.triangulation()`` is for ``tripcolor`` and ``tricontourf``, with ``values[.sites]``
+            of values at sites or ``facecolors=values[.faces]`` of values on faces. Limit the axes
+            to longitudes from -180 to 180.
 
+        """
+        return flat_triangles(self.lonlat, self.simplices, np.flatnonzero(~self.ghost))
 
-def plot_triangles(
-    self: Triangulated,
-    ax: Any = None,
-    *,
-    projection: Any = None,
-    sites: bool = True,
-    coast: bool | None = None,
-    **options: Any,
-) -> Axes:
-    """Draws the edges as arcs of great circles, and the sites.
+    def plot(
+        self: Triangulated,
+        ax: Any = None,
+        *,
+        projection: Any = None,
+        sites: bool = True,
+        coast: bool | None = None,
+        **options: Any,
+    ) -> Axes:
+        """Draws the edges as arcs of great circles, and the sites.
 
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes, optional
-        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-    projection : cartopy.crs.CRS, optional
-        Of new axes; by default Robinson.
-    sites : bool, optional
-        Whether to draw the sites.
-    coast : bool, optional
-        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below; by default
-        where sites were given as longitudes and latitudes.
-    **options
-        For `matplotlib.collections.LineCollection`.
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+        projection : cartopy.crs.CRS, optional
+            Of new axes; by default Robinson.
+        sites : bool, optional
+            Whether to draw the sites.
+        coast : bool, optional
+            Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below; by default
+            where sites were given as longitudes and latitudes.
+        **options
+            For `matplotlib.collections.LineCollection`.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
+        Returns
+        -------
+        matplotlib.axes.Axes
 
-    Raises
-    ------
-    ImportError
-        If Matplotlib is not installed.
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
 
-    """
-    rays = self.points - self.center
-    ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-    drawn = make_map(ax, projection)
-    _draw_coast(self, drawn, coast)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-    if sites:
-        drawn.draw_points(self.lonlat[self.vertices])
-    return drawn.ax
+        """
+        rays = self.points - self.center
+        ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
+        drawn = make_map(ax, projection)
+        _draw_coast(self, drawn, coast)
+        drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
+        if sites:
+            drawn.draw_points(self.lonlat[self.vertices])
+        return drawn.ax
 
 
 def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
@@ -99,118 +97,124 @@ def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any
     return drawn.ax
 
 
-def plot_cells(
-    self: Divided,
-    values: ArrayLike | None = None,
-    ax: Any = None,
-    *,
-    projection: Any = None,
-    sites: bool = True,
-    coast: bool | None = None,
-    cmap: Any = None,
-    vmin: float | None = None,
-    vmax: float | None = None,
-    **options: Any,
-) -> Axes:
-    """Draws the borders of the cells as arcs of great circles, the sites, and values as colors.
+class CellPictures:
+    """Pictures of diagrams: a method of `SphericalVoronoi` and `PowerDiagram`."""
 
-    Parameters
-    ----------
-    values : array_like, shape (n,), optional
-        A number for each site, shown as the color of its cell.
-    ax : matplotlib.axes.Axes, optional
-        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-    projection : cartopy.crs.CRS, optional
-        Of new axes; by default Robinson.
-    sites : bool, optional
-        Whether to draw the sites.
-    coast : bool, optional
-        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the borders; by
-        default where sites were given as longitudes and latitudes.
-    cmap, vmin, vmax
-        Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
-        ``colorbar`` takes.
-    **options
-        For the `matplotlib.collections.LineCollection` of the borders.
+    def plot(
+        self: Divided,
+        values: ArrayLike | None = None,
+        ax: Any = None,
+        *,
+        projection: Any = None,
+        sites: bool = True,
+        coast: bool | None = None,
+        cmap: Any = None,
+        vmin: float | None = None,
+        vmax: float | None = None,
+        **options: Any,
+    ) -> Axes:
+        """Draws the borders of the cells as arcs of great circles, the sites, and values as colors.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
+        Parameters
+        ----------
+        values : array_like, shape (n,), optional
+            A number for each site, shown as the color of its cell.
+        ax : matplotlib.axes.Axes, optional
+            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+        projection : cartopy.crs.CRS, optional
+            Of new axes; by default Robinson.
+        sites : bool, optional
+            Whether to draw the sites.
+        coast : bool, optional
+            Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the
+            borders; by default where sites were given as longitudes and latitudes.
+        cmap, vmin, vmax
+            Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
+            ``colorbar`` takes.
+        **options
+            For the `matplotlib.collections.LineCollection` of the borders.
 
-    Raises
-    ------
-    ImportError
-        If Matplotlib is not installed.
+        Returns
+        -------
+        matplotlib.axes.Axes
 
-    """
-    drawn = make_map(ax, projection)
-    if values is not None:
-        cells, known = _draw_cells(self, drawn, np.asarray(unmasked(values)), {"cmap": cmap})
-        cells.set_clim(*_limits(known, vmin, vmax))
-    _draw_coast(self.delaunay, drawn, coast)
-    ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-    if sites:
-        drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
-    return drawn.ax
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
+
+        """
+        drawn = make_map(ax, projection)
+        if values is not None:
+            cells, known = _draw_cells(self, drawn, np.asarray(unmasked(values)), {"cmap": cmap})
+            cells.set_clim(*_limits(known, vmin, vmax))
+        _draw_coast(self.delaunay, drawn, coast)
+        ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
+        drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
+        if sites:
+            drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
+        return drawn.ax
 
 
-def plot_regions(
-    self: Any,
-    values: ArrayLike | None = None,
-    ax: Any = None,
-    *,
-    projection: Any = None,
-    coast: bool = True,
-    cmap: Any = None,
-    vmin: float | None = None,
-    vmax: float | None = None,
-    **options: Any,
-) -> Axes:
-    """Draws the regions, and values as colors.
+class RegionPictures:
+    """Pictures of `Regions`."""
 
-    Parameters
-    ----------
-    values : array_like, shape (n,), optional
-        A number for each region, shown as its color.
-    ax : matplotlib.axes.Axes, optional
-        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-    projection : cartopy.crs.CRS, optional
-        Of new axes; by default Robinson.
-    coast : bool, optional
-        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million).
-    cmap, vmin, vmax
-        Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
-        ``colorbar`` takes.
-    **options
-        For the `matplotlib.collections.PathCollection` of the regions.
+    def plot(
+        self: Any,
+        values: ArrayLike | None = None,
+        ax: Any = None,
+        *,
+        projection: Any = None,
+        coast: bool = True,
+        cmap: Any = None,
+        vmin: float | None = None,
+        vmax: float | None = None,
+        **options: Any,
+    ) -> Axes:
+        """Draws the regions, and values as colors.
 
-    Returns
-    -------
-    matplotlib.axes.Axes
+        Parameters
+        ----------
+        values : array_like, shape (n,), optional
+            A number for each region, shown as its color.
+        ax : matplotlib.axes.Axes, optional
+            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+        projection : cartopy.crs.CRS, optional
+            Of new axes; by default Robinson.
+        coast : bool, optional
+            Whether to draw the coasts of the Earth (Natural Earth, 1:110 million).
+        cmap, vmin, vmax
+            Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
+            ``colorbar`` takes.
+        **options
+            For the `matplotlib.collections.PathCollection` of the regions.
 
-    Raises
-    ------
-    ImportError
-        If Matplotlib is not installed.
+        Returns
+        -------
+        matplotlib.axes.Axes
 
-    """
-    numbers = None if values is None else np.asarray(unmasked(values))
-    if numbers is not None and len(numbers) != len(self):
-        raise ValueError(f"{len(numbers)} values for {len(self)} regions")
-    drawn = make_map(ax, projection)
-    positions, rings, polygons, owners = self._rings.polygons(0.1, 0)
-    lines = np.split(positions, rings[1:-1])
-    areas = [lines[a:b] for a, b in pairwise(polygons)]
-    options = {"edgecolors": "white", "linewidths": 0.4, **options}
-    if numbers is None:
-        drawn.draw_areas(areas, None, {"facecolors": "tab:blue", **options})
-    else:
-        colored = drawn.draw_areas(areas, numbers[owners], {"cmap": cmap, **options})
-        colored.set_clim(*_limits(numbers, vmin, vmax))
-    if coast:
-        draw_coast_lines(drawn)
-    return drawn.ax
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
+
+        """
+        numbers = None if values is None else np.asarray(unmasked(values))
+        if numbers is not None and len(numbers) != len(self):
+            raise ValueError(f"{len(numbers)} values for {len(self)} regions")
+        drawn = make_map(ax, projection)
+        positions, rings, polygons, owners = self._rings.polygons(0.1, 0)
+        lines = np.split(positions, rings[1:-1])
+        areas = [lines[a:b] for a, b in pairwise(polygons)]
+        options = {"edgecolors": "white", "linewidths": 0.4, **options}
+        if numbers is None:
+            drawn.draw_areas(areas, None, {"facecolors": "tab:blue", **options})
+        else:
+            colored = drawn.draw_areas(areas, numbers[owners], {"cmap": cmap, **options})
+            colored.set_clim(*_limits(numbers, vmin, vmax))
+        if coast:
+            draw_coast_lines(drawn)
+        return drawn.ax
 
 
 def _limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, Any]:

@@ -14,7 +14,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
-from ._geo import Path, Properties, polygon_frame, written
+from ._geo import Path, polygon_frame, written
 from ._geometries import (
     Edges,
     Groups,
@@ -25,10 +25,10 @@ from ._geometries import (
     read_cells,
 )
 from ._pickled import arrays_of, with_arrays
-from ._plot import plot_regions
+from ._plot import RegionPictures
 from ._properties import checked_properties, frame_column, is_missing, json_columns
 from ._repr import Described, count
-from ._types import ArrayLike, Divided, FloatArray, Progress
+from ._types import ArrayLike, Divided, FloatArray, Progress, Properties
 
 if TYPE_CHECKING:
     import geopandas
@@ -38,7 +38,7 @@ EARTH_RADIUS_KM = 6371.0088  # the mean of WGS 84, (2 a + b) / 3
 AREA_NAMES = ("area", "area_km2")
 
 
-class Regions(Described):
+class Regions(Described, RegionPictures):
     """Regions of the sphere as polygons with holes: clipped cells or joined cells.
 
     `SphericalVoronoi.clip`, `SphericalVoronoi.dissolve`, the same methods of `PowerDiagram`, and
@@ -280,8 +280,6 @@ class Regions(Described):
             columns[name] = frame_column(values)[rows]
         return polygon_frame(columns, polygons, rows)
 
-    plot = plot_regions
-
     @property
     def _own(self) -> dict[str, Any]:
         named = {self._kind: self.labels}
@@ -299,122 +297,126 @@ class Regions(Described):
         return facts
 
 
-def clip_cells(
-    self: Divided,
-    regions: Any,
-    *,
-    values: ArrayLike | None = None,
-    edges: Edges = "lonlat",
-    overlap: Literal["error", "first"] = "error",
-    threads: int | None = None,
-    progress: Progress = None,
-) -> Regions:
-    """Clips the cells to regions such as land, a country or a border.
+class CellRegions:
+    """Regions of the cells of diagrams."""
 
-    Parameters
-    ----------
-    regions : path-like, geometries or CellSet
-        The regions: a GeoJSON file; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping
-        of GeoJSON, any object with `__geo_interface__`, or a sequence of these; a box of west,
-        south, east and north in degrees; or cells.
-    values : sequence, shape (m,), optional
-        A value for each of the m regions, such as a country or a kind of soil, by which cells are
-        divided. Regions whose value is None, NaN or NA are left out. By default cells are clipped
-        to the union of the regions.
-    edges : {'lonlat', 'geodesic'}, optional
-        What joins positions of polygons: straight lines in longitude and latitude as in RFC 7946
-        (default), or great circles.
-    overlap : {'error', 'first'}, optional
-        What to do, if there are `values`, with a place that several regions contain: 'error'
-        (default) raises an error that names two of them, 'first' gives it to the first one. It has
-        no effect without values.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+    def clip(
+        self: Divided,
+        regions: Any,
+        *,
+        values: ArrayLike | None = None,
+        edges: Edges = "lonlat",
+        overlap: Literal["error", "first"] = "error",
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Regions:
+        """Clips the cells to regions such as land, a country or a border.
 
-    Returns
-    -------
-    Regions
-        A region for each site, empty if nothing of its cell is left. With `values`: a region for
-        each site and value whose intersection is not empty, sorted by site.
+        Parameters
+        ----------
+        regions : path-like, geometries or CellSet
+            The regions: a GeoJSON file; a GeoDataFrame or GeoSeries; a geometry of shapely, a
+            mapping of GeoJSON, any object with `__geo_interface__`, or a sequence of these; a box
+            of west, south, east and north in degrees; or cells.
+        values : sequence, shape (m,), optional
+            A value for each of the m regions, such as a country or a kind of soil, by which cells
+            are divided. Regions whose value is None, NaN or NA are left out. By default cells are
+            clipped to the union of the regions.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons: straight lines in longitude and latitude as in RFC
+            7946 (default), or great circles.
+        overlap : {'error', 'first'}, optional
+            What to do, if there are `values`, with a place that several regions contain: 'error'
+            (default) raises an error that names two of them, 'first' gives it to the first one. It
+            has no effect without values.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+        progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+            ends the work.
 
-    Raises
-    ------
-    ValueError
-        If a geometry is not a polygon, is not valid, or has positions that are no longitudes and
-        latitudes; or if regions with values overlap.
-    OSError
-        If the file cannot be read.
+        Returns
+        -------
+        Regions
+            A region for each site, empty if nothing of its cell is left. With `values`: a region
+            for each site and value whose intersection is not empty, sorted by site.
 
-    Notes
-    -----
-    Which sides cross is decided exactly, and two regions that meet have the same corners there, bit
-    by bit (docs/theory/overlay.md).
+        Raises
+        ------
+        ValueError
+            If a geometry is not a polygon, is not valid, or has positions that are no longitudes
+            and latitudes; or if regions with values overlap.
+        OSError
+            If the file cannot be read.
 
-    Examples
-    --------
-    >>> import rondel
-    >>> cells = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
-    >>> north = cells.clip([-180, 0, 180, 90])
-    >>> (12 * north.areas / 3.141592653589793).round(6).tolist()
-    [4.0, 4.0, 4.0, 4.0, 8.0, 0.0]
+        Notes ----- Which sides cross is decided exactly, and two regions that meet have the same
+        corners there, bit by bit (docs/theory/overlay.md).
 
-    """
-    _require_rules(edges, overlap)
-    cells = CellSet.voronoi(self, threads=threads)._cells
-    shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
-    if values is None:
-        within = as_cell_set(regions, edges, shared, threads)._cells
-        found = _core.clip(cells, within, as_threads(threads), progress)
-        return Regions._of(found, np.arange(len(self.points)), "site")
-    numbers, names = _numbered(values)
-    within = as_cell_set(regions, edges, shared, threads, numbers)._cells
-    _require_size(numbers, within.num_cells, "values", "regions")
-    found, sites, groups = _core.intersection(cells, within, numbers, as_threads(threads), progress)
-    return Regions._of(found, sites, "site", names[groups])
+        Examples
+        --------
+        >>> import rondel
+        >>> lon, lat = [0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90]
+        >>> cells = rondel.SphericalVoronoi.from_lonlat(lon, lat)
+        >>> north = cells.clip([-180, 0, 180, 90])
+        >>> (12 * north.areas / 3.141592653589793).round(6).tolist()
+        [4.0, 4.0, 4.0, 4.0, 8.0, 0.0]
 
+        """
+        _require_rules(edges, overlap)
+        cells = CellSet.voronoi(self, threads=threads)._cells
+        shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
+        if values is None:
+            within = as_cell_set(regions, edges, shared, threads)._cells
+            found = _core.clip(cells, within, as_threads(threads), progress)
+            return Regions._of(found, np.arange(len(self.points)), "site")
+        numbers, names = _numbered(values)
+        within = as_cell_set(regions, edges, shared, threads, numbers)._cells
+        _require_size(numbers, within.num_cells, "values", "regions")
+        found, sites, groups = _core.intersection(
+            cells, within, numbers, as_threads(threads), progress
+        )
+        return Regions._of(found, sites, "site", names[groups])
 
-def dissolve_cells(
-    self: Divided, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
-) -> Regions:
-    """Joins the cells by group, such as a country, an office or the nearest airport.
+    def dissolve(
+        self: Divided, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
+    ) -> Regions:
+        """Joins the cells by group, such as a country, an office or the nearest airport.
 
-    Parameters
-    ----------
-    groups : sequence, shape (n,)
-        The group of each site: a number, a text, or any hashable object. A site whose group is
-        None, NaN or NA belongs to no group.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Parameters
+        ----------
+        groups : sequence, shape (n,)
+            The group of each site: a number, a text, or any hashable object. A site whose group is
+            None, NaN or NA belongs to no group.
+        threads : int, optional
+            The largest number of threads; by default one for each core. The result does not depend
+            on it.
+        progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
+            ends the work.
 
-    Returns
-    -------
-    Regions
-        A region for each group, in the order of first occurrence; `labels` are the groups. Two
-        regions that meet have the same corners there, bit by bit.
+        Returns
+        -------
+        Regions
+            A region for each group, in the order of first occurrence; `labels` are the groups. Two
+            regions that meet have the same corners there, bit by bit.
 
-    Raises
-    ------
-    ValueError
-        If the number of groups is not n.
+        Raises
+        ------
+        ValueError
+            If the number of groups is not n.
 
-    Examples
-    --------
-    >>> import rondel
-    >>> cells = rondel.SphericalVoronoi.from_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
-    >>> cells.dissolve(["side", "side", "side", "side", "cap", "cap"]).labels.tolist()
-    ['side', 'cap']
+        Examples
+        --------
+        >>> import rondel
+        >>> lon, lat = [0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90]
+        >>> cells = rondel.SphericalVoronoi.from_lonlat(lon, lat)
+        >>> cells.dissolve(["side", "side", "side", "side", "cap", "cap"]).labels.tolist()
+        ['side', 'cap']
 
-    """
-    rings = CellSet.voronoi(self, threads=threads)._cells.rings()
-    return _dissolved(rings, groups, threads, progress)
+        """
+        rings = CellSet.voronoi(self, threads=threads)._cells.rings()
+        return _dissolved(rings, groups, threads, progress)
 
 
 def feature_cells(

@@ -5,13 +5,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from typing import Any, Literal, Protocol, TypeAlias
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
+
+if TYPE_CHECKING:
+    import xarray
 
 ArrayLike: TypeAlias = npt.ArrayLike
 FloatArray: TypeAlias = npt.NDArray[np.float64]
@@ -19,6 +22,7 @@ IntArray: TypeAlias = npt.NDArray[np.int32]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 Model: TypeAlias = Literal["projected", "weighted"]
 Progress: TypeAlias = Callable[[str, float], Any] | None
+Properties: TypeAlias = Mapping[str, Any]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 
 
@@ -47,6 +51,7 @@ class Triangulated(Protocol):
     def _triangulation(self) -> _core.Triangulation: ...
     @property
     def _degrees(self) -> FloatArray | None: ...
+    def to_xarray(self) -> xarray.Dataset: ...
 
 
 class Divided(Protocol):
@@ -66,3 +71,4 @@ class Divided(Protocol):
     def ridge_vertices(self) -> IntArray: ...
     @property
     def _diagram(self) -> _core.Diagram: ...
+    def to_xarray(self, *, properties: Properties | None = None) -> xarray.Dataset: ...

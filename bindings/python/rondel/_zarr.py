@@ -46,52 +46,55 @@ class GroupContent:
     duplicates: Rows | None = None
 
 
-def triangles_to_zarr(
-    self: Triangulated,
-    path: Path,
-    *,
-    neighbors: bool = False,
-    areas: bool = False,
-    duplicates: bool = False,
-) -> None:
-    """Writes a group of Zarr arrays (version 3), a folder, with the conventions of UGRID 1.0.
+class ZarrGroups:
+    """Zarr groups of triangulations: a method of `SphericalDelaunay`."""
 
-    The group has `sites`, `node_lon`, `node_lat`, `faces` with the ghost faces, and `ghost_faces`
-    if there are some. It appears complete or not at all. A group that was made by Rondel, and to
-    which nothing was added, is replaced.
+    def to_zarr(
+        self: Triangulated,
+        path: Path,
+        *,
+        neighbors: bool = False,
+        areas: bool = False,
+        duplicates: bool = False,
+    ) -> None:
+        """Writes a group of Zarr arrays (version 3), a folder, with the conventions of UGRID 1.0.
 
-    Parameters
-    ----------
-    path : path_like
-        The folder; a name that ends in `.zarr` is usual.
-    neighbors : bool, optional
-        Whether to write `neighbors`, shape (m, 3); by default False.
-    areas : bool, optional
-        Whether to write `areas`, shape (n,), the areas of the cells in steradians; by default
-        False.
-    duplicates : bool, optional
-        Whether to write `duplicates`, shape (k, 2); by default False.
+        The group has `sites`, `node_lon`, `node_lat`, `faces` with the ghost faces, and
+        `ghost_faces` if there are some. It appears complete or not at all. A group that was made by
+        Rondel, and to which nothing was added, is replaced.
 
-    Raises
-    ------
-    ImportError
-        If zarr-python 3 or later is not installed.
-    OSError
-        If the folder cannot be written, or is one that must not be replaced; then nothing is
-        changed.
+        Parameters
+        ----------
+        path : path_like
+            The folder; a name that ends in `.zarr` is usual.
+        neighbors : bool, optional
+            Whether to write `neighbors`, shape (m, 3); by default False.
+        areas : bool, optional
+            Whether to write `areas`, shape (n,), the areas of the cells in steradians; by default
+            False.
+        duplicates : bool, optional
+            Whether to write `duplicates`, shape (k, 2); by default False.
 
-    """
-    degrees = np.nan_to_num(self.lonlat, nan=0.0)  # of a site at the center
-    content = GroupContent(
-        len(self.points),
-        lambda some: (self.points[some], degrees[some]),
-        self.simplices.view(np.uint32),
-        self._triangulation.ghost_faces.view(np.uint32),
-        self.neighbors.view(np.uint32) if neighbors else None,
-        _core.diagram(self._triangulation).areas if areas else None,
-        self.duplicates.view(np.uint32) if duplicates else None,
-    )
-    write_group(path, content)
+        Raises
+        ------
+        ImportError
+            If zarr-python 3 or later is not installed.
+        OSError
+            If the folder cannot be written, or is one that must not be replaced; then nothing is
+            changed.
+
+        """
+        degrees = np.nan_to_num(self.lonlat, nan=0.0)  # of a site at the center
+        content = GroupContent(
+            len(self.points),
+            lambda some: (self.points[some], degrees[some]),
+            self.simplices.view(np.uint32),
+            self._triangulation.ghost_faces.view(np.uint32),
+            self.neighbors.view(np.uint32) if neighbors else None,
+            _core.diagram(self._triangulation).areas if areas else None,
+            self.duplicates.view(np.uint32) if duplicates else None,
+        )
+        write_group(path, content)
 
 
 def write_group(path: Path, content: GroupContent, progress: Progress = None) -> None:
