@@ -52,6 +52,13 @@ Isolines, Bands
     Lines of equal value, and the regions between them.
 Weights
     What carries values from sites to targets, as a sparse matrix.
+
+Notes
+-----
+No result depends on `threads`, the largest number of threads that a call uses. What is passed as
+`progress` is called some times a second with the name of a stage of the work and the fraction of
+it that is done.
+
 """
 
 from typing import TYPE_CHECKING, Any

@@ -100,8 +100,7 @@ class CellSet(Described):
         sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
             The sites: a triangulation or a diagram.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -112,7 +111,7 @@ class CellSet(Described):
         Raises
         ------
         TypeError
-            If `sites` is neither a triangulation nor a diagram.
+            As in `voronoi`.
 
         """
         owner = _triangulated_of(sites)
@@ -125,11 +124,8 @@ class CellSet(Described):
 
         Parameters
         ----------
-        sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
-            The triangulation, or a diagram that has it.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+        sites, threads
+            As in `voronoi`; of a diagram its triangulation is taken.
 
         Returns
         -------
@@ -139,7 +135,7 @@ class CellSet(Described):
         Raises
         ------
         TypeError
-            If `sites` is neither a triangulation nor a diagram.
+            As in `voronoi`.
 
         """
         owner = _triangulated_of(sites)
@@ -166,9 +162,8 @@ class CellSet(Described):
         sides : {'parallels', 'great_circles'}, optional
             What the northern and southern sides of cells are: parallels (default), or arcs of great
             circles between the corners, as in ESMF.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+        threads
+            As in `voronoi`.
 
         Returns
         -------
@@ -254,9 +249,8 @@ class CellSet(Described):
         whole : array_like of int, optional
             The cells that are the whole sphere, in increasing order; by default none. Like empty
             cells they have no rings.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+        threads
+            As in `voronoi`.
 
         Returns
         -------
@@ -289,9 +283,8 @@ class CellSet(Described):
         lon, lat : array_like, shape (n, k) or (..., n, m, k)
             The corners of each cell in degrees, in either direction around it. Corners within 1e-10
             radians count as one; cells with fewer than k corners repeat some.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+        threads
+            As in `voronoi`.
 
         Returns
         -------
@@ -351,9 +344,8 @@ class CellSet(Described):
             What to do with a place that several features contain: 'keep' (default) makes cells that
             overlap there, 'error' raises an error that names two of them, 'first' gives the place
             to the first one.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+        threads
+            As in `voronoi`.
 
         Returns
         -------
@@ -395,11 +387,8 @@ class CellSet(Described):
             of GeoArrow; or a box of west, south, east and north in degrees. Projected coordinates
             are converted to longitudes and latitudes by their `crs`; sides that are straight in the
             projection get corners in between, which follow them to about 1e-4 degrees.
-        edges, overlap
+        edges, overlap, threads
             As in `read`.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
 
         Returns
         -------

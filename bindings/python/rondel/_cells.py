@@ -24,12 +24,8 @@ def lonlat_grid(
     nlon, nlat : int
         The number of cells in a row, from longitude -180 eastward, and of rows, from the south pole
         northward. Cells are 360 / nlon by 180 / nlat degrees large.
-    sides : {'parallels', 'great_circles'}, optional
-        What the northern and southern sides of cells are: parallels (default), or arcs of great
-        circles between the corners, as in ESMF.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+    sides, threads
+        As in `CellSet.lonlat_grid`.
 
     Returns
     -------
@@ -74,16 +70,8 @@ def polygons(
         The polygons, one a cell, which may have holes and several parts: the name of a GeoJSON
         file; or a GeoDataFrame, a GeoSeries, geometries of shapely, mappings of GeoJSON, or a box
         of west, south, east and north in degrees, as `CellSet.from_geometries` takes them.
-    edges : {'lonlat', 'geodesic'}, optional
-        What joins positions: straight lines in longitude and latitude as in RFC 7946 (default), or
-        great circles.
-    overlap : {'keep', 'error', 'first'}, optional
-        What to do with a place that several polygons contain: 'keep' (default) makes cells that
-        overlap there, 'error' raises an error that names two of them, 'first' gives the place to
-        the first one.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+    edges, overlap, threads
+        As in `CellSet.read`.
 
     Returns
     -------

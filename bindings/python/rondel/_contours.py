@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import io
 import os
-from typing import TYPE_CHECKING, Any, overload
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -41,8 +42,7 @@ class Contours:
         levels : float or array_like, shape (k,)
             One level, or several in increasing order.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -80,14 +80,10 @@ class Contours:
 
         Parameters
         ----------
-        values : array_like, shape (n,)
-            A value for each site. Triangles with a corner whose value is NaN or masked are left
-            out. Of sites in one place the first one that has a value counts.
+        values, threads
+            As in `isolines`.
         levels : float or array_like, shape (k,)
             One level, or several in increasing order, which make k + 1 bands.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
 
         Returns
         -------
@@ -97,7 +93,7 @@ class Contours:
         Raises
         ------
         InvalidInput
-            If a value is infinite, the levels do not increase, or the sites are weighted.
+            As in `isolines`.
 
         Examples
         --------
@@ -124,35 +120,14 @@ def _as_input(
     )
 
 
-class Isolines(Described):
-    """Lines of equal value.
+class Traced(Described):
+    """What `Isolines` and `Bands` have in common."""
 
-    Line i has the ``points[line_offsets[i]:line_offsets[i + 1]]``, unit vectors, with higher
-    values to its left; consecutive ones are joined by arcs of great circles. The lines of
-    ``levels[k]`` are ``level_offsets[k]`` to ``level_offsets[k + 1]``.
-    """
-
-    def __init__(self, found: _core.Isolines) -> None:
-        self._found = found
-        self.levels: FloatArray = found.levels
-        self.level_offsets: OffsetArray = found.level_offsets
-        self.line_offsets: OffsetArray = found.line_offsets
-        self.is_closed: BoolArray = frozen(found.is_closed.astype(bool))
-        self.points: FloatArray = found.points
+    _found: Any
+    _write: ClassVar[Callable[[str | None, Any, float], bytes | None]]
 
     def __getstate__(self) -> dict[str, Any]:
         return arrays_of(self._found)
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        Isolines.__init__(self, with_arrays(_core.Isolines(), state))
-
-    def lines(self, level: int) -> list[FloatArray]:
-        """Returns the lines of a level, each of shape (k, 3); a closed one ends where it begins."""
-        found = []
-        for i in range(*_rows(self.level_offsets, level)):
-            line = self.points[slice(*_rows(self.line_offsets, i))]
-            found.append(np.concatenate([line, line[:1]]) if self.is_closed[i] else line)
-        return found
 
     @overload
     def to_geojson(self, path: None = None, *, tolerance: float = 0.01) -> dict[str, Any]: ...
@@ -163,9 +138,11 @@ class Isolines(Described):
     def to_geojson(
         self, path: str | os.PathLike[str] | io.IOBase | None = None, *, tolerance: float = 0.01
     ) -> Any:
-        """Converts the lines to GeoJSON (RFC 7946).
+        """Converts the lines or bands to GeoJSON (RFC 7946).
 
         There is a feature for each level: a MultiLineString, or null, with the property `level`.
+        Or there is a feature for each band: a MultiPolygon with the properties `low` and `high`,
+        which are null at the open ends.
 
         Parameters
         ----------
@@ -185,17 +162,45 @@ class Isolines(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        return written(path, lambda name: _core.write_isolines(name, self._found, tolerance))
+        return written(path, lambda name: self._write(name, self._found, tolerance))
+
+
+class Isolines(Traced):
+    """Lines of equal value.
+
+    Line i has the ``points[line_offsets[i]:line_offsets[i + 1]]``, unit vectors, with higher
+    values to its left; consecutive ones are joined by arcs of great circles. The lines of
+    ``levels[k]`` are ``level_offsets[k]`` to ``level_offsets[k + 1]``.
+    """
+
+    _write = staticmethod(_core.write_isolines)
+
+    def __init__(self, found: _core.Isolines) -> None:
+        self._found = found
+        self.levels: FloatArray = found.levels
+        self.level_offsets: OffsetArray = found.level_offsets
+        self.line_offsets: OffsetArray = found.line_offsets
+        self.is_closed: BoolArray = frozen(found.is_closed.astype(bool))
+        self.points: FloatArray = found.points
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        Isolines.__init__(self, with_arrays(_core.Isolines(), state))
+
+    def lines(self, level: int) -> list[FloatArray]:
+        """Returns the lines of a level, each of shape (k, 3); a closed one ends where it begins."""
+        found = []
+        for i in range(*_rows(self.level_offsets, level)):
+            line = self.points[slice(*_rows(self.line_offsets, i))]
+            found.append(np.concatenate([line, line[:1]]) if self.is_closed[i] else line)
+        return found
 
     def plot(self, ax: Any = None, *, projection: Any = None, **options: Any) -> Axes:
         """Draws the lines on axes like those of `SphericalDelaunay.plot`.
 
         Parameters
         ----------
-        ax : matplotlib.axes.Axes, optional
-            The axes to draw on; by default new ones.
-        projection : cartopy.crs.CRS, optional
-            The projection of new axes; by default Robinson.
+        ax, projection
+            As there; by default new axes.
         **options
             Options of `matplotlib.collections.LineCollection`.
 
@@ -217,13 +222,15 @@ class Isolines(Described):
         ]
 
 
-class Bands(Described):
+class Bands(Traced):
     """Regions between levels: band k has the values from ``levels[k - 1]`` to below ``levels[k]``.
 
     It consists of the polygons ``band_offsets[k]`` to ``band_offsets[k + 1]``; polygon i of the
     rings ``polygon_offsets[i]`` to ``polygon_offsets[i + 1]``, ring j of the points
     ``points[ring_offsets[j]:ring_offsets[j + 1]]``. Inside is to the left of all rings.
     """
+
+    _write = staticmethod(_core.write_bands)
 
     def __init__(self, found: _core.Bands) -> None:
         self._found = found
@@ -232,9 +239,6 @@ class Bands(Described):
         self.polygon_offsets: OffsetArray = found.polygon_offsets
         self.ring_offsets: OffsetArray = found.ring_offsets
         self.points: FloatArray = found.points
-
-    def __getstate__(self) -> dict[str, Any]:
-        return arrays_of(self._found)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         Bands.__init__(self, with_arrays(_core.Bands(), state))
@@ -248,33 +252,6 @@ class Bands(Described):
             ]
             for i in range(*_rows(self.band_offsets, band))
         ]
-
-    @overload
-    def to_geojson(self, path: None = None, *, tolerance: float = 0.01) -> dict[str, Any]: ...
-    @overload
-    def to_geojson(
-        self, path: str | os.PathLike[str] | io.IOBase, *, tolerance: float = 0.01
-    ) -> None: ...
-    def to_geojson(
-        self, path: str | os.PathLike[str] | io.IOBase | None = None, *, tolerance: float = 0.01
-    ) -> Any:
-        """Converts the bands to GeoJSON (RFC 7946).
-
-        There is a feature for each band: a MultiPolygon with the properties `low` and `high`, which
-        are null at the open ends.
-
-        Parameters
-        ----------
-        path, tolerance
-            As in `Isolines.to_geojson`.
-
-        Returns
-        -------
-        dict or None
-            The FeatureCollection, or None if `path` is given.
-
-        """
-        return written(path, lambda name: _core.write_bands(name, self._found, tolerance))
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

@@ -100,35 +100,8 @@ class SphericalDelaunay(
 
     Parameters
     ----------
-    points : array_like, shape (n, 3)
-        Coordinates x, y, z of the sites, in any unit. They need not lie on the sphere exactly.
-    model : {'projected', 'weighted'}, optional
-        What a point represents. 'projected' (default): its exact projection on the sphere, so that
-        every distinct direction is a vertex. 'weighted': the circle whose pole it is, so that the
-        result is the convex hull, and points inside it are `hidden`.
-    radius : float, optional
-        The radius of the sphere, in the unit of the points; by default 1. It changes the results
-        of weighted sites only.
-    center : array_like, shape (3,), optional
-        The center of the sphere; by default the origin.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second, with the name of the stage and
-        the fraction of it that is done. An exception that it raises ends the work.
-    copy : bool, optional
-        Whether to copy the points; by default True. With False a C-contiguous array of float64,
-        which may be mapped from a file, is used in place. It must not be changed as long as the
-        object lives: results would be wrong, and calls might not end.
-
-    Raises
-    ------
-    InvalidInput
-        If a coordinate is not finite, a projected point is the center, or there are more than
-        715,827,882 points. It is a `ValueError` whose `index` is the first bad point.
-    KeyboardInterrupt
-        If the user presses Ctrl-C, within a short time.
+    points, model, radius, center, threads, progress, copy
+        As in `delaunay`, which also says what is raised.
 
     Notes
     -----
@@ -403,22 +376,22 @@ def delaunay(
         Coordinates x, y, z of the sites, in any unit. They need not lie on the sphere exactly.
     model : {'projected', 'weighted'}, optional
         What a point represents. 'projected' (default): its exact projection on the sphere, which
-        gives the Delaunay triangulation. 'weighted': the circle whose pole it is, which gives the
-        regular triangulation; points without a cell are `hidden`.
+        gives the Delaunay triangulation, where every distinct direction is a vertex. 'weighted':
+        the circle whose pole it is, which gives the regular triangulation, the convex hull; points
+        inside it are `hidden` and have no cell.
     radius : float, optional
         The radius of the sphere, in the unit of the points; by default 1. It changes the results
         of weighted sites only.
     center : array_like, shape (3,), optional
         The center of the sphere; by default the origin.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second, with the name of the stage and
-        the fraction of it that is done. An exception that it raises ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
     copy : bool, optional
-        Whether to copy the points; by default True. With False a C-contiguous array of float64 is
-        used in place, and must not be changed as long as the result lives.
+        Whether to copy the points; by default True. With False a C-contiguous array of float64,
+        which may be mapped from a file, is used in place. It must not be changed as long as the
+        result lives: answers would be wrong, and calls might not end.
 
     Returns
     -------
@@ -440,8 +413,7 @@ def delaunay(
 
     Notes
     -----
-    The algorithm is that of Caroli et al., "Robust and Efficient Delaunay Triangulations of Points
-    on Or Close to a Sphere", SEA 2010, section 4; see `SphericalDelaunay`.
+    See `SphericalDelaunay` for the algorithm.
 
     Examples
     --------
@@ -476,11 +448,9 @@ def delaunay_lonlat(
         Longitudes and latitudes of the sites in degrees. Longitudes may be any finite numbers,
         latitudes are from -90 to 90. Arrays of more dimensions are flattened.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------

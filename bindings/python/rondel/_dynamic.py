@@ -120,8 +120,7 @@ class DynamicTriangulation(Described, Queries):
         lon, lat : array_like, shape (n,)
             Longitudes and latitudes of the first sites in degrees; latitudes are from -90 to 90.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -247,8 +246,7 @@ class DynamicTriangulation(Described, Queries):
         xi : array_like, shape (..., 3)
             Query points; only their directions from the center of the sphere are used.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------

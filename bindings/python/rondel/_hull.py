@@ -21,24 +21,8 @@ class ConvexHull(Mesh):
 
     Parameters
     ----------
-    points : array_like, shape (n, 3)
-        Coordinates x, y, z of the points, in any unit.
-    threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
-    progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
-    copy : bool, optional
-        Whether to copy the points; by default True. With False a C-contiguous array of float64,
-        which may be mapped from a file, is used in place. It must not be changed as long as the
-        object lives: results would be wrong, and calls might not end.
-
-    Raises
-    ------
-    InvalidInput
-        If a coordinate is not finite, or there are more than 715,827,882 points. It is a
-        `ValueError` whose `index` is the first bad point.
+    points, threads, progress, copy
+        As in `convex_hull`, which also says what is raised.
 
     Notes
     -----
@@ -101,14 +85,13 @@ def convex_hull(
     points : array_like, shape (n, 3)
         Coordinates x, y, z of the points, in any unit.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
     copy : bool, optional
-        Whether to copy the points; by default True. With False a C-contiguous array of float64 is
-        used in place, and must not be changed as long as the result lives.
+        Whether to copy the points; by default True. With False a C-contiguous array of float64,
+        which may be mapped from a file, is used in place. It must not be changed as long as the
+        result lives: answers would be wrong, and calls might not end.
 
     Returns
     -------

@@ -122,11 +122,9 @@ class Interpolation:
             Gradients are estimated from the sites up to this many edges away; by default 2, at
             most 100.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
         progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-            ends the work.
+            Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
         Returns
         -------
@@ -254,11 +252,9 @@ class Interpolation:
             on a track. 'zero' (default): the slope across the line is 0, that along it is
             estimated. 'missing': the gradient is NaN.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
         progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-            ends the work.
+            Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
         Returns
         -------

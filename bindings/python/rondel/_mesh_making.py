@@ -213,8 +213,7 @@ def partition(
     tolerance : float, optional
         The largest relative error of an area; by default 1e-12.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
 
     Returns
     -------

@@ -134,19 +134,12 @@ def plot_mesh(
     ----------
     values : array_like, shape (n,), optional
         A number for each cell, shown as its color; by default cells are not filled.
-    ax : matplotlib.axes.Axes, optional
-        The axes to draw on; by default new ones of Cartopy if it is installed, and otherwise with
-        longitude and latitude as coordinates.
-    projection : cartopy.crs.CRS, optional
-        The projection of new axes; by default Robinson.
+    ax, projection, cmap, vmin, vmax
+        As in `SphericalVoronoi.plot`.
     sites : bool, optional
         Whether to draw the sites; by default False.
     coast : bool, optional
-        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the edges; by
-        default False.
-    cmap, vmin, vmax
-        Color map and range of the values, as in Matplotlib. Pass ``ax.collections[0]`` to
-        ``colorbar``.
+        Whether to draw the coasts of the Earth below the edges; by default False.
     **options
         Options of the `matplotlib.collections.LineCollection` of the edges.
 

@@ -119,15 +119,8 @@ class CellPictures:
         ----------
         values : array_like, shape (n,), optional
             A number for each site, shown as the color of its cell.
-        ax : matplotlib.axes.Axes, optional
-            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-        projection : cartopy.crs.CRS, optional
-            Of new axes; by default Robinson.
-        sites : bool, optional
-            Whether to draw the sites.
-        coast : bool, optional
-            Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the
-            borders; by default where sites were given as longitudes and latitudes.
+        ax, projection, sites, coast
+            As in `SphericalDelaunay.plot`.
         cmap, vmin, vmax
             Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
             ``colorbar`` takes.
@@ -177,15 +170,12 @@ class RegionPictures:
         ----------
         values : array_like, shape (n,), optional
             A number for each region, shown as its color.
-        ax : matplotlib.axes.Axes, optional
-            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-        projection : cartopy.crs.CRS, optional
-            Of new axes; by default Robinson.
+        ax, projection
+            As in `SphericalDelaunay.plot`.
         coast : bool, optional
             Whether to draw the coasts of the Earth (Natural Earth, 1:110 million).
         cmap, vmin, vmax
-            Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
-            ``colorbar`` takes.
+            As in `SphericalVoronoi.plot`.
         **options
             For the `matplotlib.collections.PathCollection` of the regions.
 

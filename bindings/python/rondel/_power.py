@@ -45,11 +45,9 @@ def power_diagram(
     radii_deg : array_like, shape (n,) or float
         Angular radii in degrees, from 0 to less than 90; one number holds for all circles.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------

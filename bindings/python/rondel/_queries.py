@@ -42,8 +42,7 @@ class Queries:
         xi : array_like, shape (..., 3)
             Query points; only their directions from the center of the sphere are used.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -79,8 +78,7 @@ class Queries:
         k : int
             The number of vertices for each query, at least 0.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -132,8 +130,7 @@ class Queries:
             The largest distance in radians. For model 'weighted', 0 finds the circles that contain
             the query.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------

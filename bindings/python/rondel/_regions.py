@@ -148,12 +148,8 @@ class Regions(Described, RegionPictures):
         ----------
         groups : sequence, shape (n,)
             The group of each region, as in `SphericalVoronoi.dissolve`.
-        threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
-        progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-            ends the work.
+        threads, progress
+            As in `SphericalVoronoi.dissolve`.
 
         Returns
         -------
@@ -246,14 +242,8 @@ class Regions(Described, RegionPictures):
 
         Parameters
         ----------
-        properties : mapping of str to sequence, optional
-            Further columns: for each name a value for every region.
-        tolerance_deg : float, optional
-            The largest distance of a polygon's straight lines from its arcs, in degrees; by default
-            0.01.
-        radius_km : float, optional
-            The radius of a sphere in kilometers, which adds the column `area_km2`; the mean radius
-            of the Earth is 6371.0088.
+        properties, tolerance_deg, radius_km
+            As in `to_geojson`, for columns in place of properties.
 
         Returns
         -------
@@ -330,11 +320,9 @@ class CellRegions:
             (default) raises an error that names two of them, 'first' gives it to the first one. It
             has no effect without values.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
         progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-            ends the work.
+            Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
         Returns
         -------
@@ -389,11 +377,9 @@ class CellRegions:
             The group of each site: a number, a text, or any hashable object. A site whose group is
             None, NaN or NA belongs to no group.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
         progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-            ends the work.
+            Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
         Returns
         -------
@@ -445,9 +431,8 @@ def feature_cells(
     radius_km : float, optional
         The radius of the sphere on which kilometers are measured; by default 6371.0088, the mean
         radius of the Earth.
-    edges : {'lonlat', 'geodesic'}, optional
-        What joins positions: straight lines in longitude and latitude as in RFC 7946 (default), or
-        great circles.
+    edges
+        As in `SphericalVoronoi.clip`.
     overlap : {'error', 'first'}, optional
         What to do with a place that several polygons contain: 'error' (default) raises an error
         that names two of them, 'first' gives it to the first one.
@@ -455,11 +440,9 @@ def feature_cells(
         Regions to which the cells are clipped, as `SphericalVoronoi.clip` takes them; by default
         cells are not clipped.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------

@@ -92,11 +92,9 @@ class Regridder(Described):
     reuse_weights : bool, optional
         Whether to read the weights from `filename` (or `weights`), as in xESMF; by default False.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
     **needless
         `periodic`, `ignore_degenerate` and `parallel` are accepted and have no effect.
 

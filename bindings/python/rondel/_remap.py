@@ -141,11 +141,9 @@ def remap(
         the lowest index. 'share': each cell gets an equal part. Cells that take no part do not
         count.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------

@@ -41,15 +41,11 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         (default) raises an error. 'merge' gives the cell to the first of them and empty cells to
         the others.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
     copy : bool, optional
-        Whether to copy the points; by default True. With False a C-contiguous array of float64,
-        which may be mapped from a file, is used in place. It must not be changed as long as the
-        object lives: results would be wrong, and calls might not end.
+        Whether to copy the points, as in `delaunay`; by default True.
 
     Attributes
     ----------
@@ -169,12 +165,9 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         lon, lat : array_like, shape (n,)
             Longitudes and latitudes of the sites in degrees; latitudes are from -90 to 90.
         duplicates : {'merge', 'raise'}, optional
-            What to do with sites in the same place. 'merge' (default) gives the cell to the first
-            of them and empty cells to the others. 'raise' raises an error.
-        threads : int, optional
-            The largest number of threads; by default one for each core.
-        progress : callable, optional
-            Called as ``progress(stage, fraction)`` some times a second.
+            As in `SphericalVoronoi`, but by default 'merge'.
+        threads, progress
+            As in `SphericalVoronoi`.
 
         Returns
         -------

@@ -256,8 +256,7 @@ class Mesh:
             What joins positions of polygons: straight lines in longitude and latitude as in RFC
             7946 (default), or great circles.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------
@@ -310,8 +309,7 @@ class Mesh:
         kind : {'cdf5', 'cdf2'}, optional
             The classic format of netCDF; by default 'cdf5'. CDF-2 is limited to 4 GiB a variable.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Raises
         ------

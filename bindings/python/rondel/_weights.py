@@ -180,8 +180,7 @@ class Weights(Described):
         fill : float, optional
             The value of targets that have none; by default NaN.
         threads : int, optional
-            The largest number of threads; by default one for each core. The result does not depend
-            on it.
+            The largest number of threads; by default one for each core.
 
         Returns
         -------

@@ -67,11 +67,9 @@ def from_points(
         Whether to accept four sites on one circle, whose cells meet in one point; by default False,
         since models divide by the length of the edge there, which is 0.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` some times a second. An exception that it raises
-        ends the work.
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------
@@ -131,8 +129,7 @@ def read(
     allow_zero_edges : bool, optional
         Whether to accept edges of length 0, as in `from_points`; by default False.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
 
     Returns
     -------
@@ -236,8 +233,7 @@ def scvt(
         Whether to move sites by some hundredths of the spacing where edges are short, triangles are
         obtuse, or cells have other than 5, 6 or 7 sides; by default True.
     threads : int, optional
-        The largest number of threads; by default one for each core. The result does not depend on
-        it.
+        The largest number of threads; by default one for each core.
     progress : callable, optional
         Called as ``progress(stage, fraction)`` with the name of the stage and an estimate of the
         fraction of all work that is done. An exception that it raises ends the work.
