@@ -68,9 +68,9 @@ void add_globe(nb::module_& module) {
         return page_of(t, points, diagram, columns, values, isolines, options);
       },
       nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
-      nb::arg("columns"), nb::arg("values").none(), nb::arg("isolines").none(), nb::arg("name"),
-      nb::arg("title"), nb::arg("show").none(), nb::arg("sites"), nb::arg("circles"),
-      nb::arg("view").none());
+      nb::arg("columns"), nb::kw_only(), nb::arg("values").none(), nb::arg("isolines").none(),
+      nb::arg("name"), nb::arg("title"), nb::arg("show").none(), nb::arg("sites"),
+      nb::arg("circles"), nb::arg("view").none());
   module.def("coast_lines", [] {
     CoastLines coast = coast_lines();
     return std::tuple(to_array<double>(std::move(coast.positions)),

@@ -21,20 +21,8 @@ namespace {
 
 using mesh::SizeFunction;
 
-// The number of odd cells, of short edges and of obtuse triangles, and the least ratio.
-using DefectsOut = std::tuple<std::size_t, std::size_t, std::size_t, double>;
-// Points, densities (empty if there are none), how the work ended, steps of the last level, mean
-// offset, largest offset, defects before and after the repair, the number of sites that it moved,
-// and the sites of fixed places.
-using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double,
-                           DefectsOut, DefectsOut, std::size_t, ArrayOut<std::int32_t>>;
-using AreasOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int,
-                            double, std::string>;
-
-DefectsOut defects_out(const mesh::ScvtDefects& defects) {
-  return {defects.odd_cells, defects.short_edges, defects.obtuse_triangles,
-          defects.least_edge_ratio};
-}
+// A tessellation, and the density at each site; empty if all are the same.
+using ScvtOut = std::tuple<mesh::Scvt, ArrayOut<double>>;
 
 ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t steps, double gradient,
                   double mean_tolerance, double largest_tolerance, int max_steps, bool repair,
@@ -61,43 +49,58 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
   if (options.size) {
     for (const Point& site : made.sites) density.push_back(options.size->density(site));
   }
-  return {points_out(std::move(made.sites)),
-          to_array<double>(std::move(density)),
-          std::string(name_of(made.end)),
-          made.last.iteration,
-          made.last.mean_offset,
-          made.last.largest_offset,
-          defects_out(made.repair.before),
-          defects_out(made.repair.after),
-          made.repair.moved,
-          indices_out(std::move(made.fixed))};
+  return {std::move(made), to_array<double>(std::move(density))};
 }
 
-AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, double tolerance,
-                             unsigned threads) {
-  mesh::AreaPartition made = watched_quietly(many_sites, threads, [&](const Execution& execution) {
+mesh::AreaPartition make_area_partition(const PointsIn& points, const NumbersIn& areas,
+                                        double tolerance, unsigned threads) {
+  return watched_quietly(many_sites, threads, [&](const Execution& execution) {
     return mesh::area_partition(points_of(points), rows_of<double>(areas), {.tolerance = tolerance},
                                 execution);
   });
-  return {points_out(std::move(made.poles)),
-          to_array<double>(std::move(made.weights)),
-          to_array<double>(std::move(made.areas)),
-          std::string(name_of(made.end)),
-          made.steps,
-          made.largest_error,
-          std::move(made.reason)};
+}
+
+void add_results(nb::module_& module) {
+  nb::class_<mesh::ScvtDefects>(module, "ScvtDefects")
+      .def_ro("odd_cells", &mesh::ScvtDefects::odd_cells)
+      .def_ro("short_edges", &mesh::ScvtDefects::short_edges)
+      .def_ro("obtuse_triangles", &mesh::ScvtDefects::obtuse_triangles)
+      .def_ro("least_edge_ratio", &mesh::ScvtDefects::least_edge_ratio);
+  nb::class_<mesh::Scvt> scvt(module, "Scvt");
+  add_array<double, &mesh::Scvt::sites>(scvt, "points");
+  add_array<std::int32_t, &mesh::Scvt::fixed>(scvt, "fixed");
+  scvt.def_prop_ro("end", [](const mesh::Scvt& self) { return std::string(name_of(self.end)); })
+      .def_prop_ro("steps", [](const mesh::Scvt& self) { return self.last.iteration; })
+      .def_prop_ro("mean_offset", [](const mesh::Scvt& self) { return self.last.mean_offset; })
+      .def_prop_ro("largest_offset",
+                   [](const mesh::Scvt& self) { return self.last.largest_offset; })
+      .def_prop_ro("defects_before", [](const mesh::Scvt& self) { return self.repair.before; })
+      .def_prop_ro("defects_after", [](const mesh::Scvt& self) { return self.repair.after; })
+      .def_prop_ro("moved", [](const mesh::Scvt& self) { return self.repair.moved; });
+  nb::class_<mesh::AreaPartition> partition(module, "AreaPartition");
+  add_array<double, &mesh::AreaPartition::poles>(partition, "points");
+  add_array<double, &mesh::AreaPartition::weights>(partition, "weights");
+  add_array<double, &mesh::AreaPartition::areas>(partition, "areas");
+  partition
+      .def_prop_ro("end",
+                   [](const mesh::AreaPartition& self) { return std::string(name_of(self.end)); })
+      .def_ro("steps", &mesh::AreaPartition::steps)
+      .def_ro("largest_error", &mesh::AreaPartition::largest_error)
+      .def_ro("reason", &mesh::AreaPartition::reason);
 }
 
 }  // namespace
 
 void add_mesh_make(nb::module_& module) {
+  add_results(module);
   module.def(
       "raster_places", [](std::size_t steps) { return points_out(SizeFunction::nodes(steps)); },
       nb::arg("steps"));
-  module.def("make_scvt", &make_scvt, nb::arg("count"), nb::arg("spacings").noconvert(),
-             nb::arg("steps"), nb::arg("gradient"), nb::arg("mean_tolerance"),
-             nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("repair"),
-             nb::arg("fixed").noconvert(), nb::arg("threads"), nb::arg("listener").none());
+  module.def("make_scvt", &make_scvt, nb::kw_only(), nb::arg("count"),
+             nb::arg("spacings").noconvert(), nb::arg("steps"), nb::arg("gradient"),
+             nb::arg("mean_tolerance"), nb::arg("largest_tolerance"), nb::arg("max_steps"),
+             nb::arg("repair"), nb::arg("fixed").noconvert(), nb::arg("threads"),
+             nb::arg("listener").none());
   module.def("make_area_partition", &make_area_partition, nb::arg("points").noconvert(),
              nb::arg("areas").noconvert(), nb::arg("tolerance"), nb::arg("threads"));
 }

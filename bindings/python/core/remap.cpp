@@ -5,12 +5,10 @@
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
 
 #include <array>
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "arrays.h"
@@ -21,13 +19,9 @@
 namespace rondel::python {
 namespace {
 
-// The weights, the cells of both sides with the masks that count, and the areas of sources and of
-// targets and the fractions of both.
-using RemapOut = std::tuple<Weights, CellSet, CellSet, std::array<ArrayOut<double>, 4>>;
-
-RemapOut remap_of(const CellSet& source, const CellSet& target, unsigned order, nb::handle norm,
-                  const IndicesIn& source_mask, const IndicesIn& target_mask, nb::handle overlap,
-                  unsigned threads, const nb::object& listener) {
+Remap remap_of(const CellSet& source, const CellSet& target, unsigned order, nb::handle norm,
+               const IndicesIn& source_mask, const IndicesIn& target_mask, nb::handle overlap,
+               unsigned threads, const nb::object& listener) {
   const RemapOptions options{
       .order = order,
       .norm = named<RemapNorm>("norm", norm),
@@ -35,14 +29,9 @@ RemapOut remap_of(const CellSet& source, const CellSet& target, unsigned order, 
       .target_mask = vector_of<std::int32_t>(target_mask),
       .overlap = named<CellOverlap>("overlap", overlap),
   };
-  Remap found = watched(
+  return watched(
       source.num_cells() + target.num_cells(), threads, listener,
       [&](const Execution& execution) { return remap(source, target, options, execution); });
-  return {std::move(found.weights), std::move(found.source), std::move(found.target),
-          std::array{to_array<double>(std::move(found.source_areas)),
-                     to_array<double>(std::move(found.target_areas)),
-                     to_array<double>(std::move(found.source_fractions)),
-                     to_array<double>(std::move(found.target_fractions))}};
 }
 
 void write_remap(const std::string& path, const std::string& format, const Weights& weights,
@@ -67,8 +56,16 @@ void write_remap(const std::string& path, const std::string& format, const Weigh
 }  // namespace
 
 void add_remap(nb::module_& module) {
-  module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
-             nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
+  nb::class_<Remap> type(module, "Remap");
+  type.def("take_weights", [](Remap& self) { return std::move(self.weights); })
+      .def_ro("source", &Remap::source)
+      .def_ro("target", &Remap::target);
+  add_array<double, &Remap::source_areas>(type, "source_areas");
+  add_array<double, &Remap::target_areas>(type, "target_areas");
+  add_array<double, &Remap::source_fractions>(type, "source_fractions");
+  add_array<double, &Remap::target_fractions>(type, "target_fractions");
+  module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::kw_only(),
+             nb::arg("order"), nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("write_remap", &write_remap, nb::arg("path"), nb::arg("format"), nb::arg("weights"),

@@ -4,12 +4,10 @@
 #include "rondel/weight_files.h"
 
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,17 +30,20 @@ WeightSide side_of(const PairsIn& places, const NumbersIn& areas,
   return side;
 }
 
-// Returns the mask, empty if all take part, the centers in degrees, and the corners, those of a cell one after the other.
-nb::tuple side_out(WeightSide& side) {
-  return nb::make_tuple(to_array<std::int32_t>(std::move(side.mask)),
-                        to_array<double>(std::move(side.points)),
-                        to_array<double>(std::move(side.corners)));
-}
-
 }  // namespace
 
 void add_weight_files(nb::module_& module) {
-  const nb::class_<WeightSide> side(module, "WeightSide");
+  nb::class_<WeightSide> side(module, "WeightSide");
+  add_array<std::int32_t, &WeightSide::mask>(side, "mask");
+  add_array<double, &WeightSide::points>(side, "centers");
+  add_array<double, &WeightSide::corners>(side, "corners");
+  nb::class_<WeightFile>(module, "WeightFile")
+      .def("take_weights", [](WeightFile& self) { return std::move(self.weights); })
+      .def_ro("source", &WeightFile::source)
+      .def_ro("target", &WeightFile::target)
+      .def_ro("method", &WeightFile::method)
+      .def_ro("normalization", &WeightFile::normalization)
+      .def_ro("remarks", &WeightFile::remarks);
   module.def("weight_side", &side_of, nb::arg("places").noconvert(), nb::arg("areas").noconvert(),
              nb::arg("shape"), nb::arg("mask").noconvert());
   module.def(
@@ -58,14 +59,9 @@ void add_weight_files(nb::module_& module) {
       },
       nb::arg("path"), nb::arg("format"), nb::arg("weights"), nb::arg("source"), nb::arg("target"),
       nb::arg("method"), nb::arg("normalization"));
-  // Returns the weights, the method, its normalization, what the reader remarks, and the sides of sources and targets.
   module.def(
       "read_weight_file",
-      [](const std::string& path) {
-        WeightFile file = unlocked([&] { return read_weights(path); });
-        return std::tuple(std::move(file.weights), file.method, file.normalization, file.remarks,
-                          side_out(file.source), side_out(file.target));
-      },
+      [](const std::string& path) { return unlocked([&] { return read_weights(path); }); },
       nb::arg("path"));
 }
 

@@ -173,14 +173,14 @@ def _page(
         self.points,
         diagram,
         columns,
-        numbers,
-        None if isolines is None else isolines._found,
-        str(name),
-        str(title),
-        show,
-        bool(sites),
-        bool(circles),
-        place,
+        values=numbers,
+        isolines=None if isolines is None else isolines._found,
+        name=str(name),
+        title=str(title),
+        show=show,
+        sites=bool(sites),
+        circles=bool(circles),
+        view=place,
     )
 
 

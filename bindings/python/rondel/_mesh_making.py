@@ -174,24 +174,23 @@ def scvt_points(
     spacings = raster_of(spacing, steps)
     slope = 0.0 if gradient is None else float(gradient)
     places, left_out = fixed_points(fixed, along, edges, count, spacings, steps, slope, threads)
-    points, densities, end, made_steps, mean, largest, before, after, moved, sites = (
-        _core.make_scvt(
-            count,
-            spacings,
-            steps,
-            slope,
-            float(tolerance),
-            float(largest_tolerance),
-            _whole(max_steps, "max_steps"),
-            bool(repair),
-            places,
-            as_threads(threads),
-            progress,
-        )
+    made, densities = _core.make_scvt(
+        count=count,
+        spacings=spacings,
+        steps=steps,
+        gradient=slope,
+        mean_tolerance=float(tolerance),
+        largest_tolerance=float(largest_tolerance),
+        max_steps=_whole(max_steps, "max_steps"),
+        repair=bool(repair),
+        fixed=places,
+        threads=as_threads(threads),
+        listener=progress,
     )
-    defects = Defects(*before), Defects(*after)
-    report = ScvtReport(end, made_steps, mean, largest, *defects, moved, left_out)
-    return points, densities, sites, report
+    said = {name: getattr(made, name) for name in ScvtReport._fields[:-1]}
+    for name in ("defects_before", "defects_after"):
+        said[name] = Defects(*(getattr(said[name], field) for field in Defects._fields))
+    return made.points, densities, made.fixed, ScvtReport(**said, left_out=left_out)
 
 
 def partition(
@@ -252,14 +251,10 @@ def partition(
     if areas is not None:
         targets = as_floats(areas, "areas")
         targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
-    poles, weights, found, end, steps, largest_error, reason = _core.make_area_partition(
-        sites, targets, float(tolerance), as_threads(threads)
-    )
-    if end not in ("converged", "rounded"):
+    found = _core.make_area_partition(sites, targets, float(tolerance), as_threads(threads))
+    if found.end not in ("converged", "rounded"):
         warn_caller(
-            f"partition() ended as {end!r}, with areas off by up to {largest_error:.3g}"
-            + (f": {reason}" if reason else "")
+            f"partition() ended as {found.end!r}, with areas off by up to {found.largest_error:.3g}"
+            + (f": {found.reason}" if found.reason else "")
         )
-    return Partition(
-        frozen(poles), frozen(weights), frozen(found), end, steps, largest_error, reason
-    )
+    return Partition(*(getattr(found, name) for name in Partition._fields))

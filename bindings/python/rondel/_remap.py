@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -43,18 +42,19 @@ class Remap(Described):
 
     def __init__(
         self,
-        weights: Weights,
+        made: _core.Remap,
         source: CellSet,
         target: CellSet,
-        measures: Sequence[FloatArray],
         norm: str,
-        order: int = 1,
+        order: int,
     ) -> None:
-        self.weights = weights
+        self.weights = Weights._of(made.take_weights())
         self.source = source
         self.target = target
-        self.source_areas, self.target_areas = measures[:2]
-        self.source_fractions, self.target_fractions = measures[2:]
+        self.source_areas: FloatArray = made.source_areas.copy()
+        self.target_areas: FloatArray = made.target_areas.copy()
+        self.source_fractions: FloatArray = made.source_fractions.copy()
+        self.target_fractions: FloatArray = made.target_fractions.copy()
         self._norm = norm
         self._order = order
 
@@ -182,21 +182,21 @@ def remap(
         _as_mask(source_mask, "source_mask", cells[0]),
         _as_mask(target_mask, "target_mask", cells[1]),
     )
-    weights, *made, measures = _core.remap(
-        cells[0]._cells,
-        cells[1]._cells,
-        order,
-        norm,
-        *masks,
-        overlap,
-        as_threads(threads),
-        progress,
+    made = _core.remap(
+        *(side._cells for side in cells),
+        order=order,
+        norm=norm,
+        source_mask=masks[0],
+        target_mask=masks[1],
+        overlap=overlap,
+        threads=as_threads(threads),
+        progress=progress,
     )
     source, target = (
         side if len(mask) == 0 else CellSet._of(masked, side._origin)
-        for side, mask, masked in zip(cells, masks, made, strict=True)
+        for side, mask, masked in zip(cells, masks, (made.source, made.target), strict=True)
     )
-    return Remap(Weights._of(weights), source, target, measures, norm, int(order))
+    return Remap(made, source, target, norm, int(order))
 
 
 def _as_cell_set(cells: Any, threads: int | None) -> CellSet:

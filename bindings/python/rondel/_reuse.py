@@ -47,11 +47,14 @@ def reused(
         of_file = [_FileSide(centers=centers) for centers in made._places]
     else:
         name = os.fspath(weights)
-        found, text, norm, remarks, *sides = _core.read_weight_file(name)
-        for remark in remarks:
+        file = _core.read_weight_file(name)
+        text, norm = file.method, file.normalization
+        for remark in file.remarks:
             warn_caller(f"{name}: {remark}")
-        of_file = [_FileSide(*side) for side in sides]
-        made = Weights._of(found)
+        of_file = [
+            _FileSide(side.mask, side.centers, side.corners) for side in (file.source, file.target)
+        ]
+        made = Weights._of(file.take_weights())
         bad = np.flatnonzero(~np.isfinite(made.data))
         if len(bad):
             raise ValueError(f"{name}: weight {bad[0]} is {made.data[bad[0]]}")

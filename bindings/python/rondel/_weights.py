@@ -379,9 +379,9 @@ def read_weights(path: Path) -> Weights:
 
     """
     name = os.fspath(path)
-    weights, _, _, remarks, sites, targets = _core.read_weight_file(name)
-    for remark in remarks:
+    file = _core.read_weight_file(name)
+    for remark in file.remarks:
         warn_caller(f"{name}: {remark}")
-    made = Weights._of(weights)
-    made._places = sites[1], targets[1]
+    made = Weights._of(file.take_weights())
+    made._places = file.source.centers.copy(), file.target.centers.copy()
     return made
