@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
-from . import _core
+from . import _core, _ugrid
 from ._arrays import degrees_of
 from ._properties import checked_properties, frame_column, json_columns, with_gaps
 from ._types import Divided, FloatArray, IntArray, Properties, Triangulated
@@ -91,7 +91,7 @@ class TriangleShapes:
             If xarray is not installed.
 
         """
-        return _ugrid("Delaunay triangulation", self.lonlat, self.simplices[~self.ghost])
+        return _mesh_of("Delaunay triangulation", self.lonlat, self.simplices[~self.ghost])
 
 
 class CellShapes:
@@ -215,16 +215,17 @@ class CellShapes:
         sites = np.flatnonzero(sizes)
         faces = np.full((len(sites), sizes.max(initial=3)), -1, np.int32)
         faces[np.arange(faces.shape[1]) < sizes[sites, None]] = rings
-        mesh = _ugrid("Voronoi diagram", degrees_of(points, self.center), faces)
+        mesh = _mesh_of("Voronoi diagram", degrees_of(points, self.center), faces)
         taken = tuple(map(str, mesh.variables))
         given = checked_properties(
             properties, (*taken, "site", "face_lon", "face_lat", "face_area"), len(self.points)
         )
-        _add_positions(mesh, "face", "n_face", self.delaunay.lonlat[sites])
-        face = {"mesh": "mesh", "location": "face", "coordinates": "face_lon face_lat"}
-        mesh["site"] = ("n_face", sites.astype(np.int32), {"long_name": "site of the cell", **face})
-        area = {"long_name": "area of the cell", "units": "sr"}
-        mesh["face_area"] = ("n_face", self._diagram.areas[sites], {**area, **face})
+        _add_positions(mesh, "face", self.delaunay.lonlat[sites])
+        face = _ugrid.values_at("face")
+        about = _ugrid.values_at("face", "site of the cell")
+        mesh["site"] = ("n_face", sites.astype(np.int32), about)
+        about = {**_ugrid.values_at("face", "area of the cell"), "units": "sr"}
+        mesh["face_area"] = ("n_face", self._diagram.areas[sites], about)
         mesh["face_area"].encoding["_FillValue"] = None
         for name, values in given.items():
             mesh[name] = ("n_face", with_gaps(values)[sites], face)
@@ -272,44 +273,28 @@ def polygon_frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopanda
     return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
 
 
-def _ugrid(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:
+def _mesh_of(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:
     """A Dataset by UGRID 1.0: a topology, the positions of nodes, the corners of faces."""
     import xarray
 
-    topology = {
-        "cf_role": "mesh_topology",
-        "long_name": "topology of the mesh",
-        "topology_dimension": np.int32(2),
-        "face_node_connectivity": "face_node_connectivity",
-        "face_dimension": "n_face",
-    }
-    corners = {
-        "cf_role": "face_node_connectivity",
-        "long_name": "corners of the faces, counterclockwise",
-        "start_index": np.int32(0),
-        "_FillValue": np.int32(-1),
-    }
+    name = "face_node_connectivity"
+    topology = {**_ugrid.topology(name), "topology_dimension": np.int32(2)}
+    numbers = {"start_index": np.int32(0), "_FillValue": np.int32(-1)}
+    corners = {**_ugrid.CORNERS, **numbers}
     mesh = xarray.Dataset(
         {
             "mesh": ((), np.int32(0), topology),
-            "face_node_connectivity": (("n_face", "n_max_face_nodes"), faces, corners),
+            name: (("n_face", "n_max_face_nodes"), faces, corners),
         },
-        attrs={
-            "Conventions": "CF-1.11 UGRID-1.0",
-            "title": f"{title} on the sphere",
-            "history": f"made by rondel {_core.version}",
-        },
+        attrs=_ugrid.about(title),
     )
-    _add_positions(mesh, "node", "n_node", nodes)
+    _add_positions(mesh, "node", nodes)
     return mesh
 
 
-def _add_positions(mesh: Any, what: str, dimension: str, degrees: FloatArray) -> None:
+def _add_positions(mesh: Any, what: str, degrees: FloatArray) -> None:
     """The longitudes and latitudes of the nodes or the faces."""
-    for column, (name, full, unit) in enumerate(
-        (("lon", "longitude", "degrees_east"), ("lat", "latitude", "degrees_north"))
-    ):
-        says = {"standard_name": full, "long_name": f"{full} of {what}s", "units": unit}
-        mesh[f"{what}_{name}"] = (dimension, np.array(degrees[:, column]), says)
-        mesh[f"{what}_{name}"].encoding["_FillValue"] = None  # every place is known
+    for column, (name, says) in enumerate(_ugrid.angles(what).items()):
+        mesh[name] = (f"n_{what}", np.array(degrees[:, column]), says)
+        mesh[name].encoding["_FillValue"] = None  # every place is known
     mesh["mesh"].attrs[f"{what}_coordinates"] = f"{what}_lon {what}_lat"

@@ -16,9 +16,9 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _ugrid
 from ._types import FloatArray, Path, Progress, Triangulated
-from ._zarr_folder import MAKER, replaced
+from ._zarr_folder import replaced
 
 _MOST_ROWS = 1 << 20  # of a chunk
 
@@ -101,27 +101,22 @@ def write_group(path: Path, content: GroupContent, progress: Progress = None) ->
     """Writes a group; calls ``progress("group", fraction)`` after each chunk."""
     zarr = require_zarr()
     with replaced(path) as folder:
-        root = zarr.create_group(folder, zarr_format=3, attributes=_ATTRIBUTES)
+        root = zarr.create_group(
+            folder, zarr_format=3, attributes=_ugrid.about("Delaunay triangulation")
+        )
         add = _Adder(root, content, progress)
-        add.rows("faces", content.faces, _FACE, _connectivity("face_node", _CORNERS))
+        add.rows("faces", content.faces, _FACE, _ugrid.CORNERS)
         if content.ghost_faces.shape[0] > 0:
             add.rows("ghost_faces", content.ghost_faces, ["n_ghost_face"], {"long_name": _GHOSTS})
         if content.neighbors is not None:
-            add.rows("neighbors", content.neighbors, _FACE, _connectivity("face_face", _ACROSS))
+            add.rows("neighbors", content.neighbors, _FACE, _ugrid.ACROSS)
         if content.areas is not None:
-            areas = {**_at_nodes("areas of the cells"), "units": "sr"}
+            areas = {**_ugrid.values_at("node", "areas of the cells"), "units": "sr"}
             add.rows("areas", content.areas, ["n_node"], areas)
         if content.duplicates is not None:
             add.rows("duplicates", content.duplicates, _DUPLICATE, {"long_name": _REPEATS})
         add.nodes()
-        topology = {
-            "cf_role": "mesh_topology",
-            "long_name": "topology of the mesh",
-            "topology_dimension": 2,
-            "node_coordinates": "node_lon node_lat",
-            "face_node_connectivity": "faces",
-            "face_dimension": "n_face",
-        }
+        topology = _ugrid.topology("faces")
         if content.neighbors is not None:
             topology["face_face_connectivity"] = "neighbors"
         add.array("mesh", "int32", (), [], topology)
@@ -130,30 +125,10 @@ def write_group(path: Path, content: GroupContent, progress: Progress = None) ->
             zarr.consolidate_metadata(root.store)
 
 
-_ATTRIBUTES = {
-    "Conventions": "CF-1.11 UGRID-1.0",
-    "title": "Delaunay triangulation on the sphere",
-    "history": MAKER + _core.version,
-}
 _FACE = ["n_face", "n_max_face_nodes"]
 _DUPLICATE = ["n_duplicate", "two"]
-_CORNERS = "corners of the faces, counterclockwise"
-_ACROSS = "faces opposite to each corner"
 _GHOSTS = "faces that are flat or reversed, seen from the center"
 _REPEATS = "sites, each with the site that it repeats"
-
-
-def _connectivity(role: str, name: str) -> dict[str, Any]:
-    return {"cf_role": f"{role}_connectivity", "long_name": name, "start_index": 0}
-
-
-def _at_nodes(name: str) -> dict[str, Any]:
-    coordinates = "node_lon node_lat"
-    return {"long_name": name, "mesh": "mesh", "location": "node", "coordinates": coordinates}
-
-
-def _angle(name: str, units: str) -> dict[str, Any]:
-    return {"standard_name": name, "long_name": f"{name} of nodes", "units": units}
 
 
 class _Adder:
@@ -193,10 +168,12 @@ class _Adder:
     def nodes(self) -> None:
         n = self._content.num_nodes
         arrays = [
-            self.array("sites", "float64", (n, 3), ["n_node", "xyz"], _at_nodes("sites")),
-            self.array("node_lon", "float64", (n,), ["n_node"], _angle("longitude", _EAST)),
-            self.array("node_lat", "float64", (n,), ["n_node"], _angle("latitude", _NORTH)),
+            self.array(
+                "sites", "float64", (n, 3), ["n_node", "xyz"], _ugrid.values_at("node", "sites")
+            )
         ]
+        for name, says in _ugrid.angles("node").items():
+            arrays.append(self.array(name, "float64", (n,), ["n_node"], says))
 
         def read(some: slice) -> list[FloatArray]:
             points, degrees = self._content.nodes(some)
@@ -217,10 +194,6 @@ class _Adder:
             self._done += some.stop - some.start
             if self._progress is not None:
                 self._progress("group", self._done / self._total)
-
-
-_EAST = "degrees_east"
-_NORTH = "degrees_north"
 
 
 def chunk_rows(num_rows: int) -> int:

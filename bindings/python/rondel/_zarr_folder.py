@@ -14,8 +14,8 @@ import time
 from collections.abc import Iterator
 
 from ._types import Path
+from ._ugrid import MAKER
 
-MAKER = "made by rondel "
 _numbers = itertools.count()
 
 # All files that a group may have.
