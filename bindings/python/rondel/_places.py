@@ -24,9 +24,8 @@ from ._coordinates import (
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import in_degrees
-from ._masks import mask_of_convention, mask_of_variable
 from ._types import BoolArray, FloatArray
-from ._values import unpacked
+from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MOST_APART, are_near, side_of
 from ._weights import Weights
 
