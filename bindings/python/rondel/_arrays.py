@@ -280,6 +280,11 @@ def target_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
         raise InvalidInput(text, error.index) from None
 
 
+def half_turn(degrees: Any) -> Any:
+    """The same angle from -180 to 180."""
+    return degrees - 360 * np.round(degrees / 360)
+
+
 def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     """Converts points to longitudes and latitudes, those of the rays from `center` through them.
 

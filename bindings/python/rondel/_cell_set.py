@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of
+from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of, half_turn
 from ._errors import InvalidInput, warn_caller
 from ._geo import Path
 from ._geometries import Edges, PolygonOverlap, Sides, polygons_of, read_cells
@@ -498,8 +498,7 @@ def axis_lines(
         lines = _core.axis_lines(np.ascontiguousarray(axis, np.float64), sides, is_longitude)
     except InvalidInput as error:
         raise InvalidInput(f"{name!r}: {error}", error.index) from None
-    away = np.asarray(axis, np.float64) - (lines[:-1] + lines[1:]) / 2
-    away -= 360 * np.round(away / 360)
+    away = half_turn(np.asarray(axis, np.float64) - (lines[:-1] + lines[1:]) / 2)
     outside = int(np.count_nonzero(np.abs(away) > np.abs(np.diff(lines)) / 2 + 1e-4))
     if bounds is not None and outside:
         warn_caller(f"{outside} of {len(axis)} coordinates of {name!r} are outside of their cells")

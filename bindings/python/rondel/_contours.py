@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, ClassVar, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -124,7 +123,9 @@ class Traced(Described):
     """What `Isolines` and `Bands` have in common."""
 
     _found: Any
-    _write: ClassVar[Callable[[str | None, Any, float], bytes | None]]
+
+    def _write(self, name: str | None, tolerance: float) -> bytes | None:
+        raise NotImplementedError
 
     def __getstate__(self) -> dict[str, Any]:
         return arrays_of(self._found)
@@ -162,7 +163,7 @@ class Traced(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        return written(path, lambda name: self._write(name, self._found, tolerance))
+        return written(path, lambda name: self._write(name, tolerance))
 
 
 class Isolines(Traced):
@@ -173,8 +174,6 @@ class Isolines(Traced):
     ``levels[k]`` are ``level_offsets[k]`` to ``level_offsets[k + 1]``.
     """
 
-    _write = staticmethod(_core.write_isolines)
-
     def __init__(self, found: _core.Isolines) -> None:
         self._found = found
         self.levels: FloatArray = found.levels
@@ -182,6 +181,9 @@ class Isolines(Traced):
         self.line_offsets: OffsetArray = found.line_offsets
         self.is_closed: BoolArray = frozen(found.is_closed.astype(bool))
         self.points: FloatArray = found.points
+
+    def _write(self, name: str | None, tolerance: float) -> bytes | None:
+        return _core.write_isolines(name, self._found, tolerance)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         Isolines.__init__(self, with_arrays(_core.Isolines(), state))
@@ -230,8 +232,6 @@ class Bands(Traced):
     ``points[ring_offsets[j]:ring_offsets[j + 1]]``. Inside is to the left of all rings.
     """
 
-    _write = staticmethod(_core.write_bands)
-
     def __init__(self, found: _core.Bands) -> None:
         self._found = found
         self.levels: FloatArray = found.levels
@@ -239,6 +239,9 @@ class Bands(Traced):
         self.polygon_offsets: OffsetArray = found.polygon_offsets
         self.ring_offsets: OffsetArray = found.ring_offsets
         self.points: FloatArray = found.points
+
+    def _write(self, name: str | None, tolerance: float) -> bytes | None:
+        return _core.write_bands(name, self._found, tolerance)
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         Bands.__init__(self, with_arrays(_core.Bands(), state))

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ._arrays import half_turn
 from ._types import FloatArray, IntArray
 
 LONGEST_PIECE = np.radians(2.0)  # of arcs that are drawn as straight pieces
@@ -48,11 +49,6 @@ class LonLatTriangles(NamedTuple):
         from matplotlib.tri import Triangulation
 
         return Triangulation(self.lon, self.lat, self.triangles)
-
-
-def half_turn(degrees: Any) -> Any:
-    """The same angle from -180 to 180."""
-    return degrees - 360 * np.round(degrees / 360)
 
 
 def flat_triangles(

@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._arrays import in_words, point_set_hash, unit_vectors, unmasked
+from ._arrays import half_turn, in_words, point_set_hash, unit_vectors, unmasked
 from ._cell_set import CellSet, axis_lines
 from ._coordinates import (
     MARKS,
@@ -109,8 +109,7 @@ class Places:
             if name not in known or (own.dims, own.shape) != (known[name].dims, known[name].shape):
                 continue
             other = there.get(name, known[name])
-            away = np.asarray(other.values, np.float64) - np.asarray(own.values, np.float64)
-            away -= 360 * np.round(away / 360)
+            away = half_turn(np.asarray(other.values, float) - np.asarray(own.values, float))
             if not np.all((np.abs(away) <= MOST_APART) | np.isnan(away)):
                 raise ValueError(
                     f"the coordinate {name!r} of the data is not that of the source, or in another "
@@ -177,8 +176,7 @@ class Places:
         return with_dimensions(data, {found[0]: places.dims[0]}), places
 
     def _are_here(self, lon: Any, lat: Any) -> bool:
-        east = np.asarray(lon, np.float64) - np.asarray(self.lon, np.float64)
-        east -= 360 * np.round(east / 360)
+        east = half_turn(np.asarray(lon, float) - np.asarray(self.lon, float))
         north = np.asarray(lat, np.float64) - np.asarray(self.lat, np.float64)
         is_pole = np.abs(np.asarray(self.lat, np.float64)) >= 90 - MOST_APART
         far = (np.abs(north) > MOST_APART) | ((np.abs(east) > MOST_APART) & ~is_pole)
