@@ -356,7 +356,7 @@ Command add_apply_command(CLI::App& tool) {
       ->type_name("VALUE");
   parser
       ->add_option("--most-missing", options->apply.most_missing,
-                   "Values may be missing that have up to this share of a target's weights,\n"
+                   "The largest share of a target's weights whose values may be missing,\n"
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)
       ->type_name("SHARE");
@@ -372,12 +372,13 @@ Command add_apply_command(CLI::App& tool) {
       "be larger than the memory.\n\n"
       "The values are those of the sources, in their order. Where the file of weights knows the\n"
       "sources, this is held against a table's columns of longitude and latitude, or x, y, z, and\n"
-      "against the longitudes and latitudes of a netCDF file: both may be 1e-4 degrees off. Of\n"
-      ".npy, and of files without coordinates, only the number of the values is. What reads the\n"
-      "table is told as for rondel interpolate: --lon, --lat, --delimiter ... Weights that are\n"
-      "infinite or not a number are an error, and so are places that are none. SCRIP's\n"
-      "conservative weights that are areas (normalization \"none\") are divided by the areas of\n"
-      "the targets.\n\n"
+      "against the longitudes and latitudes of a netCDF file: both may be 1e-4 degrees off. For\n"
+      ".npy, and for files without coordinates, only the number of values is checked. The options\n"
+      "for reading tables are those of rondel interpolate: --lon, --lat, --delimiter ... Weights\n"
+      "that are infinite or not a number are an error, and so are coordinates that are no place.\n"
+      "SCRIP's conservative weights that are areas (normalization \"none\") are divided by the "
+      "areas\n"
+      "of the targets.\n\n"
       "Examples:\n"
       "  rondel apply weights.nc temperature.nc -o on-grid.nc\n"
       "  rondel apply weights.nc stations.csv --value temperature -o on-grid.csv");

@@ -34,15 +34,16 @@ Command add_mesh_convert_command(CLI::App& mesh) {
   MeshOutput& written = options->written;
   add_input_options(*parser, written.common, mesh_input_help);
   add_mesh_output_options(*parser, written, MeshOutputKind::mesh);
-  parser->add_flag("--allow-zero-edges", options->allow_zero_edges,
-                   "Accept sites on one circle, whose cells meet in one point: MPAS's edges have\n"
-                   "length 0 there, by which models divide; in other formats it is one corner");
+  parser->add_flag(
+      "--allow-zero-edges", options->allow_zero_edges,
+      "Accept sites on one circle, whose cells meet in one point: in MPAS\n"
+      "there are edges of length 0, and models divide by it; other formats have one corner");
   add_threads_option(*parser, written.common);
   add_report_options(*parser, written.common);
   parser->footer(
-      "INPUT may be a mesh as well, netCDF: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
-      "again of the centers of their cells, and at a border of their corners. Cells that the\n"
-      "file masks are left out. Sites have to surround the center of the sphere, each in a place\n"
+      "INPUT may be a mesh as well, netCDF: MPAS, or UGRID, SCRIP and ESMF, whose mesh is\n"
+      "computed again from the centers of the cells, and at a border from their corners. Cells\n"
+      "that the file masks are left out. Sites have to surround the center of the sphere, each in a place\n"
       "of its own.\n\n"
       "Examples:\n"
       "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"
