@@ -21,7 +21,7 @@
 #include "models/projected_points.h"
 #include "order/spatial_order.h"
 #include "rondel/rondel.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace {
 

@@ -28,9 +28,8 @@
 #include <utility>
 #include <vector>
 
-#include "bulk/all_sites.h"
 #include "bulk/bucket.h"
-#include "bulk/bucket_faces.h"
+#include "distributed/bucket_faces.h"
 #include "inputs/random.h"
 #include "measure.h"
 #include "order/cube_position.h"
@@ -258,12 +257,12 @@ class Squares {
 
   // Returns the sums of all squares, in their order.
   std::vector<FaceSums> hash_faces() {
-    bulk::JoinedNumbers numbers(joined_);
-    std::vector<bulk::BucketFaces> faces;
+    distributed::JoinedNumbers numbers(joined_);
+    std::vector<distributed::BucketFaces> faces;
     faces.reserve(size());
     Index first_site = 0;
     Index first_edge = 0;
-    bulk::GlobalIndex next = 0;
+    distributed::GlobalIndex next = 0;
     for (const bulk::BucketBorder& border : borders_) {
       faces.emplace_back(border, joined_, first_site, first_edge).number(next, numbers);
       first_site += static_cast<Index>(border.open_sites.size());
@@ -302,8 +301,8 @@ class Squares {
   }
 
   [[nodiscard]] FaceSums hash_faces(std::size_t i, const bulk::Bucket& bucket,
-                                    const bulk::BucketFaces& faces,
-                                    const bulk::JoinedNumbers& numbers) const {
+                                    const distributed::BucketFaces& faces,
+                                    const distributed::JoinedNumbers& numbers) const {
     LargeVector<std::uint64_t> indices(bucket.order.order.size());
     for (Index rank = 0; rank < indices.size(); ++rank) indices[rank] = index_of(i, bucket, rank);
     FaceSums sums;

@@ -4,9 +4,8 @@
 // Measures the spatial order and its parts.
 
 #include "order/place_keys.h"
-#include "order/radix_sort.h"
+#include "order/sorts.h"
 #include "order/spatial_order.h"
-#include "order/word_sort.h"
 #include "parts.h"
 
 namespace rondel::bench {

@@ -10,7 +10,6 @@
 
 #include "api/build.h"
 #include "api/validation.h"
-#include "exact/length.h"
 #include "exact/vector.h"
 #include "hidden/inner_point.h"
 #include "system/job.h"

@@ -5,13 +5,12 @@
 #include <limits>
 #include <string>
 
-#include "exact/degrees.h"
-#include "exact/longitude.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 

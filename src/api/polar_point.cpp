@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

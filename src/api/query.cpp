@@ -19,10 +19,9 @@
 #include "query/distance.h"
 #include "query/engine.h"
 #include "rondel/error.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/mutex.h"
-#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "api/triangulation_impl.h"
-#include "system/enum_names.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

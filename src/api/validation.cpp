@@ -9,7 +9,7 @@
 #include <string>
 
 #include "rondel/error.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::api {

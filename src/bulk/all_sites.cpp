@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "bulk/all_sites.h"
-
 #include <algorithm>
 #include <limits>
 
+#include "bulk/bucket.h"
 #include "bulk/sphere.h"
 #include "exact/vector.h"
 #include "predicates/orientation.h"

@@ -22,7 +22,7 @@
 #include "bulk/input.h"
 #include "bulk/seam_tree.h"
 #include "kernel/triangulate.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::bulk {
 

@@ -21,7 +21,7 @@
 #include "bulk/divide.h"
 #include "bulk/input.h"
 #include "bulk/squares.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::bulk {
 

@@ -11,7 +11,6 @@
 #include "order/cube_position.h"
 #include "predicates/bounds.h"
 #include "predicates/conflict.h"
-#include "system/masks.h"
 #include "system/prefetch.h"
 #include "system/wide_vectors.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "bulk/seam_faces.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "topology/canonical_order.h"
 #include "topology/mesh.h"

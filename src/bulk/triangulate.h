@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "kernel/triangulate.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::bulk {
 

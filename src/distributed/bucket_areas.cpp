@@ -63,21 +63,21 @@ class StarPiece {
   }
 
   // True if the corner is a site of the piece.
-  [[nodiscard]] bool is_in_piece(const bulk::BucketCorner& v) const {
+  [[nodiscard]] bool is_in_piece(const BucketCorner& v) const {
     return v.is_own && v.index >= begin_ && v.index < end_;
   }
 
   // True if no earlier site of the piece has the face.
   [[nodiscard]] bool is_first(Index rank, Index code) const {
     for (unsigned i = 0; i < 3; ++i) {
-      const bulk::BucketCorner v = input_.surface.corner(code, i);
+      const BucketCorner v = input_.surface.corner(code, i);
       if (is_in_piece(v) && v.index < rank) return false;
     }
     return true;
   }
 
   // Returns the local number of a site, which it gets when it is first seen.
-  Index site_of(const bulk::BucketCorner& v) {
+  Index site_of(const BucketCorner& v) {
     if (is_in_piece(v)) return static_cast<Index>(input_.landmarks.size()) + (v.index - begin_);
     const std::uint64_t key = (v.is_own ? 0 : std::uint64_t{1} << 32U) | v.index;
     const auto [place, is_new] = others_.try_emplace(key, static_cast<Index>(points_.size()));
@@ -95,9 +95,9 @@ class StarPiece {
   std::span<const Index> face_at_;
   Index begin_;
   Index end_;
-  std::vector<std::pair<bulk::GlobalIndex, Index>> faces_;  // number and code
-  std::unordered_map<Index, Index> local_of_;               // code -> local face
-  std::unordered_map<std::uint64_t, Index> others_;         // sites that are not in the piece
+  std::vector<std::pair<GlobalIndex, Index>> faces_;  // number and code
+  std::unordered_map<Index, Index> local_of_;         // code -> local face
+  std::unordered_map<std::uint64_t, Index> others_;   // sites that are not in the piece
   std::vector<Point> points_;
 };
 

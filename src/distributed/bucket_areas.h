@@ -14,19 +14,19 @@
 #include <span>
 #include <vector>
 
-#include "bulk/bucket_surface.h"
+#include "distributed/bucket_surface.h"
 #include "system/job.h"
 
 namespace rondel::distributed {
 
 // The parts of a triangulation from which the areas of a bucket's cells are computed.
 struct AreaInput {
-  const bulk::BucketSurface& surface;
+  const BucketSurface& surface;
   std::span<const Point> points;       // by rank
   std::span<const Point> open_points;  // open points of all buckets
-  std::vector<Point> landmarks;        // landmarks of all sites (bulk/all_sites.h)
+  std::vector<Point> landmarks;        // landmarks of all sites (bulk/bucket.h)
   // Returns the number of a face among those of all buckets, given its code.
-  std::function<bulk::GlobalIndex(Index)> number;
+  std::function<GlobalIndex(Index)> number;
 };
 
 // Returns the areas on the unit sphere by rank, 0 for hidden sites. The work is done in pieces of

@@ -18,7 +18,7 @@
 #include "distributed/bucket_store.h"
 #include "distributed/slots.h"
 #include "system/job.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::distributed {
 

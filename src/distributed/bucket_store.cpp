@@ -103,13 +103,13 @@ StoredBorder border_of(const Words& words, bool has_rim) {
 }  // namespace
 
 BucketStore::BucketStore(const std::string& faces, const std::string& borders,
-                         std::span<const bulk::BucketCut> cuts, StoreParts parts)
+                         std::span<const BucketCut> cuts, StoreParts parts)
     : faces_(faces),
       borders_(borders),
       borders_end_(borders_.size()),
       first_site_(1, 0),
       parts_(parts) {
-  for (const bulk::BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
+  for (const BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
 }
 
 void BucketStore::add_duplicates(std::size_t i, StoredBucket& stored,

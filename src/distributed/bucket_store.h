@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bulk/bucket.h"
-#include "bulk/bucket_cuts.h"
+#include "distributed/bucket_cuts.h"
 #include "distributed/packed_words.h"
 #include "distributed/scratch_file.h"
 
@@ -68,8 +68,8 @@ struct StoredBorder {
 class BucketStore {
  public:
   // Opens or creates the two files. `cuts` are the buckets.
-  BucketStore(const std::string& faces, const std::string& borders,
-              std::span<const bulk::BucketCut> cuts, StoreParts parts);
+  BucketStore(const std::string& faces, const std::string& borders, std::span<const BucketCut> cuts,
+              StoreParts parts);
 
   // Adds to the duplicates of bucket i, which has not been written yet.
   void add_duplicates(std::size_t i, StoredBucket& stored,

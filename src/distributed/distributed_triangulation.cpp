@@ -84,7 +84,7 @@ void DistributedTriangulation::visit_faces(
   RowVisits rows(visit);
   for (std::size_t b = 0; b < impl_->faces.size(); ++b) {
     const auto names = std::span(impl_->own.sites).subspan(impl_->own.first_site[b]);
-    const auto name = [&](const bulk::BucketCorner& corner) {
+    const auto name = [&](const distributed::BucketCorner& corner) {
       return corner.is_own ? names[corner.index] : impl_->part.site_indices[corner.index];
     };
     impl_->faces[b].for_each_face(impl_->own.buckets[b].faces, [&](const auto& v) {
@@ -98,7 +98,7 @@ void DistributedTriangulation::visit_neighbors(
     const std::function<void(std::span<const GlobalTriple>)>& visit) const {
   RowVisits rows(visit);
   for (std::size_t b = 0; b < impl_->faces.size(); ++b) {
-    const bulk::JoinedNumbers& numbers = *impl_->numbers;
+    const distributed::JoinedNumbers& numbers = *impl_->numbers;
     impl_->faces[b].for_each_neighbors(impl_->own.buckets[b].neighbors, [&](const auto& n) {
       rows.add({numbers[n[0]], numbers[n[1]], numbers[n[2]]});
     });

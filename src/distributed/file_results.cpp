@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "api/triangulation_impl.h"
-#include "bulk/bucket_surface.h"
 #include "distributed/bucket_areas.h"
+#include "distributed/bucket_surface.h"
 #include "distributed/merge_by_row.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
@@ -81,7 +81,7 @@ struct NumberedBucket {
   std::size_t i;
   const StoredBucket& stored;
   const bulk::BucketBorder& border;
-  const bulk::BucketFaces& faces;
+  const BucketFaces& faces;
   Index first_site;
   Index first_edge;
 };
@@ -90,7 +90,7 @@ struct NumberedBucket {
 class ResultWriter {
  public:
   ResultWriter(const RunState& state, const BucketStore& store, const Joined& joined,
-               bulk::GlobalIndex first_face, const system::Job& options, FileResults& results)
+               GlobalIndex first_face, const system::Job& options, FileResults& results)
       : state_(state),
         store_(store),
         joined_(joined),
@@ -118,11 +118,11 @@ class ResultWriter {
   void for_each_bucket(Visit visit) {
     Index first_site = 0;
     Index first_edge = 0;
-    bulk::GlobalIndex first_face = first_face_;
+    GlobalIndex first_face = first_face_;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
       system::obey_stop();
       const StoredBorder stored = store_.border(state_.done(i));
-      bulk::BucketFaces faces(stored.border, joined_.faces, first_site, first_edge);
+      BucketFaces faces(stored.border, joined_.faces, first_site, first_edge);
       faces.number(first_face, numbers_);
       visit({i, state_.done(i), stored.border, faces, first_site, first_edge});
       first_site += static_cast<Index>(stored.border.open_sites.size());
@@ -135,7 +135,7 @@ class ResultWriter {
   void write_faces(const NumberedBucket& bucket) {
     const std::vector<std::uint64_t> rows = store_.vertex_rows(bucket.i, bucket.stored);
     bucket.faces.for_each_face(store_.faces(bucket.i, bucket.stored), [&](const auto& corners) {
-      for (const bulk::BucketCorner& v : corners)
+      for (const BucketCorner& v : corners)
         results_.faces.add(v.is_own ? rows[v.index] : joined_.open_rows[v.index]);
     });
   }
@@ -144,8 +144,7 @@ class ResultWriter {
   void write_neighbors(const NumberedBucket& bucket) {
     const LargeVector<Triple> neighbors = store_.neighbors(bucket.i, bucket.stored);
     bucket.faces.for_each_neighbors(neighbors, [&](const auto& across) {
-      for (const bulk::BucketNeighbor& neighbor : across)
-        results_.neighbors->add(numbers_[neighbor]);
+      for (const BucketNeighbor& neighbor : across) results_.neighbors->add(numbers_[neighbor]);
     });
   }
 
@@ -169,8 +168,8 @@ class ResultWriter {
     const LargeVector<Triple> neighbors = store_.neighbors(bucket.i, bucket.stored);
     const LargeVector<Point> points = store_.points(bucket.i, bucket.stored);
     const LargeVector<Index> places = bucket.faces.places_of_own();
-    const bulk::BucketSurface surface(faces, neighbors, bucket.border, joined_.faces,
-                                      bucket.first_site, bucket.first_edge);
+    const BucketSurface surface(faces, neighbors, bucket.border, joined_.faces, bucket.first_site,
+                                bucket.first_edge);
     const auto number = [&](Index code) {
       return surface.is_own(code) ? bucket.faces.first() + places[code]
                                   : numbers_.faces[surface.joined_of(code)];
@@ -182,10 +181,10 @@ class ResultWriter {
   const RunState& state_;
   const BucketStore& store_;
   const Joined& joined_;
-  bulk::GlobalIndex first_face_;
+  GlobalIndex first_face_;
   const system::Job& options_;
   FileResults& results_;
-  bulk::JoinedNumbers numbers_;
+  JoinedNumbers numbers_;
 };
 
 // Writes the duplicates of all buckets, in increasing order of site.

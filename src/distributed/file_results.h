@@ -11,8 +11,8 @@
 
 #include <optional>
 
-#include "bulk/bucket_faces.h"
 #include "distributed/area_results.h"
+#include "distributed/bucket_faces.h"
 #include "distributed/row_file.h"
 #include "distributed/run_state.h"
 #include "rondel/out_of_core.h"

@@ -141,7 +141,7 @@ class OutOfCoreRun {
 
   // Throws if the buckets are too large, since an earlier run may have had more memory.
   void check_buckets() const {
-    for (const bulk::BucketCut& cut : state_.counts().cuts) {
+    for (const BucketCut& cut : state_.counts().cuts) {
       if (cut.num_sites <= limits_.most_bucket_sites || cut.square.bits == order::low_levels)
         continue;
       throw FileError(scratch_ + ": a run with buckets of " + std::to_string(cut.num_sites) +
@@ -201,7 +201,7 @@ class OutOfCoreRun {
 
   // Triangulates and stores bucket i; returns false if its slot is damaged.
   bool triangulate(std::size_t i, const Slots& slots, BucketStore& store) {
-    const bulk::BucketCut& cut = state_.counts().cuts[i];
+    const BucketCut& cut = state_.counts().cuts[i];
     const BucketFiles files = {slots, store, i, cut.num_sites, state_.dealt(i)};
     StoredBucket stored;
     const bool is_crowd = cut.square.bits == order::low_levels;

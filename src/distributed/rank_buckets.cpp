@@ -124,10 +124,10 @@ Bytes write_open_buckets(const RankBuckets& own, bool keep_points) {
   return writer.take();
 }
 
-void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
-                       bool keep_points, OpenBuckets& all) {
+void read_open_buckets(MessageReader& reader, std::span<const BucketCut> cuts, bool keep_points,
+                       OpenBuckets& all) {
   const std::size_t first = all.sites.size();
-  for (const bulk::BucketCut& cut : cuts) {
+  for (const BucketCut& cut : cuts) {
     bulk::OpenBucket& open = all.buckets.emplace_back();
     open.square = cut.square;
     open.num_sites = static_cast<double>(reader.value<std::uint64_t>());

@@ -15,7 +15,7 @@
 #include "distributed/rank_sites.h"
 #include "rondel/distributed.h"
 #include "system/job.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::distributed {
 
@@ -66,7 +66,7 @@ struct OpenBuckets {
 };
 
 // Adds the message of a rank. `cuts` are the rank's buckets.
-void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
-                       bool keep_points, OpenBuckets& all);
+void read_open_buckets(MessageReader& reader, std::span<const BucketCut> cuts, bool keep_points,
+                       OpenBuckets& all);
 
 }  // namespace rondel::distributed

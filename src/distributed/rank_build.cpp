@@ -130,10 +130,10 @@ class RankBuild {
     const auto num_faces = gather_values(steps_, result_->num_own_faces);
     result_->num_faces = sum(num_faces);
     result_->first_face = limits_.first_number + sum(std::span(num_faces).first(steps_.rank()));
-    result_->numbers = std::make_unique<bulk::JoinedNumbers>(part.faces);
+    result_->numbers = std::make_unique<JoinedNumbers>(part.faces);
     result_->numbers->faces.resize(part.num_faces);
     std::uint64_t next = result_->first_face;
-    for (bulk::BucketFaces& faces : result_->faces) {
+    for (BucketFaces& faces : result_->faces) {
       faces.number(next, *result_->numbers);
       next += faces.size();
     }
@@ -144,7 +144,7 @@ class RankBuild {
   }
 
   void tell_numbers() {
-    bulk::JoinedNumbers& numbers = *result_->numbers;
+    JoinedNumbers& numbers = *result_->numbers;
     std::vector<Bytes> messages(steps_.size());
     for (const NumberList& list : result_->part.told) {
       MessageWriter writer;

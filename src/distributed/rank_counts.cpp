@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "api/validation.h"
-#include "bulk/bucket_cuts.h"
+#include "distributed/bucket_cuts.h"
 #include "distributed/site_counts.h"
 
 namespace rondel::distributed {
@@ -27,7 +27,7 @@ std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
 // Returns the least depth with which uniform sites need one round.
 int depth_for(std::size_t num_ranks) {
   int depth = 3;
-  while (depth < bulk::BucketCounts::usual_depth &&
+  while (depth < BucketCounts::usual_depth &&
          (std::size_t{6} << (2 * depth)) < 16 * squares_of_rank * num_ranks) {
     ++depth;
   }
@@ -154,7 +154,7 @@ class RankCounter {
   std::span<const Point> mine_;
   const RankLimits& limits_;
   const system::Job& options_;
-  std::optional<bulk::BucketCounts> counts_;
+  std::optional<BucketCounts> counts_;
   std::size_t num_counts_ = 0;
   RankCounts result_;
 };

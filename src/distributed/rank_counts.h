@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "bulk/all_sites.h"
+#include "bulk/bucket.h"
 #include "distributed/rank_plan.h"
 #include "distributed/same_points.h"
 #include "distributed/supersteps.h"

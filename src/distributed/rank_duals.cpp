@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "api/triangulation_impl.h"
-#include "bulk/bucket_surface.h"
 #include "distributed/bucket_areas.h"
+#include "distributed/bucket_surface.h"
 #include "distributed/rank_counts.h"
 #include "dual/parts.h"
 #include "rondel/error.h"
@@ -19,7 +19,7 @@ namespace rondel::distributed {
 namespace {
 
 using Impl = DistributedTriangulation::Impl;
-using FaceCorners = std::array<bulk::BucketCorner, 3>;
+using FaceCorners = std::array<BucketCorner, 3>;
 
 void require_points(const Impl& t) {
   if (!t.has_points) {
@@ -69,15 +69,15 @@ class AreasHome {
     for (std::size_t b = 0; b < t_.faces.size(); ++b) {
       system::obey_stop();
       const bulk::Bucket& bucket = t_.own.buckets[b];
-      const bulk::BucketSurface surface(bucket.faces, bucket.neighbors, bucket.border,
-                                        t_.part.faces, first_site, first_edge);
+      const BucketSurface surface(bucket.faces, bucket.neighbors, bucket.border, t_.part.faces,
+                                  first_site, first_edge);
       add_areas(b, surface);
       first_site += static_cast<Index>(bucket.border.open_sites.size());
       first_edge += static_cast<Index>(bucket.border.open_edges.size());
     }
   }
 
-  void add_areas(std::size_t b, const bulk::BucketSurface& surface) {
+  void add_areas(std::size_t b, const BucketSurface& surface) {
     const LargeVector<Index> places = t_.faces[b].places_of_own();
     const auto number = [&](Index code) {
       return surface.is_own(code) ? t_.faces[b].first() + places[code]
@@ -128,7 +128,7 @@ class FacePiece {
     Index place;
   };
 
-  Index place(const bulk::BucketCorner& v) {
+  Index place(const BucketCorner& v) {
     if (!v.is_own) return add(open_points_[v.index]);
     ListedSite& slot = slots_[v.index % num_slots];
     if (slot.rank != v.index) slot = {v.index, add(own_points_[v.index])};

@@ -15,7 +15,7 @@
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
 #include "system/job.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel {
 namespace distributed {

@@ -10,12 +10,12 @@ namespace {
 
 using order::high_levels;
 
-std::vector<std::size_t> ranks_of(std::span<const bulk::BucketCut> squares, std::size_t num_ranks) {
+std::vector<std::size_t> ranks_of(std::span<const BucketCut> squares, std::size_t num_ranks) {
   double num_all = 0;
-  for (const bulk::BucketCut& square : squares) num_all += static_cast<double>(square.num_sites);
+  for (const BucketCut& square : squares) num_all += static_cast<double>(square.num_sites);
   std::vector<std::size_t> ranks;
   double before = 0;
-  for (const bulk::BucketCut& square : squares) {
+  for (const BucketCut& square : squares) {
     const auto num_sites = static_cast<double>(square.num_sites);
     const double share = (before + num_sites / 2) / num_all * static_cast<double>(num_ranks);
     ranks.push_back(std::min(static_cast<std::size_t>(share), num_ranks - 1));
@@ -26,7 +26,7 @@ std::vector<std::size_t> ranks_of(std::span<const bulk::BucketCut> squares, std:
 
 class Planner {
  public:
-  Planner(std::span<const bulk::BucketCut> squares, std::span<const std::size_t> ranks,
+  Planner(std::span<const BucketCut> squares, std::span<const std::size_t> ranks,
           std::uint64_t most_sites)
       : squares_(squares), ranks_(ranks), most_sites_(most_sites) {}
 
@@ -60,17 +60,17 @@ class Planner {
   }
 
  private:
-  std::span<const bulk::BucketCut> squares_;
+  std::span<const BucketCut> squares_;
   std::span<const std::size_t> ranks_;
   std::uint64_t most_sites_;
   std::size_t next_ = 0;
-  std::vector<bulk::BucketCut> buckets_;
+  std::vector<BucketCut> buckets_;
   std::vector<std::size_t> bucket_ranks_;
 };
 
 }  // namespace
 
-RankPlan plan_ranks(std::span<const bulk::BucketCut> squares, std::size_t num_ranks,
+RankPlan plan_ranks(std::span<const BucketCut> squares, std::size_t num_ranks,
                     std::uint64_t most_bucket_sites) {
   const std::vector<std::size_t> ranks = ranks_of(squares, num_ranks);
   Planner planner(squares, ranks, most_bucket_sites);

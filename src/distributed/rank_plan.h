@@ -21,13 +21,13 @@
 #include <span>
 #include <vector>
 
-#include "bulk/bucket_cuts.h"
+#include "distributed/bucket_cuts.h"
 
 namespace rondel::distributed {
 
 // The buckets of all ranks.
 struct RankPlan {
-  std::vector<bulk::BucketCut> buckets;
+  std::vector<BucketCut> buckets;
   std::vector<std::size_t> first_bucket;  // by rank; then the number of buckets
 
   [[nodiscard]] std::size_t num_buckets(std::size_t rank) const {
@@ -37,7 +37,7 @@ struct RankPlan {
 
 // Each square goes to the rank in whose share its middle site is. A bucket has more than
 // `most_bucket_sites` sites only if it is a single one of the squares.
-RankPlan plan_ranks(std::span<const bulk::BucketCut> squares, std::size_t num_ranks,
+RankPlan plan_ranks(std::span<const BucketCut> squares, std::size_t num_ranks,
                     std::uint64_t most_bucket_sites);
 
 }  // namespace rondel::distributed

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "bulk/bucket_faces.h"
+#include "distributed/bucket_faces.h"
 #include "distributed/joined_part.h"
 #include "distributed/rank_buckets.h"
 #include "rondel/distributed.h"
@@ -52,8 +52,9 @@ struct DistributedTriangulation::Impl {
   distributed::JoinedPart part;
   // The faces by bucket; they refer to `own` and `part`, which are not moved. Empty below dimension
   // 2.
-  std::vector<bulk::BucketFaces> faces;
-  std::unique_ptr<bulk::JoinedNumbers> numbers;  // numbers of all faces in `part`, if `has_points`
+  std::vector<distributed::BucketFaces> faces;
+  std::unique_ptr<distributed::JoinedNumbers>
+      numbers;  // numbers of all faces in `part`, if `has_points`
 };
 
 }  // namespace rondel

@@ -15,10 +15,10 @@ namespace {
 // Finds the bucket of a key: a table of its first bits leads to a few candidates.
 class BucketTable {
  public:
-  explicit BucketTable(std::span<const bulk::BucketCut> cuts) : cuts_(cuts) {
+  explicit BucketTable(std::span<const BucketCut> cuts) : cuts_(cuts) {
     first_.reserve(table_size + 1);
     for (std::size_t i = 0; i < table_size; ++i)
-      first_.push_back(static_cast<Index>(bulk::bucket_of(std::uint64_t{i} << shift, cuts) + 1));
+      first_.push_back(static_cast<Index>(bucket_of(std::uint64_t{i} << shift, cuts) + 1));
     first_.push_back(static_cast<Index>(cuts.size()));
   }
 
@@ -26,7 +26,7 @@ class BucketTable {
   [[nodiscard]] Index operator()(std::uint64_t key) const {
     const std::size_t i = key >> shift;
     const auto cuts = cuts_.subspan(first_[i], first_[i + 1] - first_[i]);
-    const auto next = std::ranges::upper_bound(cuts, key, {}, &bulk::BucketCut::first_key);
+    const auto next = std::ranges::upper_bound(cuts, key, {}, &BucketCut::first_key);
     return first_[i] + static_cast<Index>(next - cuts.begin()) - 1;
   }
 
@@ -34,7 +34,7 @@ class BucketTable {
   static constexpr std::size_t table_size = std::size_t{1} << 13;
   static constexpr int shift = order::high_key_bits - 13;
 
-  std::span<const bulk::BucketCut> cuts_;
+  std::span<const BucketCut> cuts_;
   std::vector<Index> first_;
 };
 

@@ -15,7 +15,7 @@
 
 #include "distributed/rank_counts.h"
 #include "distributed/supersteps.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::distributed {
 

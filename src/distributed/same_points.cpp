@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "system/hash.h"
 #include "system/parallel.h"
 
 namespace rondel::distributed {
@@ -35,9 +36,9 @@ class PointTable {
   // The bits of small integers differ only in their upper half, those of neighboring points in the
   // lower half. Any odd factors without a pattern in their bits will do.
   static std::uint64_t hash(const PointBits& bits) {
-    const std::uint64_t h = bits[0] * 0x9e3779b97f4a7c15U + bits[1] * 0xc2b2ae3d27d4eb4fU +
+    const std::uint64_t h = bits[0] * system::golden_multiplier + bits[1] * 0xc2b2ae3d27d4eb4fU +
                             bits[2] * 0x165667b19e3779f9U;
-    return (h ^ h >> 32U) * 0x9e3779b97f4a7c15U;
+    return (h ^ h >> 32U) * system::golden_multiplier;
   }
 
   int shift_;

@@ -14,7 +14,6 @@
 #include "io/atomic_file.h"
 #include "io/binary.h"
 #include "io/npy_header.h"
-#include "io/replacement.h"
 #include "rondel/error.h"
 #include "system/descriptor.h"
 

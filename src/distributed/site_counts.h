@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "bulk/all_sites.h"
-#include "bulk/bucket_cuts.h"
+#include "bulk/bucket.h"
+#include "distributed/bucket_cuts.h"
 #include "io/npy_rows.h"
 #include "system/job.h"
 
@@ -25,7 +25,7 @@ inline constexpr std::size_t most_piece_sites = std::size_t{1} << 20;
 // What is known of all sites, and the buckets.
 struct SiteCounts {
   bulk::AllSites all;
-  std::vector<bulk::BucketCut> cuts;
+  std::vector<BucketCut> cuts;
 };
 
 // Throws FileError if one of these sites, the first of which is row `first`, is not valid.

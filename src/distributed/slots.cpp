@@ -21,14 +21,14 @@ class Slots::DealtSites {
 
   void read(const io::NpyRows& rows, std::uint64_t first, std::size_t size,
             std::uint64_t first_number, const system::Job& options,
-            std::span<const bulk::BucketCut> cuts) {
+            std::span<const BucketCut> cuts) {
     const std::span sites = std::span(sites_).first(size);
     rows.read(first, sites, options.threads);
     find_keys(sites, options, keys_);
     system::parallel_for(options.threads, size, std::size_t{1} << 14,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t i = begin; i < end; ++i) {
-                             bucket_of_[i] = static_cast<Index>(bulk::bucket_of(keys_[i], cuts));
+                             bucket_of_[i] = static_cast<Index>(bucket_of(keys_[i], cuts));
                            }
                          });
     std::ranges::fill(begin_, 0);
@@ -58,9 +58,9 @@ class Slots::DealtSites {
   std::vector<std::size_t> begin_;
 };
 
-Slots::Slots(const std::string& path, std::span<const bulk::BucketCut> cuts)
+Slots::Slots(const std::string& path, std::span<const BucketCut> cuts)
     : file_(path), cuts_(cuts), first_site_(1, 0) {
-  for (const bulk::BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
+  for (const BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
 }
 
 std::vector<SlotChecksums> Slots::deal(const io::NpyRows& rows, const system::Job& options,

@@ -31,7 +31,7 @@ struct SlotChecksums {
 // A file with a slot for each bucket.
 class Slots {
  public:
-  Slots(const std::string& path, std::span<const bulk::BucketCut> cuts);
+  Slots(const std::string& path, std::span<const BucketCut> cuts);
 
   // Distributes the sites to the slots of the buckets that are wanted; the first row has the number
   // `first_number`. Returns the checksums of all buckets.
@@ -54,7 +54,7 @@ class Slots {
   }
 
   ScratchFile file_;
-  std::span<const bulk::BucketCut> cuts_;
+  std::span<const BucketCut> cuts_;
   std::vector<std::uint64_t> first_site_;  // by bucket; then the number of all sites
 };
 

@@ -4,7 +4,7 @@
 // What an arc adds to the moment of a spherical polygon beyond its chord.
 #pragma once
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 
 namespace rondel::dual {
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "dual/arc_points.h"
-
 #include <algorithm>
 
 #include "dual/face_batch.h"
+#include "dual/parts.h"
 #include "dual/ring_walk.h"
 
 namespace rondel::dual {

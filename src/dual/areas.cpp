@@ -17,7 +17,7 @@
 
 #include "dual/local_ring.h"
 #include "dual/parts.h"
-#include "exact/argument.h"
+#include "exact/angles.h"
 
 namespace rondel::dual {
 namespace {

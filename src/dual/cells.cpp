@@ -9,14 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "dual/arc_points.h"
-#include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
-#include "system/huge_pages.h"
 #include "system/job.h"
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 

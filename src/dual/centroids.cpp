@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "dual/arc_excess.h"
-#include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "rondel/diagram.h"

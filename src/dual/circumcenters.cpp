@@ -6,8 +6,8 @@
 
 #include "dual/parts.h"
 #include "rondel/diagram.h"
-#include "system/huge_pages.h"
 #include "system/job.h"
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 
 namespace rondel {

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "dual/exact_normal.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 
+#include "dual/split_sites.h"
 #include "exact/integer.h"
 #include "rondel/error.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dual/exact_normal.h"
 #include "dual/face_normal.h"
+#include "dual/split_sites.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::dual {

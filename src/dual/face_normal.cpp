@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "dual/exact_normal.h"
+#include "dual/split_sites.h"
 
 namespace rondel::dual {
 namespace {

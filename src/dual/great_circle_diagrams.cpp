@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "dual/great_circle_diagrams.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +8,8 @@
 #include <numbers>
 
 #include "dual/face_normal.h"
-#include "exact/argument.h"
+#include "dual/parts.h"
+#include "exact/angles.h"
 
 namespace rondel::dual {
 namespace {

@@ -6,37 +6,17 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 
 #include "dual/face_normal.h"
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
 #include "rondel/predicates.h"
+#include "system/disjoint_sets.h"
 #include "system/job.h"
 
 namespace rondel {
 namespace {
-
-// Disjoint sets of faces; a set is named by its smallest face.
-class FaceSets {
- public:
-  explicit FaceSets(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-  Index find(Index f) {
-    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
-    return f;
-  }
-  void join(Index f, Index g) {
-    f = find(f);
-    g = find(g);
-    parent_[std::max(f, g)] = std::min(f, g);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 class FacetFinder {
  public:
@@ -95,7 +75,7 @@ class FacetFinder {
   }
 
   // The halfedge (f, i) is on the border of its facet.
-  bool is_border(Index f, Index i) { return sets_.find(neighbors_[f][i]) != sets_.find(f); }
+  bool is_border(Index f, Index i) { return sets_[neighbors_[f][i]] != sets_[f]; }
 
   Polygons traced() {
     Polygons result;
@@ -103,8 +83,8 @@ class FacetFinder {
     std::vector<bool> is_traced(faces_.size(), false);
     for (Index f = 0; f < faces_.size(); ++f) {
       for (Index i = 0; i < 3; ++i) {
-        if (is_traced[sets_.find(f)] || !is_border(f, i)) continue;
-        is_traced[sets_.find(f)] = true;
+        if (is_traced[sets_[f]] || !is_border(f, i)) continue;
+        is_traced[sets_[f]] = true;
         trace(f, i, result);
       }
     }
@@ -136,7 +116,7 @@ class FacetFinder {
   std::span<const Triple> neighbors_;
   dual::SplitSites split_sites_;
   std::vector<Point> normals_;
-  FaceSets sets_;
+  system::DisjointSets sets_;
 };
 
 }  // namespace

@@ -25,13 +25,14 @@
 //                | differ                                 | merge_cocircular.cpp
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "dual/face_batch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
 #include "rondel/export.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::dual {
 
@@ -58,5 +59,30 @@ Cells cells(const Triangulation& triangulation, const SplitSites& sites,
 // The area of the cell of a vertex whose ring is complete.
 class RingLocalizer;
 double careful_area(RingLocalizer& localize, Index rank);
+
+// The point on the arc between the circumcenters of two faces, for both halfedges of
+// the edge between them.
+struct ArcPoint {
+  Index halfedge;
+  Index point;  // position in Cells::points
+};
+
+// Appends the middle of every arc that is too long to `points`, which hold
+// the circumcenters, and returns the list sorted by halfedge. Flat two-sided
+// hulls have antipodal circumcenters all along their rim.
+std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const SplitSites& sites,
+                                     std::vector<Point>& points);
+
+// Diagrams of sites on one great circle (dimension 1) and of fewer than two vertices.
+//
+// The vertices v_0 ... v_{k-1} form a convex polygon, counterclockwise about the axis N of
+// the circle's plane. The cell of v is a lune from -N to N, its two sides lie in the planes
+// perpendicular to the polygon's edges at v. In the middle of a side is the outward normal e x N of
+// the edge e. Two vertices share the sphere in hemispheres. Precondition of all three functions:
+// triangulation.dimension() < 2.
+Cells great_circle_cells(const Triangulation& triangulation, const SplitSites& sites);
+std::vector<double> great_circle_areas(const Triangulation& triangulation, const SplitSites& sites);
+std::vector<Point> great_circle_centroids(const Triangulation& triangulation,
+                                          const SplitSites& sites);
 
 }  // namespace rondel::dual

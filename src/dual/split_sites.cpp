@@ -7,10 +7,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "dual/exact_normal.h"
 #include "dual/face_batch.h"
-#include "exact/unit_vectors.h"
-#include "system/huge_pages.h"
+#include "exact/unit_vector.h"
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 

@@ -12,7 +12,7 @@
 #include "predicates/perturbation.h"
 #include "predicates/ray_order.h"
 #include "system/gather.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::dynamic {
 namespace {

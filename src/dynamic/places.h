@@ -125,7 +125,6 @@ class Places {
     const std::vector<Point>* points;
     bool operator()(const Resident& a, const Resident& b) const;
     bool operator()(const Resident& a, Index place) const { return a.place < place; }
-    bool operator()(Index place, const Resident& b) const { return place < b.place; }
   };
 
   // How the index orders weighted places of equal keys. In the projected model these are so close

@@ -8,7 +8,7 @@
 #include "hidden/hidden_faces.h"
 #include "kernel/canonical.h"
 #include "order/spatial_order.h"
-#include "topology/linking.h"
+#include "topology/mesh.h"
 
 namespace rondel::dynamic {
 

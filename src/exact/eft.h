@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace rondel::exact {
 
@@ -83,6 +84,23 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
 inline DoubleDouble operator*(DoubleDouble a, double b) {
   const DoubleDouble p = two_product(a.hi, b);
   return fast_two_sum(p.hi, p.lo + a.lo * b);
+}
+
+// Numbers with 64 bits: about as fast as doubles where the processor has them.
+
+// 2^-64.
+inline constexpr long double extended_unit_roundoff = 0x1p-64L;
+
+// Whether long double rounds to 64 bits. Not so where it is another type, where the processor is
+// set to fewer bits, and in some emulators.
+inline bool has_extended_precision() {
+  static const bool result = [] {
+    if constexpr (std::numeric_limits<long double>::digits != 64) return false;
+    const volatile long double one = 1;
+    const volatile long double unit = 2 * extended_unit_roundoff;
+    return one + unit != one;
+  }();
+  return result;
 }
 
 }  // namespace rondel::exact

@@ -10,14 +10,13 @@
 // so the sign of the sum over a class is that of an integer. When these signs agree, or all are
 // zero, that is the answer. As roots of different classes are linearly independent over the
 // rationals (exact/integer.h), the sum is zero in no other case.
-#include "exact/integer_rays.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "exact/integer_signs.h"
 #include "exact/words.h"
 
 namespace rondel::exact {

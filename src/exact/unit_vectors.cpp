@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "exact/unit_vectors.h"
-
 #include <algorithm>
 #include <cstddef>
 
 #include "exact/eft.h"
+#include "exact/unit_vector.h"
 #include "exact/vector.h"
 #include "system/prefetch.h"
 #include "system/wide_vectors.h"

@@ -124,3 +124,14 @@ inline Sign operator*(Sign s, Sign t) {
 }
 
 }  // namespace rondel
+
+namespace rondel::exact {
+
+// Lengths, the same bits on every platform: std::hypot differs between C libraries.
+// The length of any vector, whose squares may over- or underflow.
+template <ThreeNumbers V>
+double length_of(const V& v) {
+  return largest_coordinate(v) * norm(scaled(v));
+}
+
+}  // namespace rondel::exact

@@ -20,7 +20,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

@@ -13,7 +13,7 @@
 #include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

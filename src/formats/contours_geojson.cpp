@@ -18,7 +18,6 @@
 #include "io/flat_arrays.h"
 #include "io/geojson_writer.h"
 #include "io/number.h"
-#include "io/number_text.h"
 #include "map/arc.h"
 #include "map/merged_points.h"
 #include "map/planar_loops.h"

@@ -8,7 +8,6 @@
 
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
-#include "formats/field_lengths.h"
 #include "io/number.h"
 
 namespace rondel::formats {

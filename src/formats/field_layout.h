@@ -188,4 +188,12 @@ class FieldDimensionFinder {
   std::string other_places_;
 };
 
+// For variables of which no coordinates say which dimensions are those of points.
+// Reverses the points' dimensions where the lengths of the grid are theirs in reverse; returns
+// false if they are others.
+bool fit_lengths(std::span<const std::uint64_t> wanted, const io::NetcdfReader::Variable& variable,
+                 std::vector<std::size_t>& points);
+// Makes the dimensions that are not those of the points the leading ones.
+void take_other_dimensions(const io::NetcdfReader::Variable& variable, FieldDimensions& layout);
+
 }  // namespace rondel::formats

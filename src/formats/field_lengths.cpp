@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "formats/field_lengths.h"
-
 #include <algorithm>
 #include <set>
 #include <string>

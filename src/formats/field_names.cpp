@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "formats/cf_names.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

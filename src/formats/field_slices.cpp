@@ -16,7 +16,7 @@
 #include "io/netcdf_groups.h"
 #include "io/number.h"
 #include "rondel/delaunay.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

@@ -8,13 +8,13 @@
 #include <numbers>
 #include <numeric>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "meshing/consistency.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

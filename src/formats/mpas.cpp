@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "formats/cf_reader.h"
 #include "formats/mesh_file.h"
@@ -23,12 +23,12 @@
 #include "io/bad_value.h"
 #include "io/number.h"
 #include "meshing/consistency.h"
-#include "meshing/edge_weights.h"
+#include "meshing/mesh_arrays.h"
 #include "rondel/delaunay.h"
 #include "rondel/version.h"
 #include "rondel/weights.h"
 #include "system/job.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Compares the two ways in which MPAS gives the places of cells, edges and vertices.
+// Reads the arrays of MPAS's format, which other formats lack (read_mesh.cpp), and compares the two
+// ways in which it gives the places of cells, edges and vertices.
 //
 // in    a file with longitudes and latitudes in radians, and x, y and z in units of length
 // out   an exception that names the first place where both differ
@@ -12,6 +13,7 @@
 #include <string>
 
 #include "io/netcdf_reader.h"
+#include "rondel/mesh.h"
 
 namespace rondel::formats {
 
@@ -22,5 +24,12 @@ enum class PlacesMay : std::uint8_t { be_missing, not_be_missing };
 // yCell and zCell, or, as `may` says, no place; `kind` is "Cell", "Edge" or "Vertex". Does nothing
 // if the file lacks one of them.
 void require_one_place(const io::NetcdfReader& file, const std::string& kind, PlacesMay may);
+
+// True if a file has the lists of edges that a whole mesh of MPAS has.
+bool has_mpas_arrays(const io::NetcdfReader& file);
+
+// Returns the arrays that an MPAS file holds, with the orders that MeshArrays documents and indices
+// from 0, where the file counts from 1. Throws BadValue if they are not those of a mesh.
+mesh::MeshArrays read_mpas_arrays(const io::NetcdfReader& file, const Execution& execution);
 
 }  // namespace rondel::formats

@@ -6,8 +6,6 @@
 // begins and in the order of the two vertices of an edge; the result has the order that MeshArrays
 // documents.
 
-#include "formats/mpas_arrays.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

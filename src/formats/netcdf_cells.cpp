@@ -12,7 +12,7 @@
 #include "formats/cf_values.h"
 #include "io/bad_value.h"
 #include "io/number.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

@@ -11,7 +11,7 @@
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "rondel/delaunay.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

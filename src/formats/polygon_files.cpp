@@ -16,9 +16,8 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/types.h"
-#include "system/enum_names.h"
 #include "system/job.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

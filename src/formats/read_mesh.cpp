@@ -18,7 +18,7 @@
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/field_choice.h"
-#include "formats/mpas_arrays.h"
+#include "formats/mpas.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/ending.h"

@@ -23,7 +23,7 @@
 #include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {

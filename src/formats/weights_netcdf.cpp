@@ -13,7 +13,7 @@
 #include "io/bad_value.h"
 #include "io/column_text.h"
 #include "io/number.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

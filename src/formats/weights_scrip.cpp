@@ -10,7 +10,7 @@
 #include "formats/weight_formats.h"
 #include "io/bad_value.h"
 #include "io/number.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {

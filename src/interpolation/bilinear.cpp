@@ -21,7 +21,7 @@
 #include "rondel/error.h"
 #include "rondel/regrid.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

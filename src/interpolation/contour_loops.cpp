@@ -1,32 +1,21 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "interpolation/contour_loops.h"
-
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <tuple>
 #include <vector>
 
+#include "interpolation/contour_tracing.h"
+#include "system/hash.h"
+
 namespace rondel::interpolation {
 namespace {
-
-// Returns the same number for points that are equal; adding 0.0 makes -0 and 0 equal.
-std::uint64_t hash_of(const Point& p) {
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
-  std::uint64_t hash = 0;
-  for (const double coordinate : {p.x, p.y, p.z}) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * odd;
-    hash ^= hash >> 32U;
-  }
-  return hash;
-}
 
 // Returns false only if all points of the line differ; compares hashes.
 bool may_repeat(std::span<const Point> line) {
   std::vector<std::uint64_t> hashes(line.size());
-  std::ranges::transform(line, hashes.begin(), hash_of);
+  std::ranges::transform(line, hashes.begin(), [](const Point& p) { return system::hash_of(p); });
   std::ranges::sort(hashes);
   return std::ranges::adjacent_find(hashes) != hashes.end();
 }

@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "exact/vector.h"
-#include "interpolation/contour_loops.h"
 #include "system/parallel.h"
 
 namespace rondel::interpolation {

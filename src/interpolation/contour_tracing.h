@@ -127,4 +127,9 @@ class ContourTracer {
   std::vector<std::vector<Index>> mixed_faces_;  // by region: the faces with a border in it
 };
 
+// Appends the line as lines that visit no point twice: each part between two visits of a point
+// becomes a closed line of its own, and what remains is the last line. Loops of fewer than three
+// points and lines of fewer than two points are dropped.
+void append_simple_lines(std::span<const Point> line, bool is_closed, TracedLines& out);
+
 }  // namespace rondel::interpolation

@@ -13,8 +13,8 @@
 #include "interpolation/contour_tracing.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
-#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {

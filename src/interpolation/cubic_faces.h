@@ -41,7 +41,7 @@
 #include <cstddef>
 
 #include "exact/vector.h"
-#include "system/plain_array.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::interpolation {
 

@@ -11,7 +11,6 @@
 #include <cstddef>
 
 #include "interpolation/local_fit.h"
-#include "system/plain_array.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::interpolation::fits {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include "exact/unit_vectors.h"
-#include "query/ties.h"
+#include "exact/unit_vector.h"
+#include "query/built.h"
 
 namespace rondel::interpolation {
 namespace {

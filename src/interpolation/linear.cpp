@@ -9,9 +9,9 @@
 #include <tuple>
 #include <utility>
 
-#include "dual/exact_normal.h"
+#include "dual/split_sites.h"
 #include "exact/eft.h"
-#include "exact/length.h"
+#include "exact/vector.h"
 
 namespace rondel::interpolation {
 namespace {

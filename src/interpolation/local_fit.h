@@ -35,7 +35,7 @@
 
 #include "exact/vector.h"
 #include "rondel/types.h"
-#include "system/plain_array.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::interpolation {
 

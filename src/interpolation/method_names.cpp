@@ -5,7 +5,7 @@
 
 #include "rondel/interpolate.h"
 #include "rondel/regrid.h"
-#include "system/enum_names.h"
+#include "system/message_text.h"
 
 namespace rondel {
 

@@ -15,7 +15,7 @@
 
 #include "interpolation/ground.h"
 #include "rondel/interpolate.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::interpolation {
 
@@ -60,5 +60,10 @@ class PlaceValues {
                                    // vertex
   LargeVector<double> by_vertex_;  // the fields of a vertex are adjacent
 };
+
+// How sums of products with large weights are protected from overflow.
+// Weights may be larger than 1, so that a partial sum may overflow although the sum does not. The
+// sum is then taken again with all values multiplied by this number, and divided by it.
+inline constexpr double scale_of_large = 0x1p-8;
 
 }  // namespace rondel::interpolation

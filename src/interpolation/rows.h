@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/unit_vectors.h"
+#include "exact/unit_vector.h"
 #include "interpolation/ground.h"
 #include "interpolation/linear.h"
 #include "interpolation/row.h"

@@ -19,7 +19,7 @@
 #include "interpolation/row.h"
 #include "rondel/interpolate.h"
 #include "rondel/weights.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::interpolation {
 

@@ -15,7 +15,6 @@
 
 #include "exact/vector.h"
 #include "interpolation/collected_rows.h"
-#include "interpolation/large_sums.h"
 #include "interpolation/place_values.h"
 #include "interpolation/row.h"
 #include "interpolation/slopes.h"

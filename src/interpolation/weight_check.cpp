@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "rondel/delaunay.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace interpolation {

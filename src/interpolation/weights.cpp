@@ -10,12 +10,12 @@
 #include <string>
 #include <string_view>
 
-#include "interpolation/large_sums.h"
+#include "interpolation/place_values.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
-#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {

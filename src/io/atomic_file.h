@@ -112,4 +112,15 @@ class RONDEL_API AtomicFile {
   int descriptor_ = -1;
 };
 
+// --- files that several processes write, so that they need a name while they are written ---
+
+// Returns the file that is replaced: `path`, or the file to which its symbolic links lead.
+RONDEL_API std::string replaced_by(const std::string& path);
+
+// Creates an empty file, to be renamed to `target`, with the owner, the group and the permissions
+// that an AtomicFile would have. Returns its descriptor; or -1 with the reason in errno, which is
+// EEXIST if `temporary` exists. It fails also if `target` may not be written or is not a regular
+// file.
+RONDEL_API int open_replacement(const std::string& temporary, const std::string& target) noexcept;
+
 }  // namespace rondel::io

@@ -16,7 +16,6 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
-#include "io/replacement.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 

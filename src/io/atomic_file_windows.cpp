@@ -12,7 +12,6 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
-#include "io/replacement.h"
 #include "rondel/io.h"
 #include "system/descriptor.h"
 #include "system/wide_path.h"

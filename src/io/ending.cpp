@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "rondel/error.h"
-#include "system/enum_names.h"
+#include "system/message_text.h"
 
 namespace rondel {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "rondel/io.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::io {
 

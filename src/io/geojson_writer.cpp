@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/number_text.h"
+#include "io/number.h"
 
 namespace rondel::io {
 namespace {

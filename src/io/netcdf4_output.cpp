@@ -8,11 +8,11 @@
 #include <mutex>
 #include <system_error>
 
+#include "io/atomic_file.h"
 #include "io/bad_value.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_slabs.h"
 #include "io/number.h"
-#include "io/replacement.h"
 #include "rondel/error.h"
 #include "system/descriptor.h"
 

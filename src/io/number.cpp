@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/number_text.h"
 #include "io/utf8.h"
 
 namespace rondel::io {

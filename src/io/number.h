@@ -80,4 +80,13 @@ Point checked_point(const Point& point);
 // Returns the text without the blanks and tabs around it.
 std::string_view trim(std::string_view text);
 
+// The room that write_number() needs; the longest double has 24 characters:
+// -2.2250738585072014e-308
+inline constexpr int number_room = 32;
+
+// Writes the shortest digits that give back the same bits, as std::to_chars does, and returns their
+// end; fast, since text files consist of little else. `out` has room for number_room bytes, all of
+// which may change.
+char* write_number(char* out, double value);
+
 }  // namespace rondel::io

@@ -11,8 +11,6 @@
 // contains an integer, and at most one multiple of 10. That multiple, without its zeros, is the
 // shortest decimal; if there is none, the integer nearest to 10^s v is. At a power of 2 the
 // interval is not symmetric; std::to_chars handles that and all other exponents.
-#include "io/number_text.h"
-
 #include <array>
 #include <bit>
 #include <charconv>
@@ -21,6 +19,7 @@
 #include <cstring>
 
 #include "exact/words.h"
+#include "io/number.h"
 
 namespace rondel::io {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "io/number.h"
 #include "rondel/delaunay.h"
-#include "system/huge_pages.h"
 #include "system/job.h"
+#include "system/large_arrays.h"
 
 namespace rondel::io {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 #include "topology/canonical_order.h"
 

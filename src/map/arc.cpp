@@ -6,8 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 
 namespace rondel::map {
 namespace {

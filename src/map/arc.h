@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "exact/longitude.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "rondel/types.h"
 

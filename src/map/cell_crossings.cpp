@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "map/cell_map.h"
-#include "map/crossing_lines.h"
+#include "map/trace.h"
 #include "system/job.h"
 #include "system/parallel.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "map/crossing_lines.h"
+#include "map/trace.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "map/crossing_lines.h"
-
 #include <algorithm>
 
 #include "map/map_plane.h"
 #include "map/rectangles.h"
+#include "map/trace.h"
 
 namespace rondel::map {
 namespace {

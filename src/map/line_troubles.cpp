@@ -6,9 +6,9 @@
 #include <iterator>
 #include <utility>
 
-#include "map/crossing_lines.h"
 #include "map/map_plane.h"
 #include "map/rectangles.h"
+#include "map/trace.h"
 
 namespace rondel::map {
 namespace {

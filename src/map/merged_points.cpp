@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "map/arc.h"
+#include "system/hash.h"
 
 namespace rondel::map {
 namespace {
@@ -63,8 +64,7 @@ class KeptPoints {
   [[nodiscard]] std::size_t slot_of(const Cube& cube) const {
     std::uint64_t hash = 0;
     for (const std::int64_t place : cube.place) {
-      hash = (hash ^ static_cast<std::uint64_t>(place)) * 0x9e3779b97f4a7c15U;
-      hash ^= hash >> 32U;
+      hash = system::mixed(hash, static_cast<std::uint64_t>(place));
     }
     return static_cast<std::size_t>(hash) & (firsts_.size() - 1);
   }

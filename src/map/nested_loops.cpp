@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "map/nested_loops.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "map/map_plane.h"
+#include "map/planar_loops.h"
 
 namespace rondel::map {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "map/outside_loops.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "map/map_plane.h"
+#include "map/planar_loops.h"
 
 namespace rondel::map {
 namespace {

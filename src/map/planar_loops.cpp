@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "map/map_plane.h"
-#include "map/nested_loops.h"
 
 namespace rondel::map {
 namespace {

@@ -6,12 +6,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "map/directed_line.h"
 #include "map/region.h"
+#include "map/snap_rounding.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -54,5 +55,22 @@ struct PolygonsOfLoops {
 // Returns the polygons of loops, in the order of their outer loops, with closed rings.
 // Precondition: the loops are simple, and two loops meet only in positions that both have.
 PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops);
+
+// Returns loops with the part of the map that no region covers to their left: the border of the map
+// and the sides of all regions reversed, without sides that occur in both directions. The result is
+// empty where regions cover the map.
+std::vector<Loop> outside_loops(std::span<const std::vector<Loop>> regions);
+
+inline constexpr std::size_t misplaced = std::numeric_limits<std::size_t>::max();
+
+// Returns the index of the counterclockwise loop that each loop belongs to, or `misplaced`.
+//
+// The first `num_outer` loops are counterclockwise, the others clockwise. A clockwise loop belongs
+// to the smallest counterclockwise loop around it, if it lies in one counterclockwise loop more
+// than in clockwise ones. A counterclockwise loop belongs to itself, if it lies in as many
+// counterclockwise loops as clockwise ones. Other loops are misplaced. Precondition: the loops are
+// simple, and two loops meet only in positions that both have.
+std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
+                                   std::size_t num_outer);
 
 }  // namespace rondel::map

@@ -21,7 +21,7 @@ struct LonLatRing {
   bool is_turn =
       false;  // its last position is the first one a whole turn of the globe away, and left out
   // The positions before corners of others were inserted, if the ring is so thin that these may
-  // have closed it (overlay/shared_corners.h).
+  // have closed it (overlay/feature_polygons.h).
   std::vector<LonLat> thin_positions = {};
   bool is_left_out = false;  // no wider than rounding
 };

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <utility>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "map/planar_loops.h"
 #include "map/ring_area.h"
 #include "map/trace.h"

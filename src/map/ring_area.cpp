@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "exact/angles.h"
 #include "exact/eft.h"
-#include "exact/triangle_area.h"
 #include "exact/vector.h"
 
 namespace rondel::map {

@@ -13,10 +13,16 @@
 #include <span>
 #include <vector>
 
-#include "map/directed_line.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
+
+// A side of a loop in the plane, with the region to the left.
+struct DirectedLine {
+  LonLat from;
+  LonLat to;
+  friend bool operator==(const DirectedLine&, const DirectedLine&) = default;
+};
 
 // A line, with the number of times that each region has it as a side: the sides from `from` to `to`
 // minus those back.

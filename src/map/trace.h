@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "map/arc.h"
@@ -44,5 +45,16 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
 // Draws an open line of at least two points in the same way. The first points of all its chains are
 // in `starts`.
 void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace);
+
+// Finds the places where a ring that is simple on the sphere crosses itself when it is drawn in the
+// plane.
+// Returns all pairs of lines of a trace that meet without being neighbors. A line is named by its
+// first point. Nearly parallel arcs that are densified at different places have such lines. The
+// time is O(n log n) plus the number of pairs of lines whose rectangles overlap.
+std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);
+
+// True if two lines of a closed loop of distinct positions meet without being neighbors. The time
+// is O(n^2).
+bool has_crossing_lines(std::span<const LonLat> loop);
 
 }  // namespace rondel::map

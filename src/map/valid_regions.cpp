@@ -12,7 +12,7 @@
 
 #include "map/line_troubles.h"
 #include "map/mending.h"
-#include "map/outside_loops.h"
+#include "map/planar_loops.h"
 #include "map/settled_regions.h"
 #include "map/shared_lines.h"
 #include "system/parallel.h"

@@ -19,7 +19,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/eft.h"
 #include "exact/vector.h"
 #include "meshing/graph_laplacian.h"
@@ -30,7 +30,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_partition.h"
 #include "system/arithmetic.h"
-#include "system/enum_names.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 
 namespace rondel::mesh {

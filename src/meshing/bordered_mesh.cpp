@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "exact/triangle_area.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "meshing/face_measures.h"
-#include "meshing/mesh_options.h"
+#include "meshing/mesh_arrays.h"
 #include "system/parallel.h"
 
 namespace rondel::meshing {

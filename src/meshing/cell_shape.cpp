@@ -17,7 +17,7 @@
 #include <limits>
 
 #include "dual/arc_excess.h"
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 
 namespace rondel::meshing {

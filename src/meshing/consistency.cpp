@@ -14,8 +14,8 @@
 
 #include "exact/vector.h"
 #include "rondel/error.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
-#include "system/shortest_text.h"
 
 namespace rondel::meshing {
 namespace {

@@ -9,11 +9,10 @@
 // where l is the length of an edge and d the distance of its cells. The sign is positive if the
 // normal of e' points out of the cell, and is reversed if the normal of e points into the cell.
 
-#include "meshing/edge_weights.h"
-
 #include <string>
 
 #include "meshing/consistency.h"
+#include "meshing/mesh_arrays.h"
 #include "rondel/error.h"
 #include "system/job.h"
 

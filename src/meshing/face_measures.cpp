@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "dual/exact_normal.h"
 #include "dual/face_normal.h"
 #include "dual/ring_walk.h"
-#include "exact/argument.h"
+#include "dual/split_sites.h"
+#include "exact/angles.h"
 
 namespace rondel::meshing {
 namespace {

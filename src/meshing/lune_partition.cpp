@@ -10,8 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 
 namespace rondel::mesh {

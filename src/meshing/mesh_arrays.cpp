@@ -5,6 +5,8 @@
 // pair of halfedges, numbered where the face of the lower number has it. Threads fill disjoint
 // parts of each array.
 
+#include "meshing/mesh_arrays.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,16 +16,15 @@
 
 #include "dual/ring_walk.h"
 #include "dual/split_sites.h"
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "meshing/face_measures.h"
-#include "meshing/mesh_options.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh.h"
 #include "rondel/predicates.h"
 #include "system/job.h"
-#include "system/large_vector.h"
-#include "system/shortest_text.h"
+#include "system/large_arrays.h"
+#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "meshing/scvt_levels.h"
 #include "rondel/error.h"

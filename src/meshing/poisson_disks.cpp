@@ -15,8 +15,7 @@
 #include <numbers>
 #include <utility>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "meshing/seeded_random.h"
 #include "rondel/delaunay.h"

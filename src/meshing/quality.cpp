@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "meshing/cell_shape.h"
 #include "meshing/consistency.h"

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "rondel/mesh_quality.h"
 
 namespace rondel::mesh {

@@ -8,7 +8,7 @@
 
 #include "rondel/error.h"
 #include "rondel/mesh_quality.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {

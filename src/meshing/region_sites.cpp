@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "rondel/cell_set.h"
 #include "rondel/error.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "meshing/mesh_options.h"
+#include "meshing/mesh_arrays.h"
 #include "rondel/mesh.h"
 
 namespace rondel::mesh {

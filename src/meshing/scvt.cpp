@@ -17,8 +17,8 @@
 #include "meshing/scvt_repair.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <numbers>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/eft.h"
 #include "meshing/density_nodes.h"
 #include "system/parallel.h"

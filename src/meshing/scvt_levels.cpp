@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "meshing/seeded_random.h"
 #include "rondel/delaunay.h"

@@ -7,9 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
-#include "meshing/size_limit.h"
 #include "meshing/size_raster.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"

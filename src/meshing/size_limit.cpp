@@ -5,12 +5,12 @@
 // the eight nodes that the sweep has visited before it. Between sweeps the nodes that faces share
 // take the least of their values.
 
-#include "meshing/size_limit.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "meshing/size_raster.h"
 
 namespace rondel::mesh {
 namespace {

@@ -10,13 +10,13 @@
 #include <numbers>
 #include <string>
 
-#include "exact/triangle_area.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "meshing/consistency.h"
 #include "meshing/face_measures.h"
 #include "rondel/error.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
-#include "system/shortest_text.h"
 
 namespace rondel::meshing {
 namespace {

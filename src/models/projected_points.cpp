@@ -7,9 +7,9 @@
 #include <new>
 #include <utility>
 
-#include "exact/unit_vectors.h"
+#include "exact/unit_vector.h"
 #include "models/sphere_traits.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 
 namespace rondel::models {

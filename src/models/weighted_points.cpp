@@ -4,7 +4,7 @@
 #include "models/weighted_points.h"
 
 #include "models/sphere_traits.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::models {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "order/place_keys.h"
-#include "order/radix_sort.h"
+#include "order/sorts.h"
 #include "system/parallel.h"
 
 namespace rondel::order {

@@ -1,23 +1,19 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "order/duplicates.h"
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <tuple>
 
+#include "order/spatial_order.h"
+#include "system/hash.h"
+
 namespace rondel::order {
 namespace {
 
-// Equal for equal points: adding 0 turns -0 into 0.
 std::uint64_t hash_of(const Point& p, std::uint64_t seed) {
-  const auto mixed = [](std::uint64_t h, double value) {
-    h = (h ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15U;
-    return h ^ (h >> 32);
-  };
-  return mixed(mixed(mixed(seed, p.x), p.y), p.z) * 0xff51afd7ed558ccdU;
+  return system::hash_of(p, seed) * 0xff51afd7ed558ccdU;
 }
 
 class Bits {

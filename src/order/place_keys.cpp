@@ -13,7 +13,6 @@
 #include <limits>
 
 #include "order/cube_position.h"
-#include "system/masks.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::order {

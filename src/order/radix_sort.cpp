@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "order/radix_sort.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
-#include "system/huge_pages.h"
+#include "order/sorts.h"
+#include "system/large_arrays.h"
 
 namespace rondel::order {
 namespace {

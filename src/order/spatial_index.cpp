@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 
 namespace rondel::order {

@@ -20,9 +20,10 @@
 
 #include "order/close_sites.h"
 #include "order/key_tree.h"
-#include "order/word_sort.h"
+#include "order/sorts.h"
 #include "system/chunk_lists.h"
-#include "system/huge_pages.h"
+#include "system/hash.h"
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 
@@ -87,7 +88,7 @@ class Ordering {
     std::vector<Point> points;
     for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
       // Any place within the stride: a constant one could meet the same column of every grid.
-      points.push_back(sites_[i + (i * 0x9e3779b97f4a7c15U >> 56)]);
+      points.push_back(sites_[i + (i * system::golden_multiplier >> 56)]);
     }
     if (check_) check_(points);
     std::vector<std::uint64_t> keys(points.size());

@@ -41,4 +41,8 @@ RONDEL_API SpatialOrder spatial_order(std::span<const Point> sites, Model model,
                                       const SitesCheck& check = {},
                                       const system::SiteCopies& copies = {});
 
+// Sites in one place, for sites that need no order.
+// The duplicates among the sites listed, in increasing order of `site`. `listed` is increasing.
+std::vector<Duplicate> find_duplicates(std::span<const Point> sites, std::span<const Index> listed);
+
 }  // namespace rondel::order

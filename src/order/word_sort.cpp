@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "order/word_sort.h"
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <utility>
+
+#include "order/sorts.h"
 
 namespace rondel::order {
 namespace {

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 
 namespace rondel::overlay {
 namespace {

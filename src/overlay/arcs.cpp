@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "exact/angles.h"
 #include "exact/exact_sign.h"
-#include "exact/triangle_area.h"
 #include "map/ring_area.h"
 
 namespace rondel::overlay {

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/measure.h"

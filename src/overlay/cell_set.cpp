@@ -15,13 +15,12 @@
 #include "overlay/cell_set_data.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
-#include "overlay/sound_cells.h"
 #include "overlay/tidy_rings.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 
 namespace rondel {

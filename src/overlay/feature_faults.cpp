@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/feature_faults.h"
-
 #include <array>
 #include <cstdio>
 
+#include "overlay/feature_polygons.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"

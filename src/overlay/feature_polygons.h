@@ -8,12 +8,16 @@
 // index features
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "map/polygon_features.h"
 #include "rondel/cell_rings.h"
 #include "rondel/polygon_files.h"
+#include "rondel/types.h"
 
 namespace rondel::overlay {
 
@@ -22,5 +26,46 @@ namespace rondel::overlay {
 // the ring and a place.
 CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
                             std::vector<std::string>& remarks, const Execution& execution);
+
+// --- the steps, one file each ---
+
+// Detects rings around a pole that straight lines in longitude and latitude do not represent.
+// Returns the index of the only side of a ring that spans more than 180 degrees of longitude, for a
+// ring on one side of the equator: if this side led the other way round, the ring would go around
+// the pole. Returns nothing if there is no such side, or if it lies at the pole, or if it is
+// between two sides along meridians as a side of a box is.
+std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
+
+// Adds corners to neighboring features where only one of them has a corner on their common border.
+// Inserts corners into sides: those of other features that lie on the side up to rounding, and
+// those of the same feature that lie there after a shift by 360 degrees. Sides are then straight
+// only up to rounding, and neighbors have the same corners. Rings that may run to and fro after
+// that keep the positions that they had as `thin_positions`.
+void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads);
+
+// Returns "longitude latitude" in degrees, with 10 significant digits.
+std::string text_of_place(const LonLat& place);
+std::string text_of_place(const Point& place);
+
+// Returns a name for a ring of a feature, such as "ring 0 of part 2" for the shell of the third
+// polygon.
+std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring);
+
+// Throws FileError with the name of the file, the feature and what is wrong with it.
+[[noreturn]] void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
+                                 const std::string& what);
+
+// Returns cells whose sides are great circles, of which cell i is feature i. A ring of a shell is around its smaller side, and a
+// hole is around the part that it removes.
+//
+// 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts
+//    cover the sphere is in `whole`.
+// 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
+//    polygon, for parts that overlap, and for sides of a feature that cross.
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
+
+// Throws FileError if a hole of the feature is outside of its polygon or in another hole.
+void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,
+                           const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -5,8 +5,6 @@
 // layer is completed to a cover by its outside and laid over the union of those before; each piece
 // belongs to the lowest cell that has it. Where sides of two cells cross, each cell on either side
 // overlaps one of the two or ends there, so other cells keep their corners.
-#include "overlay/first_of_cells.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +12,7 @@
 #include <vector>
 
 #include "overlay/cell_set_data.h"
+#include "overlay/disjoint_cells.h"
 #include "overlay/overlaps.h"
 #include "overlay/same_nodes.h"
 #include "rondel/cell_set.h"

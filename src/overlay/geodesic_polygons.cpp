@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/geodesic_polygons.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +14,7 @@
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/border_rings.h"
-#include "overlay/feature_faults.h"
+#include "overlay/feature_polygons.h"
 #include "rondel/delaunay.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"

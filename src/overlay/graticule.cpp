@@ -10,13 +10,12 @@
 #include <string>
 #include <utility>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "overlay/arc_bulge.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel::overlay {
 namespace {

@@ -10,8 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/argument.h"
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/eft.h"
 #include "overlay/arc_bulge.h"
 #include "overlay/measure.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondel/types.h"
+#include "system/hash.h"
 
 namespace rondel::overlay {
 
@@ -50,9 +51,8 @@ class IndexNumbers {
 
   // Returns the slot of a key, or the free slot where it belongs.
   NumberedIndex& slot_of(Index key) {
-    constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;
-    std::size_t k = static_cast<std::size_t>((key * multiplier) >> 32) & mask;
+    std::size_t k = static_cast<std::size_t>((key * system::golden_multiplier) >> 32) & mask;
     while (slots_[k].stamp == now_ && slots_[k].key != key) k = (k + 1) & mask;
     return slots_[k];
   }

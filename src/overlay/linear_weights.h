@@ -4,13 +4,33 @@
 // Computes the weights of conservative remapping of order 2.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
-#include "overlay/slopes_of_cells.h"
+#include "overlay/cell_set_data.h"
 #include "rondel/remap.h"
+#include "rondel/types.h"
 #include "rondel/weights.h"
 
 namespace rondel::overlay {
+
+// The gradients of fields that are given as means over cells, as rows of vectors. Indices are those
+// of the cells in the input.
+// The gradient of cell i is the sum of slopes[k] (f[neighbors[k]] - f[i]) over k from offsets[i] to
+// offsets[i + 1] - 1, for means f.
+struct CellGradients {
+  std::vector<std::uint64_t> offsets = {0};
+  std::vector<Index> neighbors;
+  std::vector<Point> slopes;
+};
+
+// Returns the least squares gradients over the neighbors of each cell that share an edge with it,
+// weighted by the inverse squares of distances, in the tangent plane of the cell's center of mass.
+// The gradient is 0 along a direction that the neighbors do not determine. `centers` are centers of
+// mass. Masked cells (0) are no neighbors; an empty mask masks no cell.
+CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> centers,
+                             std::span<const std::int32_t> mask, unsigned threads);
 
 // Returns the weights of a remapping with moments, divided by `target_areas`. `gradients` belong to
 // the sources. The targets are computed in the order of `targets`, which is a spatial order, or in

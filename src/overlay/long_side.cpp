@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/long_side.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "overlay/feature_polygons.h"
 
 namespace rondel::overlay {
 

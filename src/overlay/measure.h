@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "predicates/bounds.h"
 #include "rondel/types.h"
@@ -187,5 +187,10 @@ struct Measures {
 // Returns the measures of a region that fits into a hemisphere, from all arcs of its border.
 // `nearby` is a point near the region, for most regions.
 Measures measures_of(std::span<const BorderArc> border, const Point& nearby);
+
+// Distinguishes crossings of sides from contacts that rounding has turned into crossings.
+// True if two of the arcs cross by more than rounding of their ends: they cross exactly, and no end
+// is within rounding of the other arc.
+bool has_sure_crossing(std::span<const BorderArc> arcs);
 
 }  // namespace rondel::overlay

@@ -16,14 +16,13 @@
 #include <optional>
 #include <tuple>
 
-#include "exact/triangle_area.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "map/arc.h"
 #include "overlay/cell_set_data.h"
 #include "overlay/filling.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
-#include "overlay/sure_crossing.h"
 #include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/parallel.h"

@@ -20,7 +20,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "overlay/plane.h"
 #include "overlay/plane_corners.h"

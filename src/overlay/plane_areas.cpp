@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "overlay/arc_bulge.h"
 #include "overlay/measure.h"
 #include "system/parallel.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/eft.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"

@@ -19,10 +19,9 @@
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "overlay/shared_places.h"
-#include "overlay/slopes_of_cells.h"
 #include "rondel/error.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 

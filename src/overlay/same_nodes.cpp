@@ -10,27 +10,21 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "system/hash.h"
 #include "system/prefetch.h"
 
 namespace rondel::overlay {
 namespace {
 
-std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
-  constexpr std::uint64_t factor = 0x9e37'79b9'7f4a'7c15;
-  std::uint64_t hash = 0;
-  for (const std::int64_t k : {x, y, z}) {
-    hash = (hash ^ static_cast<std::uint64_t>(k)) * factor;
-    hash ^= hash >> 32U;
-  }
-  return hash;
+std::uint64_t hash_of(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
+  return system::mixed(system::mixed(system::mixed(0, x), y), z);
 }
 
-// Returns the bits of a double. The addition turns -0 into 0.
-std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x + 0.0); }
+using system::hash_of;
+
 std::uint64_t hash_of(const LonLat& position) {
-  return hash_of(bits_of(position.lon_deg), bits_of(position.lat_deg), 0);
+  return hash_of(system::bits_of(position.lon_deg), system::bits_of(position.lat_deg), 0);
 }
-std::uint64_t hash_of(const Point& p) { return hash_of(bits_of(p.x), bits_of(p.y), bits_of(p.z)); }
 
 // Finds points by the cubes that have them. Cubes are much wider than the distance, so that a point
 // looks into one cube, and rarely into a neighbor of it.
@@ -72,7 +66,9 @@ class NearPoints {
     return static_cast<std::int64_t>(std::floor(coordinate * cubes_per_unit_));
   }
   [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return hash_of(x, y, z) & (slots_.size() - 1);
+    return hash_of(static_cast<std::uint64_t>(x), static_cast<std::uint64_t>(y),
+                   static_cast<std::uint64_t>(z)) &
+           (slots_.size() - 1);
   }
   [[nodiscard]] std::size_t next(std::size_t slot) const {
     return (slot + 1) & (slots_.size() - 1);

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/shared_corners.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "overlay/feature_polygons.h"
 #include "overlay/plane.h"
 #include "overlay/plane_corners.h"
 #include "system/parallel.h"

@@ -11,7 +11,7 @@
 #include "exact/vector.h"
 #include "overlay/cell_sets.h"
 #include "overlay/overlaps.h"
-#include "overlay/sound_cells.h"
+#include "overlay/tidy_rings.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 

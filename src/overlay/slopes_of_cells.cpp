@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/slopes_of_cells.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "exact/vector.h"
+#include "overlay/linear_weights.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {

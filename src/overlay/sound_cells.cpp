@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/sound_cells.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <numbers>

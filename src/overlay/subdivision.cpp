@@ -10,11 +10,12 @@
 
 #include "exact/vector.h"
 #include "order/place_keys.h"
-#include "order/radix_sort.h"
+#include "order/sorts.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "predicates/bounds.h"
 #include "rondel/predicates.h"
+#include "system/disjoint_sets.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
@@ -33,27 +34,6 @@ bool is_left_turn(const Point& a, const Point& b, const Point& c) {
 }
 
 auto coordinates(const Point& p) { return std::tuple(p.x, p.y, p.z); }
-
-// A union-find forest of merged points; the lowest index is the root.
-class MergedPoints {
- public:
-  explicit MergedPoints(std::size_t size) : parents_(size) {
-    std::iota(parents_.begin(), parents_.end(), Index{0});
-  }
-  // Returns the representative of a point, and shortens the path to it.
-  [[nodiscard]] Index operator[](Index p) {
-    while (parents_[p] != p) p = parents_[p] = parents_[parents_[p]];
-    return p;
-  }
-  void join(Index p, Index q) {
-    const Index a = (*this)[p];
-    const Index b = (*this)[q];
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parents_;
-};
 
 // Returns the direction of a cell's center of mass, or of its first corner if the moment is zero.
 Point center_of(const CellRings& input, std::size_t cell) {
@@ -168,7 +148,7 @@ void Subdivision::take_rings(const CellRings& input) {
 // neighbors.
 void Subdivision::merge_disordered() {
   constexpr double short_length = 0x1p-44;
-  MergedPoints merged(points.size());
+  system::DisjointSets merged(points.size());
   bool has_any = false;
   bool has_changed = true;
   const auto join = [&](Index p, Index q) {

@@ -18,7 +18,7 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/types.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel::overlay {
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/sure_crossing.h"
-
 #include <algorithm>
 #include <vector>
 
 #include "exact/vector.h"
+#include "overlay/measure.h"
 #include "predicates/bounds.h"
 #include "rondel/predicates.h"
 

@@ -17,7 +17,6 @@
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "overlay/snapped_sides.h"
-#include "overlay/sure_crossing.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"

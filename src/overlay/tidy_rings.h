@@ -7,9 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "overlay/subdivision.h"
 #include "rondel/cell_rings.h"
+#include "rondel/types.h"
 
 namespace rondel::overlay {
 
@@ -35,5 +37,12 @@ Turn turn_of(const MeasuredCell& before, const MeasuredCell& after);
 // True if a ring of the cell crosses itself by more than rounding and has no area, such as a bow tie
 // with two equal loops.
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell);
+
+// Returns the tidied() cells as a subdivision. The parts of a cover inside of a cell are only known
+// if the cell's sides do not cross. Where they do because corners are on sides up to rounding,
+// these corners become corners of the sides, in all cells that have them. `whole` has the cells
+// that are the whole sphere, before and after.
+Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
+                        const Execution& execution);
 
 }  // namespace rondel::overlay

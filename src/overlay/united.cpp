@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/united.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "overlay/cell_sets.h"
+#include "overlay/disjoint_cells.h"
 #include "overlay/overlaps.h"
 #include "rondel/error.h"
 

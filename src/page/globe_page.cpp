@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "exact/argument.h"
-#include "exact/length.h"
+#include "exact/angles.h"
+#include "exact/vector.h"
 #include "page/packed.h"
 #include "page/page_arrays.h"
 #include "page/page_input.h"
 #include "page/page_text.h"
 #include "rondel/globe.h"
 #include "rondel/version.h"
-#include "system/enum_names.h"
 #include "system/job.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

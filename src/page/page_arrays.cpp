@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include "exact/argument.h"
-#include "exact/length.h"
+#include "exact/angles.h"
+#include "exact/vector.h"
 #include "io/binary.h"
 
 namespace rondel::page {

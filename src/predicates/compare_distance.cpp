@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "exact/exact_sign.h"
-#include "predicates/squared_chord.h"
+#include "exact/unit_vector.h"
 
 namespace rondel::predicates {
 namespace {

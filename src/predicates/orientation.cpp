@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "exact/eft.h"
 #include "exact/exact_sign.h"
-#include "exact/extended.h"
-#include "exact/integer_steps.h"
+#include "exact/integer_signs.h"
 #include "predicates/scale.h"
 #include "predicates/wide.h"
 

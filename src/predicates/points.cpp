@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "system/masks.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::predicates {

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "exact/extended.h"
+#include "exact/eft.h"
 
 namespace rondel::predicates {
 namespace {

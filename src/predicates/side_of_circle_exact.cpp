@@ -8,7 +8,7 @@
 
 #include "exact/exact_sign.h"
 #include "exact/integer.h"
-#include "exact/integer_rays.h"
+#include "exact/integer_signs.h"
 #include "predicates/side_of_circle.h"
 
 namespace rondel::predicates {

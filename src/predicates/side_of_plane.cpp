@@ -6,7 +6,7 @@
 #include <array>
 
 #include "exact/exact_sign.h"
-#include "exact/integer_steps.h"
+#include "exact/integer_signs.h"
 #include "predicates/scale.h"
 
 namespace rondel::predicates {

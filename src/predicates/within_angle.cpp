@@ -8,9 +8,9 @@
 #include <numbers>
 #include <optional>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/exact_sign.h"
-#include "predicates/squared_chord.h"
+#include "exact/unit_vector.h"
 
 namespace rondel::predicates {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "proof/covered_sites.h"
-
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "proof/convexity.h"
 
 namespace rondel::proof {
 namespace {

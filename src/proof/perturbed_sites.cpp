@@ -9,7 +9,7 @@
 #include "models/with_model.h"
 #include "predicates/conflict.h"
 #include "predicates/orientation.h"
-#include "proof/axis_point.h"
+#include "proof/sites_by_place.h"
 
 namespace rondel::proof {
 namespace {

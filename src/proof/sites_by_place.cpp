@@ -12,7 +12,6 @@
 #include <numeric>
 #include <tuple>
 
-#include "proof/axis_point.h"
 #include "rondel/predicates.h"
 
 namespace rondel::proof {

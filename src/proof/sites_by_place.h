@@ -8,6 +8,7 @@
 // place lists both, so no pair is missed. Within a cell an exact order brings duplicates together.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -25,5 +26,14 @@ struct SitesByPlace {
 };
 
 SitesByPlace group_by_place(std::span<const Point> sites, Model model, const Sphere& sphere);
+
+// Points on the axes through the center of the sphere: they turn questions about two
+// sites into orientations of three.
+// A point on axis 0, 1 or 2 through the center, exactly, on either side but not at the center.
+inline Point axis_point(Point center, unsigned axis) {
+  double& value = axis == 0 ? center.x : axis == 1 ? center.y : center.z;
+  value = value >= 0 ? value - std::max(1.0, value) : value + std::max(1.0, -value);
+  return center;
+}
 
 }  // namespace rondel::proof

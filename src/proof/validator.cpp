@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "proof/convexity.h"
-#include "proof/covered_sites.h"
 #include "proof/perturbed_sites.h"
 #include "proof/sites_by_place.h"
 #include "proof/surface.h"

@@ -13,11 +13,10 @@
 #include <span>
 #include <type_traits>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/exact_sign.h"
-#include "exact/unit_vectors.h"
+#include "exact/unit_vector.h"
 #include "predicates/bounds.h"
-#include "predicates/squared_chord.h"
 #include "system/parallel.h"
 
 namespace rondel::proximity {
@@ -121,7 +120,7 @@ Chords::Chords(const Triangulation& triangulation, const Execution& execution)
 }
 
 DoubleDouble Chords::squared(Index a, Index b) const {
-  return predicates::squared_chord(units_[a], units_[b]);
+  return exact::squared_chord(units_[a], units_[b]);
 }
 
 double Chords::angle(Index a, Index b) const {
@@ -132,7 +131,7 @@ double Chords::angle(Index a, Index b) const {
   if (square <= 2) return angle_of(square);
   const auto& [hi, lo] = units_[b];
   const SplitPoint antipode{{-hi.x, -hi.y, -hi.z}, {-lo.x, -lo.y, -lo.z}};
-  return std::numbers::pi - angle_of(predicates::squared_chord(units_[a], antipode).hi);
+  return std::numbers::pi - angle_of(exact::squared_chord(units_[a], antipode).hi);
 }
 
 Sign Chords::compare(Index a, Index b, DoubleDouble ab, Index c, Index d, DoubleDouble cd) const {

@@ -8,14 +8,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/eft.h"
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
 #include "rondel/diagram.h"
 #include "rondel/predicates.h"
+#include "system/disjoint_sets.h"
 #include "system/parallel.h"
 
 namespace rondel::proximity {
@@ -87,27 +87,15 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
           }
         }
       });
-  // The faces with one circle are a set of a union-find forest: each face points to one of lower or
-  // equal index, and the root is the lowest face of the set.
-  std::vector<Index>& first = circles.first_face;
-  first.resize(faces.size());
-  const auto root = [&first](Index f) {
-    while (first[f] != f) {
-      first[f] = first[first[f]];
-      f = first[f];
-    }
-    return f;
-  };
-  std::iota(first.begin(), first.end(), Index{0});
+  system::DisjointSets same(faces.size());
   for (Index f = 0; f < faces.size(); ++f) {
     for (unsigned i = 0; i < 3; ++i) {
       if ((is_same[f] >> i & 1U) == 0) continue;
-      const Index x = root(f);
-      const Index y = root(neighbors[f][i]);
-      first[std::max(x, y)] = std::min(x, y);
+      same.join(f, neighbors[f][i]);
     }
   }
-  for (Index f = 0; f < faces.size(); ++f) first[f] = root(f);
+  circles.first_face.reserve(faces.size());
+  for (Index f = 0; f < faces.size(); ++f) circles.first_face.push_back(same[f]);
   return circles;
 }
 

@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-#include "overlay/first_of_cells.h"
+#include "overlay/disjoint_cells.h"
 #include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 #include "system/job.h"
-#include "system/shortest_text.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {

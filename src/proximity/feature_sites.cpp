@@ -28,7 +28,7 @@
 #include <string>
 #include <utility>
 
-#include "exact/argument.h"
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "proximity/other_features.h"
 #include "rondel/error.h"

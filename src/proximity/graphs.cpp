@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -16,8 +15,9 @@
 #include "proximity/lunes.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
-#include "system/enum_names.h"
+#include "system/disjoint_sets.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 
 namespace rondel {
@@ -111,33 +111,6 @@ bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   });
 }
 
-// A union-find forest of sites, whose sets are connected components.
-class Components {
- public:
-  explicit Components(std::size_t size) : parents_(size) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
-
-  // Joins the components of a and b, and returns whether they were different.
-  bool join(Index a, Index b) {
-    a = root_of(a);
-    b = root_of(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  Index root_of(Index v) {
-    while (parents_[v] != v) {
-      parents_[v] = parents_[parents_[v]];
-      v = parents_[v];
-    }
-    return v;
-  }
-
-  std::vector<Index> parents_;
-};
-
 // Reduces the candidates to the shortest spanning tree by Kruskal's algorithm. Precondition: the
 // candidates contain the tree. Edges of equal length are taken in lexicographic order.
 void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair>& candidates) {
@@ -156,7 +129,7 @@ void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair
     const Sign sign = chords.compare(e[0], e[1], x.square, f[0], f[1], y.square);
     return sign != Sign::zero ? sign == Sign::negative : e < f;
   });
-  Components components(num_sites);
+  system::DisjointSets components(num_sites);
   candidates.clear();
   for (const Keyed& k : keyed) {
     if (components.join(k.candidate.edge[0], k.candidate.edge[1])) {

@@ -14,7 +14,7 @@
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 #include "system/gather.h"
-#include "topology/linking.h"
+#include "topology/mesh.h"
 
 namespace rondel::query {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
-#include "order/radix_sort.h"
+#include "order/sorts.h"
 #include "query/graph.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
@@ -82,5 +82,11 @@ class RONDEL_API Built {
   Index solid_face_ = 0;
   Index entry_face_ = no_index;
 };
+
+// Ranks that depend on places alone: for who promises that the order of the sites changes no bit.
+// Orders the vertices of equal keys, which are in the order of the input, by what else there is to their
+// places. A Built::OrderTies; apart from it, so that programs without need of it have nothing of it.
+RONDEL_API void order_ties_by_place(const Triangulation& triangulation,
+                                    order::KeyedIndices& sorted);
 
 }  // namespace rondel::query

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 
-#include "exact/argument.h"
-#include "predicates/squared_chord.h"
+#include "exact/angles.h"
+#include "exact/unit_vector.h"
 
 namespace rondel::query {
 namespace {
@@ -54,9 +54,7 @@ std::optional<Ratio> length_ratio(const Point& site, const Sphere& sphere) {
 
 // The versine of the angle between two rays.
 double versine_between(const Point& p, const Point& q, const Point& center) {
-  return predicates::squared_chord(exact::unit_vector(p, center), exact::unit_vector(q, center))
-             .hi /
-         2;
+  return exact::squared_chord(exact::unit_vector(p, center), exact::unit_vector(q, center)).hi / 2;
 }
 
 }  // namespace
@@ -64,9 +62,9 @@ double versine_between(const Point& p, const Point& q, const Point& center) {
 double angle_between(const Point& p, const Point& q, const Point& center) {
   const SplitPoint u = exact::unit_vector(p, center);
   const SplitPoint v = exact::unit_vector(q, center);
-  const double d2 = predicates::squared_chord(u, v).hi;
+  const double d2 = exact::squared_chord(u, v).hi;
   if (d2 <= 2) return angle_of_versine(d2 / 2);
-  return pi - angle_of_versine(predicates::squared_chord(antipode(u), v).hi / 2);
+  return pi - angle_of_versine(exact::squared_chord(antipode(u), v).hi / 2);
 }
 
 // With the versine v of the angle between the rays and the quotient r = |site - o| / R, the cosine

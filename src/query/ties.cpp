@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "query/ties.h"
-
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -11,6 +9,7 @@
 
 #include "order/place_keys.h"
 #include "predicates/perturbation.h"
+#include "query/built.h"
 
 namespace rondel::query {
 namespace {

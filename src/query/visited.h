@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondel/types.h"
+#include "system/hash.h"
 
 namespace rondel::query {
 
@@ -51,9 +52,8 @@ class StampedSet {
 
   // The number of the slot that has the value, or of the one where it belongs.
   [[nodiscard]] std::size_t place_of(Index value) const {
-    constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;
-    std::size_t i = static_cast<std::size_t>((value * multiplier) >> 24) & mask;
+    std::size_t i = static_cast<std::size_t>((value * system::golden_multiplier) >> 24) & mask;
     while (slots_[i].stamp == now_ && slots_[i].value != value) i = (i + 1) & mask;
     return i;
   }

@@ -10,8 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "system/huge_pages.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 
 namespace rondel::system {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "rondel/types.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 
 namespace rondel::system {

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "system/huge_pages.h"
-
 #include <cstdint>
 #include <memory>
 #include <new>
 
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 #if defined(__linux__)
 #include <sys/mman.h>

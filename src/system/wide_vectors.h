@@ -6,6 +6,10 @@
 // multiply-adds are off everywhere.
 #pragma once
 
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
 // GCC for Windows stores vectors of 256 bits on a stack that is aligned to 128 bits only.
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(_WIN32) && !defined(RONDEL_NARROW_VECTORS)
 #define RONDEL_HAS_WIDE_VECTORS
@@ -95,5 +99,35 @@ void with_wide_vectors(const Work& work) {
 }
 
 #endif
+
+}  // namespace rondel::system
+
+namespace rondel::system {
+
+// Choices as arithmetic, of which GCC makes vector code where it does not of branches.
+
+// All bits, or none.
+RONDEL_ALWAYS_INLINE inline std::uint64_t mask(bool condition) {
+  return std::uint64_t{0} - static_cast<std::uint64_t>(condition);
+}
+
+RONDEL_ALWAYS_INLINE inline double choose(std::uint64_t mask, double yes, double no) {
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(yes) & mask) |
+                               (std::bit_cast<std::uint64_t>(no) & ~mask));
+}
+
+}  // namespace rondel::system
+
+namespace rondel::system {
+
+// An array for code of wide vectors, which may call nothing that is not always inline:
+// std::array's operators are not.
+template <class T, std::size_t N>
+struct PlainArray {
+  T items[N];
+
+  RONDEL_ALWAYS_INLINE constexpr T& operator[](std::size_t i) { return items[i]; }
+  RONDEL_ALWAYS_INLINE constexpr const T& operator[](std::size_t i) const { return items[i]; }
+};
 
 }  // namespace rondel::system

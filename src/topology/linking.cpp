@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "topology/linking.h"
+#include "topology/mesh.h"
 
 namespace rondel::topology {
 namespace {

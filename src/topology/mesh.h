@@ -16,11 +16,12 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
-#include "system/huge_pages.h"
+#include "system/large_arrays.h"
 
 namespace rondel::topology {
 
@@ -101,5 +102,10 @@ class Mesh {
   std::vector<Face> faces_;
   std::vector<Index> free_slots_;
 };
+
+// From the flat arrays of a result back to the data structure.
+// The faces under the same numbers, their vertices renamed: names[v] for v.
+Mesh link_faces(std::span<const Triple> faces, std::span<const Triple> neighbors,
+                std::span<const Index> names);
 
 }  // namespace rondel::topology

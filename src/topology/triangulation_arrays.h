@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "rondel/triangulation.h"
-#include "system/large_vector.h"
+#include "system/large_arrays.h"
 
 namespace rondel {
 

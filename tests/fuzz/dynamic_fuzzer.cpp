@@ -178,17 +178,6 @@ class Script {
     for (std::size_t i = 0; i < sites.size(); ++i) put(static_cast<Index>(i), sites[i]);
   }
 
-  template <class Call>
-  void refuse(std::size_t index, Call call) {
-    try {
-      call();
-    } catch (const InvalidInput& error) {
-      require(error.index() == index, "the first bad position is named");
-      return;
-    }
-    require(false, "a wrong call is refused");
-  }
-
   // The comparison that follows shows that they have changed nothing.
   void refuse_wrong_calls() {
     const Index id = any_live();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rondel/error.h"
 #include "rondel/types.h"
 
 namespace rondel::fuzz {
@@ -69,5 +70,17 @@ void remove_center(std::vector<Point>& sites, const Sphere& sphere);
 
 // Ends the program with a message when a law is broken; a fuzzer sees that as a crash.
 void require(bool holds, const std::string& law);
+
+// A call that is wrong is refused, and the first bad position is named.
+template <class Call>
+void refuse(std::size_t index, const Call& call) {
+  try {
+    static_cast<void>(call());
+  } catch (const InvalidInput& error) {
+    require(error.index() == index, "the first bad position is named");
+    return;
+  }
+  require(false, "a wrong call is refused");
+}
 
 }  // namespace rondel::fuzz

@@ -157,17 +157,6 @@ void test_order(const Question& q, const Interpolator& interpolator, const Weigh
           "one target has the weights that it has among others");
 }
 
-template <class Call>
-void refuse(std::size_t index, Call call) {
-  try {
-    static_cast<void>(call());
-  } catch (const InvalidInput& error) {
-    require(error.index() == index, "the first bad position is named");
-    return;
-  }
-  require(false, "a wrong call is refused");
-}
-
 void refuse_wrong_calls(const Question& q, const Interpolator& interpolator) {
   std::vector<Point> bad = q.targets;
   bad.push_back(q.options.sphere.center);

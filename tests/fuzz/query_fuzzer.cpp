@@ -211,17 +211,6 @@ void test_dynamic(const Locator& locator, const Scene& scene, double angle) {
   }
 }
 
-template <class Call>
-void refuse(std::size_t index, Call call) {
-  try {
-    static_cast<void>(call());
-  } catch (const InvalidInput& error) {
-    require(error.index() == index, "the first bad position is named");
-    return;
-  }
-  require(false, "a wrong call is refused");
-}
-
 void refuse_wrong_calls(const Locator& locator, const Scene& scene) {
   std::vector<Point> bad = scene.queries;
   bad.push_back(scene.options.sphere.center);

@@ -13,7 +13,7 @@ from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
 
-# C libraries round these differently; exact/argument.h, exact/degrees.h and exact/length.h have what is needed.
+# C libraries round these differently; exact/angles.h, exact/angles.h and exact/vector.h have what is needed.
 INEXACT = re.compile(
     r"\b(?:std::)?(?:sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|expm1|log|log2|log10"
     r"|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma)\((?!\))"

@@ -3,7 +3,6 @@
 #include "support/hull_check.h"
 
 #include <algorithm>
-#include <sstream>
 #include <tuple>
 
 #include "support/oracle.h"
@@ -11,13 +10,6 @@
 
 namespace rondel::test {
 namespace {
-
-template <typename... Args>
-std::string message(const Args&... args) {
-  std::ostringstream out;
-  (out << ... << args);
-  return out.str();
-}
 
 IntegerVector difference(const IntegerVector& a, const IntegerVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -55,7 +47,7 @@ std::string corner_error(const Triangulation& hull, const Oracle& oracle) {
   }
   for (const Triple& face : hull.faces()) {
     for (const Index v : face) {
-      if (ranks[v].value < 3) return message("vertex ", v, " is no corner");
+      if (ranks[v].value < 3) return text_of_all("vertex ", v, " is no corner");
     }
   }
   return {};
@@ -72,8 +64,8 @@ bool has_in_cone(const Triangulation& hull, const Oracle& oracle, Index f, Index
 std::string first_face_error(const Triangulation& hull, const Oracle& oracle) {
   for (const Hidden& h : hull.hidden()) {
     if (oracle.is_center(h.site)) continue;
-    if (hull.is_ghost(h.face)) return message("hidden ", h.site, ": ghost face");
-    if (!has_in_cone(hull, oracle, h.face, h.site)) return message("hidden ", h.site, ": cone");
+    if (hull.is_ghost(h.face)) return text_of_all("hidden ", h.site, ": ghost face");
+    if (!has_in_cone(hull, oracle, h.face, h.site)) return text_of_all("hidden ", h.site, ": cone");
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const Triple& face = hull.faces()[h.face];
       if (oracle.orientation(face[corner], face[(corner + 1) % 3], h.site) != 0) continue;
@@ -81,7 +73,7 @@ std::string first_face_error(const Triangulation& hull, const Oracle& oracle) {
       const Index pivot = face[corner];
       do {
         if (f < h.face && !hull.is_ghost(f) && has_in_cone(hull, oracle, f, h.site)) {
-          return message("hidden ", h.site, ": face ", f, " comes before ", h.face);
+          return text_of_all("hidden ", h.site, ": face ", f, " comes before ", h.face);
         }
         const Triple& v = hull.faces()[f];
         const auto at = static_cast<std::size_t>(std::ranges::find(v, pivot) - v.begin());
@@ -112,20 +104,20 @@ std::string polygon_error(const Triangulation& hull, const Oracle& oracle) {
   if (*leading < 0) return "the ring is clockwise";
   for (std::size_t p = 0; p < hull.num_sites(); ++p) {
     if (dot(normal, difference(oracle.vector(p), oracle.vector(ring[0]))) != 0) {
-      return message("site ", p, " is not in the plane");
+      return text_of_all("site ", p, " is not in the plane");
     }
   }
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Index next = ring[(i + 1) % ring.size()];
     for (std::size_t p = 0; p < hull.num_sites(); ++p) {
       const mpz_class side = dot(edge_normal(i, p), normal);
-      if (side < 0) return message("site ", p, " is outside of the polygon");
+      if (side < 0) return text_of_all("site ", p, " is outside of the polygon");
       const bool is_end = oracle.is_same_site(p, ring[i]) || oracle.is_same_site(p, next);
       if (side == 0 && !is_end && !oracle.is_between(p, ring[i], next)) {
-        return message("site ", p, " is beyond the end of an edge");
+        return text_of_all("site ", p, " is beyond the end of an edge");
       }
       if (side == 0 && !is_end && std::ranges::find(ring, p) != ring.end()) {
-        return message("corner ", p, " is on an edge");
+        return text_of_all("corner ", p, " is on an edge");
       }
     }
   }
@@ -138,9 +130,10 @@ std::string line_error(const Triangulation& hull, const Oracle& oracle) {
     if (oracle.is_same_site(p, ring[0]) || oracle.is_same_site(p, ring[1])) continue;
     const auto& a = oracle.vector(ring[0]);
     if (!is_zero(cross(difference(oracle.vector(ring[1]), a), difference(oracle.vector(p), a)))) {
-      return message("site ", p, " is not on the line");
+      return text_of_all("site ", p, " is not on the line");
     }
-    if (!oracle.is_between(p, ring[0], ring[1])) return message("site ", p, " is beyond the ends");
+    if (!oracle.is_between(p, ring[0], ring[1]))
+      return text_of_all("site ", p, " is beyond the ends");
   }
   return {};
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 #include <tuple>
 #include <vector>
 
@@ -12,13 +11,6 @@
 
 namespace rondel::test {
 namespace {
-
-template <typename... Args>
-std::string message(const Args&... args) {
-  std::ostringstream out;
-  (out << ... << args);
-  return out.str();
-}
 
 // The position in `face` of the corner opposite to the edge shared with `other`, given the edge's
 // ends in the order in which `face` has them; 3 if it is not there.
@@ -34,13 +26,14 @@ std::string neighbors_error(const Triangulation& t) {
     const Triple& face = t.faces()[f];
     for (unsigned i = 0; i < 3; ++i) {
       const Index g = t.neighbors()[f][i];
-      if (face[i] >= t.num_sites()) return message("face ", f, ": corner out of range");
-      if (g >= t.num_faces()) return message("face ", f, ": neighbor out of range");
+      if (face[i] >= t.num_sites()) return text_of_all("face ", f, ": corner out of range");
+      if (g >= t.num_faces()) return text_of_all("face ", f, ": neighbor out of range");
       const unsigned j = opposite_corner(t.faces()[g], face[(i + 2) % 3], face[(i + 1) % 3]);
-      if (j == 3 || t.neighbors()[g][j] != f) return message("faces ", f, ", ", g, ": not mutual");
+      if (j == 3 || t.neighbors()[g][j] != f)
+        return text_of_all("faces ", f, ", ", g, ": not mutual");
     }
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
-      return message("face ", f, ": corners not distinct");
+      return text_of_all("face ", f, ": corners not distinct");
     }
   }
   return {};
@@ -54,31 +47,32 @@ std::string account_error(const Triangulation& t) {
   }
   for (const Index site : t.ring()) {
     if (site >= t.num_sites()) return "ring: site out of range";
-    if (role[site] != 0) return message("ring: site ", site, " twice");
+    if (role[site] != 0) return text_of_all("ring: site ", site, " twice");
     role[site] = 1;
   }
   const auto vertices = static_cast<std::size_t>(std::ranges::count(role, 1));
-  if (vertices != t.num_vertices()) return message("vertices: ", vertices);
+  if (vertices != t.num_vertices()) return text_of_all("vertices: ", vertices);
   if (t.dimension() == 2 && t.num_faces() != 2 * vertices - 4)
-    return message("faces: ", t.num_faces());
+    return text_of_all("faces: ", t.num_faces());
   if (t.dimension() != 2 && t.num_faces() != 0) return "faces below dimension 2";
   for (const Duplicate& d : t.duplicates()) {
-    if (d.site >= t.num_sites() || role[d.site] != 0) return message("duplicate ", d.site);
-    if (d.representative >= d.site) return message("representative ", d.representative);
+    if (d.site >= t.num_sites() || role[d.site] != 0) return text_of_all("duplicate ", d.site);
+    if (d.representative >= d.site) return text_of_all("representative ", d.representative);
     role[d.site] = 2;
   }
   for (const Hidden& h : t.hidden()) {
-    if (h.site >= t.num_sites() || role[h.site] != 0) return message("hidden ", h.site);
+    if (h.site >= t.num_sites() || role[h.site] != 0) return text_of_all("hidden ", h.site);
     if (t.dimension() == 2 ? h.face >= t.num_faces() : h.face != no_index) {
-      return message("hidden ", h.site, ": face ", h.face);
+      return text_of_all("hidden ", h.site, ": face ", h.face);
     }
     role[h.site] = 3;
   }
   for (const Duplicate& d : t.duplicates()) {
-    if (role[d.representative] == 2) return message("representative ", d.representative);
+    if (role[d.representative] == 2) return text_of_all("representative ", d.representative);
   }
   const auto missing = std::ranges::find(role, 0) - role.begin();
-  if (missing != static_cast<std::ptrdiff_t>(role.size())) return message("lost site ", missing);
+  if (missing != static_cast<std::ptrdiff_t>(role.size()))
+    return text_of_all("lost site ", missing);
   return {};
 }
 
@@ -118,7 +112,7 @@ std::string covering_error(const Triangulation& t, const Oracle& oracle,
     if (t.is_ghost(f) && std::ranges::count(signs, -1) == 3) ++enters;
   }
   if (leaves != 1 || enters > (t.num_ghost_faces() == 0 ? 0 : 1)) {
-    return message("the surface is left ", leaves, " times and entered ", enters, " times");
+    return text_of_all("the surface is left ", leaves, " times and entered ", enters, " times");
   }
   return {};
 }
@@ -129,11 +123,11 @@ std::string hidden_error(const Triangulation& t, const Oracle& oracle) {
     if (h.face == no_index) continue;
     const Triple& face = t.faces()[h.face];
     if (oracle.side_of_circle(face[0], face[1], face[2], h.site) > 0) {
-      return message("hidden ", h.site, " is above its face");
+      return text_of_all("hidden ", h.site, " is above its face");
     }
     for (unsigned i = 0; i < 3 && t.num_ghost_faces() == 0; ++i) {
       if (oracle.orientation(face[i], face[(i + 1) % 3], h.site) < 0) {
-        return message("hidden ", h.site, " is not below its face");
+        return text_of_all("hidden ", h.site, " is not below its face");
       }
     }
   }
@@ -161,13 +155,13 @@ std::string order_error(const Triangulation& t) {
   for (Index f = 0; f < t.num_faces(); ++f) {
     const Index owner = t.faces()[f][0];
     if (f > 0 && owner == t.faces()[f - 1][0]) continue;
-    if (place[owner] != t.num_sites()) return message("faces of owner ", owner, " are apart");
+    if (place[owner] != t.num_sites()) return text_of_all("faces of owner ", owner, " are apart");
     place[owner] = owners++;
   }
   for (Index f = 0; f < t.num_faces(); ++f) {
     const Triple& face = t.faces()[f];
     if (place[face[0]] >= place[face[1]] || place[face[0]] >= place[face[2]]) {
-      return message("face ", f, " does not start with its first corner");
+      return text_of_all("face ", f, " does not start with its first corner");
     }
   }
   // Counterclockwise around the owner: from face to face the walk over the edge opposite to corner
@@ -181,7 +175,8 @@ std::string order_error(const Triangulation& t) {
           static_cast<std::size_t>(std::ranges::find(t.faces()[f], owner) - t.faces()[f].begin());
       f = t.neighbors()[f][(corner + 1) % 3];
       if (f == first) break;
-      if (t.faces()[f][0] == owner && f != next++) return message("face ", f, " is out of order");
+      if (t.faces()[f][0] == owner && f != next++)
+        return text_of_all("face ", f, " is out of order");
     }
     first = next;
   }
@@ -191,7 +186,7 @@ std::string order_error(const Triangulation& t) {
 std::string geometry_error(const Triangulation& t, std::span<const Point> sites) {
   const Oracle oracle(sites, t.model(), t.sphere());
   for (const Duplicate& d : t.duplicates()) {
-    if (!oracle.is_same_site(d.site, d.representative)) return message("duplicate ", d.site);
+    if (!oracle.is_same_site(d.site, d.representative)) return text_of_all("duplicate ", d.site);
   }
   if (t.dimension() != 2) return {};
   // Ties are decided by the place of a duplicated site with the smallest coordinates.
@@ -209,7 +204,7 @@ std::string geometry_error(const Triangulation& t, std::span<const Point> sites)
     const std::size_t b = speaker[face[1]];
     const std::size_t c = speaker[face[2]];
     if ((oracle.orientation(a, b, c) <= 0) != t.is_ghost(f))
-      return message("ghost flag of face ", f);
+      return text_of_all("ghost flag of face ", f);
     if (direction == IntegerVector{} && !t.is_ghost(f)) {
       for (std::size_t i = 0; i < 3; ++i) {
         direction[i] = 5 * oracle.vector(a)[i] + 3 * oracle.vector(b)[i] + 4 * oracle.vector(c)[i];
@@ -222,7 +217,7 @@ std::string geometry_error(const Triangulation& t, std::span<const Point> sites)
       const Index across = t.faces()[g][j];
       if (across == face[i]) continue;  // three vertices: both sides of one triangle
       if (oracle.perturbed_side(a, b, c, speaker[across]) >= 0) {
-        return message("the edge between faces ", f, " and ", g, " is not regular");
+        return text_of_all("the edge between faces ", f, " and ", g, " is not regular");
       }
     }
   }

@@ -5,11 +5,20 @@
 #pragma once
 
 #include <span>
+#include <sstream>
 #include <string>
 
 #include "rondel/triangulation.h"
 
 namespace rondel::test {
+
+// Returns the texts of the arguments, one after the other.
+template <typename... Args>
+std::string text_of_all(const Args&... args) {
+  std::ostringstream out;
+  (out << ... << args);
+  return out.str();
+}
 
 // Each returns what is wrong first, or nothing.
 

@@ -3,13 +3,8 @@
 rondel_add_test(bulk_test
   bulk/api_test.cpp
   bulk/bounds_test.cpp
-  bulk/buckets_test.cpp
   bulk/collinear_test.cpp
-  bulk/divide_test.cpp
-  bulk/few_sites_test.cpp
   bulk/nasty_test.cpp
-  bulk/order_test.cpp
   bulk/same_test.cpp
-  bulk/scale_test.cpp
   bulk/sphere_test.cpp
   LIBS rondel_test_support)

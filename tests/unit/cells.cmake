@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(cells_test
   map/cells_arrays_test.cpp
-  map/cells_common_test.cpp
   map/cells_map_test.cpp
   map/cells_mending_test.cpp
-  map/cells_merged_test.cpp
   map/cells_nested_test.cpp
   map/cells_parts_test.cpp
   map/cells_polygon_test.cpp
   map/cells_settled_test.cpp
-  map/cells_tips_test.cpp
   map/cells_write_test.cpp
   map/cells_test.cpp
   map/faces_test.cpp

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(distributed_test
   distributed/bad_files_test.cpp
+  distributed/buckets_test.cpp
   distributed/files_test.cpp
   distributed/resume_test.cpp
   LIBS rondel_distributed rondel_test_support)

@@ -7,9 +7,6 @@ target_link_libraries(rondel_dual_support PUBLIC rondel_test_support)
 rondel_add_test(dual_test
   dual/areas_test.cpp
   dual/cells_test.cpp
-  dual/centroids_test.cpp
   dual/circumcenters_test.cpp
-  dual/face_batch_test.cpp
-  dual/facets_test.cpp
   exact/argument_test.cpp
   LIBS rondel_dual_support)

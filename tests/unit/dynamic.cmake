@@ -4,8 +4,6 @@ rondel_add_test(dynamic_test
   dynamic/api_test.cpp
   dynamic/query_test.cpp
   dynamic/range_test.cpp
-  dynamic/renumbering_test.cpp
   dynamic/script_test.cpp
-  dynamic/stop_test.cpp
   dynamic/ties_test.cpp
   LIBS rondel_test_support)

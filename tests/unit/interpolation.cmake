@@ -5,7 +5,6 @@ rondel_add_test(interpolation_test
   interpolation/collected_test.cpp
   interpolation/errors_test.cpp
   interpolation/linear_test.cpp
-  interpolation/names_test.cpp
   interpolation/places_test.cpp
   interpolation/regrid_test.cpp
   interpolation/rings_test.cpp

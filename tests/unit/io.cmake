@@ -26,7 +26,6 @@ rondel_add_test(io_test
   io/sites_test.cpp
   io/triangles_test.cpp
   formats/unpacked_test.cpp
-  io/utf8_test.cpp
   io/wide_integers_test.cpp
   io/zip_test.cpp
   LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)

@@ -5,9 +5,9 @@ rondel_add_test(kernel_test
   kernel/exact_test.cpp
   kernel/order_test.cpp
   kernel/walk_test.cpp
-  system/large_vector_test.cpp
+  system/large_arrays_test.cpp
   order/spatial_index_test.cpp
   order/spatial_order_test.cpp
   system/parallel_test.cpp
-  system/shortest_text_test.cpp
+  system/message_text_test.cpp
   LIBS rondel_test_support)

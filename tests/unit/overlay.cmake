@@ -8,9 +8,8 @@ rondel_add_test(overlay_test
   overlay/graticule_test.cpp
   overlay/grid_test.cpp
   overlay/hostile_test.cpp
-  overlay/inside_cases_test.cpp
-  overlay/inside_plane_test.cpp
   overlay/inside_test.cpp
+  overlay/inside_plane_test.cpp
   overlay/measure_test.cpp
   formats/mesh_blocks_test.cpp
   formats/mesh_faults_test.cpp
@@ -21,7 +20,6 @@ rondel_add_test(overlay_test
   overlay/pieces_test.cpp
   overlay/plane_test.cpp
   overlay/polar_test.cpp
-  overlay/poles_test.cpp
   overlay/polygons_test.cpp
   overlay/regions_test.cpp
   overlay/remap_test.cpp

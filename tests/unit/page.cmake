@@ -4,7 +4,6 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(ZLIB REQUIRED)
 
 rondel_add_test(page_test
-  page/coast_test.cpp
   page/globe_test.cpp
   page/packed_test.cpp
   LIBS rondel_geo nlohmann_json::nlohmann_json ZLIB::ZLIB)

@@ -4,12 +4,9 @@ if(NOT RONDEL_BUILD_TOOL OR NOT RONDEL_BUILD_PLOT)
   return()
 endif()
 rondel_add_test(unit_plot
-  plot/arcs_test.cpp
   plot/circles_test.cpp
-  plot/draw_test.cpp
   plot/field_test.cpp
   plot/globe_test.cpp
-  plot/ground_test.cpp
   plot/pixels_test.cpp
   plot/region_test.cpp
   LIBS rondel_plot rondel_test_support)

@@ -3,9 +3,7 @@
 rondel_add_test(predicates_test
   exact/ball_test.cpp
   exact/integer_rays_test.cpp
-  exact/integer_steps_test.cpp
   predicates/distance_test.cpp
-  predicates/oracle_test.cpp
   predicates/perturbation_test.cpp
   predicates/rung_test.cpp
   predicates/sign_test.cpp

@@ -10,7 +10,6 @@ rondel_add_test(scvt_test
   meshing/scvt_fixed_test.cpp
   meshing/scvt_memory_test.cpp
   meshing/scvt_minimizer_test.cpp
-  meshing/scvt_repair_test.cpp
   meshing/scvt_steps_test.cpp
   meshing/scvt_test.cpp
   LIBS rondel_geo rondel_test_support)

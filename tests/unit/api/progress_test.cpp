@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Who calls a Progress function, and what it may do.
-
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -12,7 +12,7 @@
 
 #include "bulk/open_faces.h"
 #include "bulk/piece.h"
-#include "exact/extended.h"
+#include "exact/eft.h"
 #include "order/cube_position.h"
 #include "support/adversarial.h"
 #include "support/generators.h"

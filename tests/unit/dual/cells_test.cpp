@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "rondel/predicates.h"
 #include "unit/dual/support.h"
 
 namespace rondel::test {
@@ -147,6 +148,140 @@ TEST(cells, of_one_site_and_of_none_are_empty) {
   const Cells diagram = cells(triangulated(sites));
   EXPECT_EQ(diagram.offsets, (std::vector<std::uint64_t>{0, 0, 0}));
   EXPECT_TRUE(diagram.points.empty());
+}
+
+// Edges and merged facets.
+
+using Polygon = std::vector<Index>;
+
+std::vector<Polygon> polygons_of(std::span<const Point> sites, Model model = Model::projected) {
+  const Polygons facets = merge_cocircular(triangulated(sites, model));
+  std::vector<Polygon> result;
+  for (std::size_t k = 0; k + 1 < facets.offsets.size(); ++k) {
+    const auto begin = facets.corners.begin();
+    result.emplace_back(begin + static_cast<std::ptrdiff_t>(facets.offsets[k]),
+                        begin + static_cast<std::ptrdiff_t>(facets.offsets[k + 1]));
+  }
+  return result;
+}
+
+// The number of polygons by their number of corners.
+std::map<std::size_t, int> sizes(const std::vector<Polygon>& polygons) {
+  std::map<std::size_t, int> result;
+  for (const Polygon& p : polygons) ++result[p.size()];
+  return result;
+}
+
+// A dodecahedron with rational corners: (+-1, +-1, +-1) and cyclic (0, +-(1 - h^2), +-(1 + h)) with
+// h = 1/2. Its 12 pentagons are exactly flat.
+std::vector<Point> pyritohedron() {
+  std::vector<Point> result = cube();
+  for (const double s : {-0.75, 0.75}) {
+    for (const double t : {-1.5, 1.5}) {
+      result.push_back({0, s, t});
+      result.push_back({s, t, 0});
+      result.push_back({t, 0, s});
+    }
+  }
+  return result;
+}
+
+TEST(merge_cocircular, finds_the_facets_of_the_platonic_solids) {
+  EXPECT_EQ(sizes(polygons_of(octahedron())), (std::map<std::size_t, int>{{3, 8}}));
+  EXPECT_EQ(sizes(polygons_of(cube())), (std::map<std::size_t, int>{{4, 6}}));
+  EXPECT_EQ(sizes(polygons_of(cube(), Model::weighted)), (std::map<std::size_t, int>{{4, 6}}));
+  EXPECT_EQ(sizes(polygons_of(pyritohedron(), Model::weighted)),
+            (std::map<std::size_t, int>{{5, 12}}));
+}
+
+TEST(merge_cocircular, starts_with_the_lowest_corner_and_turns_counterclockwise) {
+  const auto sites = cube();
+  for (const Polygon& p : polygons_of(sites)) {
+    EXPECT_EQ(p[0], *std::ranges::min_element(p));
+    for (std::size_t j = 0; j < p.size(); ++j) {
+      EXPECT_EQ(orientation(sites[p[j]], sites[p[(j + 1) % 4]], sites[p[(j + 2) % 4]]),
+                Sign::positive);
+    }
+  }
+}
+
+TEST(merge_cocircular, gives_both_sides_of_a_flat_hull) {
+  // On one small circle, exactly: integer points at squared distance 25 from (0, 0, 7).
+  std::vector<Point> sites;
+  for (const auto& [x, y] : {std::pair{5, 0}, {4, 3}, {3, 4}, {0, 5}, {-5, 0}, {-3, -4}}) {
+    sites.push_back({static_cast<double>(x), static_cast<double>(y), 7});
+  }
+  const auto polygons = polygons_of(sites);
+  ASSERT_EQ(polygons.size(), 2U);
+  EXPECT_EQ(polygons[0].size(), 6U);
+  Polygon back = polygons[1];
+  std::reverse(back.begin() + 1, back.end());
+  EXPECT_EQ(polygons[0], back);
+}
+
+TEST(merge_cocircular, leaves_no_corner_inside_a_facet) {
+  std::vector<Point> sites;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        sites.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+      }
+    }
+  }
+  const auto polygons = polygons_of(sites, Model::weighted);
+  EXPECT_EQ(polygons.size(), 6U);
+  for (const Polygon& p : polygons) {
+    const auto is_extreme = [&](Index i) {
+      const Point& s = sites[i];
+      return (std::abs(s.x) == 2) + (std::abs(s.y) == 2) + (std::abs(s.z) == 2) >= 2;
+    };
+    EXPECT_TRUE(std::ranges::all_of(p, is_extreme));
+  }
+}
+
+TEST(merge_cocircular, gives_a_closed_surface_for_every_generator) {
+  for_each_case(20, 2, [](const DualCase& c) {
+    const Polygons facets = merge_cocircular(c.triangulation);
+    if (c.triangulation.dimension() < 2) {
+      EXPECT_EQ(facets.offsets, std::vector<std::uint64_t>{0});
+      return;
+    }
+    std::set<std::array<Index, 2>> borders;
+    std::set<Index> corners(facets.corners.begin(), facets.corners.end());
+    for (std::size_t k = 0; k + 1 < facets.offsets.size(); ++k) {
+      for (auto j = facets.offsets[k]; j < facets.offsets[k + 1]; ++j) {
+        const auto next = j + 1 == facets.offsets[k + 1] ? facets.offsets[k] : j + 1;
+        EXPECT_TRUE(borders.insert({facets.corners[j], facets.corners[next]}).second) << c.name;
+      }
+    }
+    for (const auto& [a, b] : borders) EXPECT_TRUE(borders.contains({b, a})) << c.name;
+    // Euler: V - E + F = 2.
+    EXPECT_EQ(corners.size() + facets.offsets.size() - 1, borders.size() / 2 + 2) << c.name;
+  });
+}
+
+TEST(edges, are_sorted_and_those_of_the_faces) {
+  for_each_case(20, 1, [](const DualCase& c) {
+    std::set<std::array<Index, 2>> expected;
+    for (const Triple& f : c.triangulation.faces()) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        expected.insert({std::min(f[i], f[(i + 1) % 3]), std::max(f[i], f[(i + 1) % 3])});
+      }
+    }
+    if (c.triangulation.dimension() < 2) return;
+    const auto result = edges(c.triangulation);
+    EXPECT_TRUE(std::ranges::equal(result, expected)) << c.name;
+    EXPECT_EQ(result.size(), 3 * c.triangulation.num_vertices() - 6);
+  });
+}
+
+TEST(edges, below_dimension_2_go_around_the_ring) {
+  const std::vector<Point> sites = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {2, 0, 0}};
+  const std::vector<std::array<Index, 2>> square = {{0, 2}, {0, 3}, {1, 2}, {1, 3}};
+  EXPECT_EQ(edges(triangulated(sites)), square);
+  const std::vector<std::array<Index, 2>> one = {{0, 1}};
+  EXPECT_EQ(edges(triangulated(std::span(sites).first(2))), one);
+  EXPECT_TRUE(edges(triangulated(std::span(sites).first(1))).empty());
 }
 
 }  // namespace

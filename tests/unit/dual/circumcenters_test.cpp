@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <vector>
+
 #include "api/triangulation_impl.h"
+#include "dual/face_batch.h"
+#include "dual/face_normal.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "support/mpfr_oracle.h"
@@ -151,6 +156,113 @@ TEST(circumcenters, refuse_vertices_in_one_place) {
         {.model = model});
     EXPECT_THROW(diagram(taken), InvalidInput);
   }
+}
+
+double perimeter(const Cells& cells, std::size_t site) {
+  const auto ring = ring_of(cells, site);
+  double sum = 0;
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Point step = cells.points[ring[j]] - cells.points[ring[(j + 1) % ring.size()]];
+    sum += std::sqrt(dot_product(step, step));
+  }
+  return sum;
+}
+
+TEST(centroids, agree_with_long_numbers_for_every_generator) {
+  for_each_case(12, 2, [](const DualCase& c) {
+    const Cells diagram = cells(c.triangulation);
+    const auto result = centroids(c.triangulation);
+    const auto area = areas(c.triangulation);
+    const DualOracle oracle(c.triangulation, c.sites);
+    for (Index i = 0; i < c.sites.size(); ++i) {
+      if (ring_of(diagram, i).empty()) {
+        EXPECT_EQ(result[i], Point{}) << c.name;
+        continue;
+      }
+      EXPECT_NEAR(dot_product(result[i], result[i]), 1, 1e-15) << c.name;
+      // A thin cell's center is uncertain along it; rounding errors of the circumcenters exceed
+      // the width of the thinnest.
+      const double length = perimeter(diagram, i);
+      if (area[i] <= 1e-12 * length) continue;
+      const auto exact = polygon_centroid(oracle.ring(diagram, i));
+      ASSERT_TRUE(exact.has_value()) << c.name;
+      EXPECT_LE(distance_in_ulps(result[i], *exact), 16 * length * length / area[i])
+          << c.name << " site " << i;
+    }
+  });
+}
+
+TEST(centroids, of_the_octahedron_are_its_corners) {
+  const auto sites = octahedron();
+  const auto result = centroids(triangulated(sites));
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    EXPECT_LE(distance_in_ulps(result[i], to_real(sites[i])), 4);
+  }
+}
+
+TEST(centroids, of_tiny_cells_are_within_a_few_ulp) {
+  const DualCase c = make_case(generator("patch_1e_9"), 60, 1, Model::projected);
+  const Cells diagram = cells(c.triangulation);
+  const auto result = centroids(c.triangulation);
+  const auto area = areas(c.triangulation);
+  const DualOracle oracle(c.triangulation, c.sites);
+  int num_tiny = 0;
+  for (Index i = 0; i < c.sites.size(); ++i) {
+    if (area[i] > 1e-15) continue;
+    ++num_tiny;
+    const auto exact = polygon_centroid(oracle.ring(diagram, i));
+    EXPECT_LE(distance_in_ulps(result[i], exact.value()), 8);
+  }
+  EXPECT_GT(num_tiny, 20);
+}
+
+TEST(centroids, of_hemispheres_and_lunes) {
+  const std::vector<Point> two = {{0, 0, 1}, {0, 0, -1}};
+  EXPECT_EQ(centroids(triangulated(two)), two);
+  const std::vector<Point> four = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  const auto result = centroids(triangulated(four));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(distance_in_ulps(result[i], to_real(four[i])), 4);
+}
+
+TEST(centroids, of_the_whole_sphere_is_its_center) {
+  const std::vector<Point> sites = {{1, 2, 3}};
+  EXPECT_EQ(centroids(triangulated(sites)), std::vector<Point>{Point{}});
+}
+
+// A batch gives the same bits as a face alone, wherever in it the face is.
+TEST(dual_normals, are_the_same_in_batches_and_alone) {
+  for_each_case(100, 1, [](const DualCase& c) {
+    if (c.triangulation.dimension() < 2) return;
+    const dual::SplitSites sites(c.triangulation, 1);
+    const auto centers = circumcenters(c.triangulation);
+    for (Index f = 0; f < centers.size(); ++f) {
+      const auto [i, j, k] = sites.corners(f);
+      EXPECT_EQ(centers[f], dual::unit_normal(sites, i, j, k)) << c.name << " face " << f;
+    }
+  });
+}
+
+TEST(kites, are_left_out_where_an_area_is_large) {
+  const std::vector<Point> sites = octahedron();
+  const Triangulation t = triangulated(sites);
+  const dual::SplitSites split_sites(t, 1);
+  std::vector<Point> points(t.num_faces());
+  std::vector<dual::Kites> kites(t.num_faces());
+  // A corner of the octant is 54.7 degrees from its middle, but the tangent is above 1/16.
+  EXPECT_TRUE(dual::unit_normals(split_sites, 0, points, kites.data()));
+  for (const dual::Kites& k : kites) EXPECT_TRUE(dual::is_careful(k));
+}
+
+TEST(kites, of_all_faces_add_up_to_the_sphere) {
+  const auto sites = generator("uniform").make(500, 3).sites;
+  const Triangulation t = triangulated(sites);
+  const dual::SplitSites split_sites(t, 1);
+  std::vector<Point> points(t.num_faces());
+  std::vector<dual::Kites> kites(t.num_faces());
+  EXPECT_FALSE(dual::unit_normals(split_sites, 0, points, kites.data()));
+  double sum = 0;
+  for (const dual::Kites& k : kites) sum += k[0] + k[1] + k[2];
+  EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-13);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 // The argument of a complex number, against MPFR.
 
-#include "exact/argument.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "exact/angles.h"
 #include "support/mpfr_oracle.h"
 #include "support/random.h"
 

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Sides of circles in integers of the machine, which an oracle computes with GMP and MPFR.
-#include "exact/integer_rays.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "exact/integer_signs.h"
 #include "support/generators.h"
 #include "support/oracle.h"
 

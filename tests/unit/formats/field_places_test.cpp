@@ -13,6 +13,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/mesh_files.h"
+#include "support/thrown.h"
 #include "unit/io/support.h"
 
 namespace rondel::test {
@@ -115,12 +116,7 @@ class FieldPlaces : public testing::Test {
   // What is said; empty if it is read.
   template <typename Read>
   [[nodiscard]] std::string refusal(const Read& read) const {
-    try {
-      read();
-    } catch (const FileError& error) {
-      return error.what();
-    }
-    return {};
+    return thrown_message<FileError>(read);
   }
 
  private:

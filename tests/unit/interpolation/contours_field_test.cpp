@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondel/error.h"
+#include "support/thrown.h"
 #include "unit/interpolation/contours_support.h"
 
 namespace rondel::test {
@@ -168,12 +169,7 @@ constexpr std::size_t not_thrown = InvalidInput::no_index - 1;
 
 template <class Call>
 std::size_t bad_index(const Call& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.index();
-  }
-  return not_thrown;
+  return thrown_index(call, not_thrown);
 }
 
 TEST(contours, name_the_first_bad_argument) {

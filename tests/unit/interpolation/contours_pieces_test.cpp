@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "exact/vector.h"
-#include "interpolation/contour_loops.h"
 #include "interpolation/contour_pieces.h"
 #include "interpolation/contour_tracing.h"
 #include "rondel/delaunay.h"

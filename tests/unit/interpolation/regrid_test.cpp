@@ -14,6 +14,7 @@
 
 #include "rondel/error.h"
 #include "rondel/weights.h"
+#include "support/thrown.h"
 #include "unit/interpolation/support.h"
 
 namespace rondel::test {
@@ -78,12 +79,10 @@ TEST(regrid, bad_sources_are_named) {
   const Triangulation triangulation = delaunay(targets);
   const Interpolator interpolator(triangulation);
   for (const Point& bad : {Point{0, 0, 0}, Point{nan, 0, 0}}) {
-    try {
-      (void)nearest_d2s_weights(interpolator, std::vector<Point>{{1, 0, 0}, bad});
-      FAIL();
-    } catch (const InvalidInput& error) {
-      EXPECT_EQ(error.index(), 1U);
-    }
+    EXPECT_EQ(thrown_index([&] {
+                return nearest_d2s_weights(interpolator, std::vector<Point>{{1, 0, 0}, bad});
+              }),
+              1U);
   }
 }
 
@@ -116,12 +115,7 @@ TEST(regrid, numbers_that_do_not_fit_are_refused) {
   const Numbers rows = {0, 1, 2};
   const Numbers columns = {0, 1, 2, 3};
   const auto index_of = [&](const Numbers& row_numbers, const Numbers& column_numbers) {
-    try {
-      (void)renumbered(of_a_part, row_numbers, 3, column_numbers, 4);
-    } catch (const InvalidInput& error) {
-      return error.index();
-    }
-    return std::size_t{99};
+    return thrown_index([&] { return renumbered(of_a_part, row_numbers, 3, column_numbers, 4); });
   };
   EXPECT_EQ(index_of(rows, columns), 99U);
   EXPECT_EQ(index_of({0, 1}, columns), InvalidInput::no_index);

@@ -11,6 +11,7 @@
 #include "io/netcdf_boxes.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
+#include "support/thrown.h"
 #include "unit/io/support.h"
 
 namespace rondel::test::of_netcdf4_files {
@@ -68,12 +69,7 @@ class netcdf4 : public ::testing::Test {
   // The message of the BadValue; empty if there is none.
   template <class Action>
   static std::string refused(const Action& action) {
-    try {
-      action();
-    } catch (const io::BadValue& bad) {
-      return bad.what();
-    }
-    return {};
+    return thrown_message<io::BadValue>(action);
   }
 
   std::string path_ = temporary_path("a.nc4");

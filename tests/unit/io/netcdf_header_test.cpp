@@ -12,6 +12,7 @@
 #include "io/file_bytes.h"
 #include "io/netcdf4_file.h"
 #include "io/netcdf_reader.h"
+#include "support/thrown.h"
 #include "unit/io/classic_file.h"
 #include "unit/io/support.h"
 
@@ -70,12 +71,7 @@ ClassicFile all_types(int version, std::uint64_t num_records) {
 }
 
 std::string refusal_of(std::string_view bytes) {
-  try {
-    const NetcdfReader reader(bytes);
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
+  return thrown_message<io::BadValue>([&] { const NetcdfReader reader(bytes); });
 }
 
 TEST(netcdf_header, has_what_was_written) {

@@ -11,6 +11,7 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_slabs.h"
 #include "io/netcdf_writer.h"
+#include "support/thrown.h"
 #include "unit/io/support.h"
 
 namespace rondel::test {
@@ -26,15 +27,12 @@ std::string bytes_of(const std::string& name) { return read_all(corpus / "netcdf
 
 // What is said of bytes that are refused; empty if they are read with all values.
 std::string refusal(std::string_view bytes) {
-  try {
+  return thrown_message<io::BadValue>([&] {
     const NetcdfReader reader(bytes);
     for (const NetcdfReader::Variable& variable : reader.variables()) {
       if (variable.type != NetcdfType::text) static_cast<void>(reader.numbers(variable));
     }
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
+  });
 }
 
 Doubles numbers(const NetcdfReader& reader, std::string_view name) {

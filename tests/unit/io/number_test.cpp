@@ -13,7 +13,7 @@
 #include <random>
 
 #include "io/csv_records.h"
-#include "io/number_text.h"
+#include "support/thrown.h"
 
 namespace rondel::io {
 namespace {
@@ -105,12 +105,7 @@ TEST(number, text_of_a_tie_is_that_of_the_standard_library) {
 
 // What is said of a text that is no number.
 std::string refusal_of_number(std::string_view text) {
-  try {
-    parse_number(text, "x");
-  } catch (const BadValue& bad) {
-    return bad.what();
-  }
-  return {};
+  return test::thrown_message<BadValue>([&] { parse_number(text, "x"); });
 }
 
 TEST(number, says_why_a_text_is_none) {

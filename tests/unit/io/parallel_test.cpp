@@ -11,6 +11,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "support/generators.h"
+#include "support/thrown.h"
 #include "unit/io/support.h"
 
 namespace rondel::test {
@@ -72,12 +73,7 @@ TEST(write_in_parallel, says_what_failed_when_the_disk_is_full) {
           [](std::string& text, std::size_t, std::size_t) { text.append(100'000, 'x'); });
       file.commit();
     };
-    try {
-      write();
-      ADD_FAILURE() << threads;
-    } catch (const FileError& error) {
-      EXPECT_STREQ(error.what(), "/dev/full: No space left on device");
-    }
+    EXPECT_EQ(thrown_message<FileError>(write), "/dev/full: No space left on device") << threads;
   }
 }
 #endif

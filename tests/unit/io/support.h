@@ -19,6 +19,7 @@
 #include "rondel/error.h"
 #include "rondel/io.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 
 namespace rondel::test {
 
@@ -38,23 +39,13 @@ inline std::string read_all(const std::filesystem::path& path) {
 // The message of the FileError that `action` throws; empty if it throws none.
 template <typename Action>
 std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return {};
+  return thrown_message<FileError>(action);
 }
 
 // The message of the BadValue that `action` throws; empty if it throws none.
 template <class Action>
 std::string refused(const Action& action) {
-  try {
-    action();
-  } catch (const io::BadValue& bad) {
-    return bad.what();
-  }
-  return {};
+  return thrown_message<io::BadValue>(action);
 }
 
 // The files of a folder of the corpus, in order.

@@ -12,7 +12,7 @@
 #include <limits>
 #include <string>
 
-#include "exact/degrees.h"
+#include "exact/angles.h"
 #include "exact/integer.h"
 #include "exact/unit_vector.h"
 #include "rondel/delaunay.h"

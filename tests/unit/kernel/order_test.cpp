@@ -15,7 +15,7 @@
 #include "kernel/brio.h"
 #include "order/cube_position.h"
 #include "order/hilbert.h"
-#include "order/radix_sort.h"
+#include "order/sorts.h"
 #include "order/spatial_order.h"
 #include "rondel/predicates.h"
 #include "support/generators.h"

@@ -5,14 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
 
+#include "map/arc.h"
 #include "map/cell_map.h"
+#include "map/common_corners.h"
+#include "rondel/cell_rings.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 #include "rondel/polygons.h"
 #include "support/generators.h"
+#include "support/random.h"
 #include "unit/map/cells_planar.h"
 
 namespace rondel::test {
@@ -102,6 +111,114 @@ TEST(cells, arrays_want_the_diagram_of_the_triangulation) {
   const std::vector<Point> sites = random_points(20, 5);
   const Triangulation fewer = delaunay(std::span(sites).first(19));
   EXPECT_THROW(cell_polygons(fewer, diagram(delaunay(sites))), InvalidInput);
+}
+
+// Feet on arcs, and corners that cells of one side of a great circle have on arcs of the other side.
+
+TEST(foot_on_arc, is_below_points_between_the_ends) {
+  Random random(51);
+  int num_inside = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Point p = random.direction();
+    const Point normal = normalized(cross(p, random.direction()));
+    const Point ahead = cross(normal, p);
+    const double length = 0.01 + 2.4 * random.unit();
+    const auto on_circle = [&](double angle) {
+      return std::cos(angle) * p + std::sin(angle) * ahead;
+    };
+    const double share = 1.6 * random.unit() - 0.3;
+    const double height = 2.8 * random.unit() - 1.4;
+    const Point below = on_circle(share * length);
+    const Point v = std::cos(height) * below + std::sin(height) * normal;
+    const std::optional<Point> foot = map::foot_on_arc(v, p, on_circle(length));
+    if (std::abs(share) < 1e-3 || std::abs(share - 1) < 1e-3) continue;
+    const bool is_inside = share > 0 && share < 1;
+    ASSERT_EQ(foot.has_value(), is_inside) << round;
+    if (!is_inside) continue;
+    ++num_inside;
+    EXPECT_LT(map::distance(*foot, below), 1e-12) << round;
+  }
+  EXPECT_GT(num_inside, 1000);
+}
+
+std::vector<double> random_cuts(Random& random, std::size_t count) {
+  std::vector<double> cuts = {-60, 60};
+  while (cuts.size() < count) cuts.push_back(110 * random.unit() - 55);
+  std::ranges::sort(cuts);
+  return cuts;
+}
+
+// Cells on both sides of a great circle, with corners of their own on it, in any orientation in space.
+struct TwoRows {
+  CellRings cells;
+  std::vector<std::vector<Index>>
+      expected;  // the corners of each ring, with those of the other side
+
+  TwoRows(Random& random, const std::vector<double>& north, const std::vector<double>& south)
+      : u_(random.direction()), v_(normalized(cross(u_, random.direction()))), w_(cross(u_, v_)) {
+    const std::vector<Index> places_north = add_points(north, 0);
+    const std::vector<Index> places_south = add_points(south, 0);
+    add_row(north, places_north, south, places_south, 1);
+    add_row(south, places_south, north, places_north, -1);
+  }
+
+ private:
+  Index add_point(double lon_deg, double lat_deg) {
+    const Point p = unit_vector(LonLat{lon_deg, lat_deg});
+    const Point turned = p.x * u_ + p.y * v_ + p.z * w_;
+    const auto found = std::ranges::find(cells.points, turned);
+    if (found == cells.points.end()) cells.points.push_back(turned);
+    return static_cast<Index>(std::ranges::find(cells.points, turned) - cells.points.begin());
+  }
+  std::vector<Index> add_points(const std::vector<double>& cuts, double lat_deg) {
+    std::vector<Index> places;
+    for (const double cut : cuts) places.push_back(add_point(cut, lat_deg));
+    return places;
+  }
+  void add_row(const std::vector<double>& cuts, const std::vector<Index>& places,
+               const std::vector<double>& others, const std::vector<Index>& other_places,
+               double side) {
+    const std::vector<Index> far = add_points(cuts, 30 * side);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+      std::vector<Index> ring = {places[k], places[k + 1], far[k + 1], far[k]};
+      std::vector<Index> all = {places[k]};
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        if (others[i] > cuts[k] && others[i] < cuts[k + 1]) all.push_back(other_places[i]);
+      }
+      all.insert(all.end(), ring.begin() + 1, ring.end());
+      if (side < 0) {
+        std::ranges::reverse(ring);
+        std::ranges::reverse(all);
+      }
+      cells.corners.insert(cells.corners.end(), ring.begin(), ring.end());
+      cells.rings.push_back(cells.corners.size());
+      cells.cells.push_back(cells.rings.size() - 1);
+      expected.push_back(std::move(all));
+    }
+  }
+
+  Point u_;
+  Point v_;
+  Point w_;
+};
+
+TEST(common_corners, are_those_of_the_other_side) {
+  Random random(52);
+  for (int round = 0; round < 60; ++round) {
+    const TwoRows rows(random, random_cuts(random, 2 + random.below(12)),
+                       random_cuts(random, 2 + random.below(12)));
+    const map::CommonCorners common(rows.cells, rows.cells.points, round % 2 == 0 ? 1 : 2);
+    for (std::size_t r = 0; r < rows.expected.size(); ++r) {
+      const std::span<const Index> ring =
+          std::span(rows.cells.corners)
+              .subspan(rows.cells.rings[r], rows.cells.rings[r + 1] - rows.cells.rings[r]);
+      std::vector<Point> found;
+      common.append_ring(ring, rows.cells.points, found);
+      std::vector<Point> expected;
+      for (const Index i : rows.expected[r]) expected.push_back(rows.cells.points[i]);
+      EXPECT_EQ(found, expected) << round << ", ring " << r;
+    }
+  }
 }
 
 }  // namespace

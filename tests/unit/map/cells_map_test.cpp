@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "map/cell_map.h"
-#include "map/crossing_lines.h"
 #include "map/face_map.h"
+#include "map/trace.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
 #include "unit/map/cells_planar.h"

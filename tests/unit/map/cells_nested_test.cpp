@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "map/nested_loops.h"
 #include "map/planar_loops.h"
 #include "map/settled_regions.h"
 #include "support/random.h"

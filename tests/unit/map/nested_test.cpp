@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "map/nested_loops.h"
 #include "map/planar_loops.h"
 #include "support/random.h"
 

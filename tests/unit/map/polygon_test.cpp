@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "map/outside_loops.h"
 #include "map/planar_loops.h"
 
 namespace rondel::test::of_polygon {

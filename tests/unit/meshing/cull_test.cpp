@@ -24,6 +24,7 @@
 #include "rondel/mesh_quality.h"
 #include "rondel/polygon_files.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/meshing/support.h"
 
 namespace rondel::test {
@@ -444,12 +445,10 @@ TEST(region_sites, of_a_grid_are_in_one_cell_or_on_its_border) {
 
 TEST(region_sites, that_are_no_points_are_refused) {
   const CellRings octant = rings_of({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
-  try {
-    mesh::inside(std::vector<Point>{{1, 2, 3}, {0, 0, 0}}, octant);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.index(), 1U);
-  }
+  EXPECT_EQ(thrown_index([&] {
+              mesh::inside(std::vector<Point>{{1, 2, 3}, {0, 0, 0}}, octant);
+            }),
+            1U);
   EXPECT_THROW(mesh::inside(std::vector<Point>{{1, 2, 3}}, rings_of({{{1, 0, 0}, {0, 1, 0}}})),
                InvalidInput);
 }

@@ -27,6 +27,7 @@
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/meshing/support.h"
 #include "unit/meshing/writer.h"
 
@@ -54,12 +55,7 @@ class MeshFiles : public ::testing::Test {
 
 template <class Work>
 std::string file_error(const Work& work) {
-  try {
-    work();
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown_message<FileError>(work);
 }
 
 TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
@@ -288,12 +284,7 @@ TEST_F(MeshFiles, cdf2_refuses_variables_of_4_gib) {
     io::NetcdfWriter out(file);
     const std::size_t dimension = out.add_dimension("nEdges", size);
     out.add_variable({"weightsOnEdge", io::NetcdfType::float64, {dimension}, {}});
-    try {
-      out.begin(version);
-    } catch (const io::BadValue& bad) {
-      return bad.what();
-    }
-    return "";
+    return thrown_message<io::BadValue>([&] { out.begin(version); });
   };
   EXPECT_EQ(refusal((1U << 29U) - 1, 2), "");
   EXPECT_EQ(refusal(1U << 29U, 5), "");

@@ -16,6 +16,7 @@
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/scvt.h"
+#include "support/thrown.h"
 #include "unit/meshing/support.h"
 
 namespace rondel::mesh {
@@ -110,12 +111,7 @@ TEST(scvt_fixed, sites_of_a_start_keep_their_numbers) {
 
 TEST(scvt_fixed, places_that_cannot_be_are_refused) {
   const auto index_of_error = [](const ScvtOptions& options) -> std::size_t {
-    try {
-      (void)scvt(options);
-    } catch (const InvalidInput& error) {
-      return error.index();
-    }
-    return 1000;
+    return test::thrown_index([&] { return scvt(options); }, 1000);
   };
   std::vector<Point> places = random_places(13, 9);
   EXPECT_EQ(index_of_error({.count = 12, .fixed = places}), 12U);
@@ -395,12 +391,7 @@ TEST(mesh_lines, that_are_none_are_refused) {
   const SizeFunction size = SizeFunction::constant(0.05, 64);
   const Lines antipodes = {{{1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
   const Lines center = {{{1, 0, 0}, {0, 0, 0}}};
-  try {
-    (void)sites_along(antipodes, size);
-    FAIL();
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.index(), 1U);
-  }
+  EXPECT_EQ(test::thrown_index([&] { return sites_along(antipodes, size); }), 1U);
   EXPECT_THROW((void)sites_on(antipodes, size), InvalidInput);
   EXPECT_THROW((void)sites_along(center, size), InvalidInput);
   EXPECT_THROW((void)sites_on(center, size), InvalidInput);

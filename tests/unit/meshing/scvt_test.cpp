@@ -17,6 +17,7 @@
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "support/generators.h"
+#include "support/thrown.h"
 
 namespace rondel::mesh {
 namespace {
@@ -132,14 +133,7 @@ TEST(scvt, part_of_the_work_that_is_done_grows_to_one) {
 }
 
 TEST(scvt, spacings_that_jump_are_told_from_sites_that_somebody_gave) {
-  const auto message = [](const auto& make) {
-    try {
-      make();
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto message = [](const auto& make) { return test::thrown_message<InvalidInput>(make); };
   const SizeFunction jump = SizeFunction::from_function(
       [](std::span<const Point> at, std::span<double> out) {
         for (std::size_t i = 0; i < at.size(); ++i) out[i] = at[i].z > 0.999 ? 1e-4 : 0.5;

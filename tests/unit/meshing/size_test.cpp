@@ -16,6 +16,7 @@
 #include "rondel/mesh_size.h"
 #include "rondel/mesh_size_files.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 
 namespace rondel::mesh {
 namespace {
@@ -99,12 +100,9 @@ TEST(mesh_size, refinement_follows_lines_and_outlines) {
     EXPECT_TRUE(std::ranges::any_of(
         points, [&](const Point& p) { return angle(p, unit_vector(place)) <= 0.005 + 1e-9; }));
   }
-  try {
-    (void)read(line + R"(,{"type":"LineString","coordinates":[[1,2]]})");
-    ADD_FAILURE();
-  } catch (const FileError& error) {
-    EXPECT_EQ(std::string(error.what()), path + ":1: geometry 1: a line of 1 positions");
-  }
+  EXPECT_EQ(test::thrown_message<FileError>(
+                [&] { return read(line + R"(,{"type":"LineString","coordinates":[[1,2]]})"); }),
+            path + ":1: geometry 1: a line of 1 positions");
 }
 
 TEST(mesh_size, limited_spacing_grows_slowly_and_is_lowered_no_more_than_that) {

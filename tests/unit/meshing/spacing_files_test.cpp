@@ -15,6 +15,7 @@
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_size_files.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/meshing/support.h"
 #include "unit/meshing/writer.h"
 
@@ -231,12 +232,9 @@ TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
     file.add("lat", {{"place", 4}}, {-30, 30, -30, 30}, northward);
     file.add("h", {{"place", 4}}, std::move(values));
     file.write(path);
-    try {
-      (void)read_spacings({path, {}}, "h", 1e-3, 16);
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return test::thrown_message<FileError>([&] {
+      return read_spacings({path, {}}, "h", 1e-3, 16);
+    });
   };
   EXPECT_EQ(message({100, 100, 100, 200}), "");
   EXPECT_NE(message({100, 100, -5, 200}).find("spacing -5 at place 2"), std::string::npos);
@@ -271,14 +269,7 @@ TEST(mesh_spacing_files, tells_of_places_without_a_value_and_of_contradictions) 
 TEST(mesh_spacing_files, names_the_line_and_column_of_a_table) {
   const std::string path = temporary_path("spacings_of_lines.csv");
   std::ofstream(path) << "lon,lat,h,d\n0,0,,1\n\n90,30,100,-2\n180,-30,-5,1\n";
-  const auto message = [&](const auto& read) {
-    try {
-      (void)read();
-    } catch (const FileError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto message = [&](const auto& read) { return test::thrown_message<FileError>(read); };
   EXPECT_NE(message([&] {
               return read_spacings({path, {}}, "h", 1e-3, 16);
             }).find(path + ":5: spacing -5 of \"h\" is not positive"),

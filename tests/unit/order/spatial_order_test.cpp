@@ -12,7 +12,7 @@
 
 #include "gtest/gtest.h"
 #include "order/crowds.h"
-#include "order/word_sort.h"
+#include "order/sorts.h"
 #include "predicates/ray_order.h"
 #include "support/generators.h"
 #include "support/random.h"

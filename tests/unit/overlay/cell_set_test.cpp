@@ -18,6 +18,7 @@
 #include "rondel/remap.h"
 #include "rondel/weight_files.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/overlay/planar.h"
 #include "unit/overlay/support.h"
 
@@ -33,12 +34,7 @@ CellSet known_cells() {
 }
 
 std::string message_of_refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "";
+  return thrown_message<InvalidInput>(work);
 }
 
 TEST(overlay_cell_set, no_cells_are_a_set) {

@@ -12,6 +12,7 @@
 
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "support/thrown.h"
 #include "unit/overlay/grid_oracle.h"
 
 namespace rondel::test {
@@ -399,12 +400,7 @@ TEST(overlay_grid, meridians_may_decrease) {
 
 TEST(overlay_grid, names_what_is_wrong) {
   const auto message_of = [](const LonLatGrid& grid) -> std::string {
-    try {
-      (void)CellSet::lonlat_grid(grid);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_message<InvalidInput>([&] { return CellSet::lonlat_grid(grid); });
   };
   EXPECT_EQ(message_of({{0}, {0, 1}}), "a grid of 1 meridians and 2 parallels has no cell");
   EXPECT_EQ(message_of({{0, 1, 1}, {0, 1}}), "meridian 2, 1, is not east of the last");

@@ -15,6 +15,7 @@
 #include "overlay/region_area.h"
 #include "rondel/error.h"
 #include "support/random.h"
+#include "support/thrown.h"
 #include "unit/overlay/support.h"
 
 namespace rondel::test::of_measure {
@@ -162,12 +163,7 @@ TEST(require_sum, refuses_pieces_that_are_not_the_cell) {
   EXPECT_THROW(sum({{-0.25, 1}, {1.25, 1}}, 1), InvalidInput);
   // A cell that is no wider than rounding loses its pieces instead.
   EXPECT_EQ(sum({{-0.25, 1}, {1.25, 1}}, 1e-16), 0U);
-  try {
-    sum({{0.5, 1}}, 1);
-    ADD_FAILURE() << "half of a cell is not the cell";
-  } catch (const InvalidInput& error) {
-    EXPECT_EQ(error.index(), 17U);
-  }
+  EXPECT_EQ(thrown_index([&] { sum({{0.5, 1}}, 1); }), 17U) << "half of a cell is not the cell";
 }
 
 std::vector<BorderArc> border_of(const std::vector<std::vector<Point>>& rings) {

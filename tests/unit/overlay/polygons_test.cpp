@@ -19,6 +19,7 @@
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/overlay/support.h"
 
 namespace rondel::test {
@@ -102,12 +103,7 @@ TEST(overlay_polygons, sides_across_the_equator_are_straight) {
 
 // Why a polygon with this ring is refused; empty if it is not.
 std::string refusal_of_ring(const std::string& ring) {
-  try {
-    (void)table_of(polygon(ring));
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown_message<FileError>([&] { return table_of(polygon(ring)); });
 }
 
 TEST(overlay_polygons, rings_around_a_pole_have_to_be_led_there) {

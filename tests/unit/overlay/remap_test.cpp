@@ -15,6 +15,7 @@
 
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "support/thrown.h"
 #include "unit/overlay/support.h"
 
 namespace rondel::test {
@@ -376,12 +377,7 @@ TEST(overlay_remap, masked_cells_take_no_part) {
 
 TEST(overlay_remap, names_what_is_wrong) {
   const auto message_of = [](const CellRings& cells) -> std::string {
-    try {
-      const CellSet cell_set = CellSet::polygons(cells);
-    } catch (const InvalidInput& error) {
-      return error.what();
-    }
-    return "";
+    return thrown_message<InvalidInput>([&] { const CellSet cell_set = CellSet::polygons(cells); });
   };
   CellRings rings = octants();
   rings.points[3].x = -2;

@@ -4,8 +4,18 @@
 // Checks which circles a figure of weighted sites shows.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "api/triangulation_impl.h"
 #include "globe.h"
+#include "plot_arcs.h"
 #include "plot_circles.h"
+#include "plot_color.h"
+#include "plot_draw.h"
 #include "rondel/delaunay.h"
 
 namespace rondel::cli {
@@ -55,6 +65,161 @@ TEST(real_circles, show_duplicates_once_and_mark_hidden_ones) {
   const auto circles = circles_of(sites);
   ASSERT_EQ(circles.size(), 7U);
   for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(circles[i].is_hidden, i == 6);
+}
+
+// Checks which arcs a figure shows.
+
+std::set<std::set<Index>> undirected(const std::vector<ArcEnds>& arcs) {
+  std::set<std::set<Index>> result;
+  for (const auto& [a, b] : arcs) result.insert({a, b});
+  return result;
+}
+
+// A tetrahedron; face i is opposite to site i.
+Triangulation tetrahedron(std::vector<Index> ghost_faces) {
+  TriangulationArrays arrays;
+  arrays.dimension = 2;
+  arrays.faces = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  arrays.neighbors = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  arrays.num_sites = 4;
+  arrays.ghost_faces = std::move(ghost_faces);
+  return api::make_triangulation({}, std::move(arrays), {}, {});
+}
+
+Triangulation ring(std::vector<Index> order) {
+  TriangulationArrays arrays;
+  arrays.num_sites = order.size();
+  arrays.dimension = 1;
+  arrays.ring = std::move(order);
+  return api::make_triangulation({}, std::move(arrays), {}, {});
+}
+
+Point on_equator(double radians) { return {std::cos(radians), std::sin(radians), 0}; }
+
+TEST(triangulation_arcs, has_each_edge_once) {
+  const auto arcs = triangulation_arcs(tetrahedron({}), {});
+  EXPECT_EQ(arcs.size(), 6U);
+  EXPECT_EQ(undirected(arcs).size(), 6U);
+}
+
+TEST(triangulation_arcs, leaves_out_edges_between_ghost_faces) {
+  // Of two ghost faces, 2 and 3, the common edge 0 1 is not seen; the others bound solid faces.
+  const auto arcs = triangulation_arcs(tetrahedron({2, 3}), {});
+  EXPECT_EQ(arcs.size(), 5U);
+  EXPECT_EQ(undirected(arcs).size(), 5U);
+  EXPECT_EQ(undirected(arcs).count({0, 1}), 0U);
+  EXPECT_TRUE(triangulation_arcs(tetrahedron({0, 1, 2, 3}), {}).empty());
+}
+
+TEST(triangulation_arcs, of_a_ring_around_the_sphere_close_it) {
+  const std::vector<Point> sites{on_equator(0), on_equator(2.2), on_equator(4.1)};
+  EXPECT_EQ(undirected(triangulation_arcs(ring({0, 1, 2}), sites)).size(), 3U);
+}
+
+TEST(triangulation_arcs, of_a_ring_leave_a_gap_beyond_180_degrees_open) {
+  const std::vector<Point> sites{on_equator(1.5), on_equator(0), on_equator(0.5), on_equator(2.5)};
+  const auto arcs = undirected(triangulation_arcs(ring({1, 2, 0, 3}), sites));
+  const std::set<std::set<Index>> expected{{1, 2}, {2, 0}, {0, 3}};
+  EXPECT_EQ(arcs, expected);
+}
+
+TEST(triangulation_arcs, join_two_sites_once_and_antipodal_ones_not_at_all) {
+  const std::vector<Point> sites{on_equator(0), on_equator(2)};
+  EXPECT_EQ(triangulation_arcs(ring({0, 1}), sites).size(), 1U);
+  const std::vector<Point> antipodal{{1, 0, 0}, {-1, 0, 0}};
+  EXPECT_TRUE(triangulation_arcs(ring({0, 1}), antipodal).empty());
+  EXPECT_TRUE(triangulation_arcs(ring({0}), antipodal).empty());
+  EXPECT_TRUE(triangulation_arcs(Triangulation{}, {}).empty());
+}
+
+TEST(triangulation_arcs, span_a_half_circle_of_sites_but_not_its_gap) {
+  const std::vector<Point> sites{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  const auto arcs = undirected(triangulation_arcs(ring({0, 1, 2}), sites));
+  const std::set<std::set<Index>> expected{{0, 1}, {1, 2}};
+  EXPECT_EQ(arcs, expected);
+}
+
+TEST(cell_arcs, has_each_edge_once_and_none_of_length_zero) {
+  Cells cells;
+  cells.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+  cells.rings = {0, 1, 2, 3, 3, 2, 1, 0};
+  cells.offsets = {0, 4, 4, 8};
+  const auto arcs = cell_arcs(cells);
+  const std::set<std::set<Index>> expected{{0, 1}, {1, 2}, {0, 3}};
+  EXPECT_EQ(arcs.size(), 3U);
+  EXPECT_EQ(undirected(arcs), expected);
+}
+
+TEST(median_spacing, is_that_of_the_nearest_sites_in_front) {
+  const std::vector<Point> points{{0, 0, 1}, {0.1, 0, 0.99}, {0.4, 0, 0.9}, {0, 0, -1}};
+  const std::vector<ArcEnds> arcs{{0, 1}, {0, 2}, {1, 2}, {0, 3}};
+  EXPECT_DOUBLE_EQ(median_spacing(std::span(arcs).first(3), points), 0.1);
+  EXPECT_EQ(median_spacing({}, points), 0);
+}
+
+// Whole figures, as bytes, and their colors.
+
+Figure small_figure() {
+  Figure figure;
+  figure.style.size = 64;
+  figure.view = View({10, 30});
+  figure.sites = {{0, 0, 1}, normalized({1, 0, 1}), {1, 0, 0}, {0, 0, -1}};
+  figure.triangulation = {figure.sites, {{0, 1}, {1, 2}, {2, 3}}};
+  figure.spacing = 0.5;
+  return figure;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t result = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++result;
+  return result;
+}
+
+TEST(draw, gives_each_format_its_signature) {
+  EXPECT_EQ(draw(small_figure(), FigureFormat::png).substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(draw(small_figure(), FigureFormat::pdf).substr(0, 5), "%PDF-");
+  EXPECT_EQ(draw(small_figure(), FigureFormat::svg).substr(0, 5), "<?xml");
+}
+
+TEST(draw, gives_the_same_bytes_again_and_no_date) {
+  for (const FigureFormat format : {FigureFormat::png, FigureFormat::svg, FigureFormat::pdf}) {
+    const std::string bytes = draw(small_figure(), format);
+    EXPECT_EQ(bytes, draw(small_figure(), format));
+    EXPECT_EQ(bytes.find("Date"), std::string::npos);
+  }
+}
+
+TEST(draw, shows_the_arcs_behind_only_when_told) {
+  Figure figure = small_figure();
+  figure.triangulation.arcs = {{2, 3}};
+  const std::size_t before = count(draw(figure, FigureFormat::svg), "<path");
+  figure.style.show_back = true;
+  EXPECT_EQ(count(draw(figure, FigureFormat::svg), "<path"), before + 1);
+}
+
+TEST(draw, an_empty_figure_is_the_bare_globe) {
+  Figure figure;
+  figure.style.graticule_deg = 0;
+  // The disc and its outline, which Cairo may join.
+  EXPECT_LE(count(draw(figure, FigureFormat::svg), "<path"), 2U);
+}
+
+TEST(area_color, gets_lighter_with_the_area) {
+  double before = -1;
+  for (int i = 0; i <= 50; ++i) {
+    const Color color = area_color(i / 50.0);
+    const double lightness = 0.2126 * color.red + 0.7152 * color.green + 0.0722 * color.blue;
+    EXPECT_GT(lightness, before);
+    before = lightness;
+  }
+}
+
+TEST(blend, starts_and_ends_with_its_colors) {
+  const Color a{0.2, 0.4, 0.9}, b{0.8, 0.1, 0.05, 0.5};
+  EXPECT_NEAR(blend(a, b, 0).blue, a.blue, 1e-6);
+  EXPECT_NEAR(blend(a, b, 1).red, b.red, 1e-6);
+  EXPECT_NEAR(blend(a, b, 1).green, b.green, 1e-6);
+  EXPECT_DOUBLE_EQ(blend(a, b, 0.5).alpha, 0.75);
 }
 
 }  // namespace

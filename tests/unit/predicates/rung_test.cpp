@@ -8,8 +8,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "exact/extended.h"
-#include "exact/integer_steps.h"
+#include "exact/eft.h"
+#include "exact/integer_signs.h"
 #include "models/with_model.h"
 #include "predicates/conflict.h"
 #include "predicates/orientation.h"

@@ -4,7 +4,13 @@
 // Every site is accounted for.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "rondel/check.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
 #include "support/generators.h"
+#include "support/thrown.h"
 #include "unit/proof/check_support.h"
 
 namespace rondel::test {
@@ -126,6 +132,106 @@ TEST(check_sites, accepts_no_sites_one_site_and_two) {
       EXPECT_EQ(report.num_edges, n / 2);
     }
   }
+}
+
+// Triangulations by brute force with oracles that share no code with the library are accepted.
+
+class CheckValid : public testing::TestWithParam<Model> {};
+
+TEST_P(CheckValid, accepts_every_kind_of_sites) {
+  for (const Generator& kind : generators()) {
+    if (kind.weighted_only && GetParam() == Model::projected) continue;
+    for (const std::size_t n : {3U, 4U, 6U, 9U}) {
+      for (std::uint64_t seed = 0; seed < scaled(4); ++seed) {
+        const SiteSet set = kind.make(n, seed);
+        if (set.sites.size() > 14) continue;
+        const Hull hull = brute_force_hull(set.sites, GetParam(), set.sphere);
+        const CheckReport report = solid(set.sites, GetParam(), set.sphere).check();
+        EXPECT_TRUE(report.is_valid)
+            << kind.name << ' ' << n << ' ' << seed << ' ' << report.reason;
+        if (hull.dimension < 2) continue;
+        EXPECT_EQ(report.num_duplicates, hull.duplicates.size()) << kind.name;
+        EXPECT_EQ(report.num_hidden, hull.hidden.size()) << kind.name;
+        EXPECT_EQ(2 * report.num_edges, 3 * hull.faces.size()) << kind.name;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(models, CheckValid, testing::Values(Model::projected, Model::weighted),
+                         [](const auto& model) {
+                           return model.param == Model::projected ? "projected" : "weighted";
+                         });
+
+TEST(check_valid, ignores_the_order_of_faces_and_of_their_corners) {
+  Random random(2);
+  Solid cube = solid(cube_sites());
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    random.shuffle(cube.faces);
+    for (Triple& face : cube.faces) {
+      std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(random.below(3)),
+                  face.end());
+    }
+    EXPECT_EQ(cube.reason(), "");
+  }
+}
+
+TEST(check_valid, tells_how_far_it_is) {
+  Solid cube = solid(cube_sites());
+  std::vector<double> told;
+  cube.progress = [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "check");
+    told.push_back(fraction);
+  };
+  EXPECT_EQ(cube.reason(), "");
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_EQ(told.front(), 0);
+  EXPECT_EQ(told.back(), 1);
+}
+
+// check() against delaunay(), on sets too large for brute force.
+
+TEST(check_api, accepts_what_delaunay_builds) {
+  for (const Generator& kind : generators()) {
+    for (const Model model : {Model::projected, Model::weighted}) {
+      if (kind.weighted_only && model == Model::projected) continue;
+      for (const std::size_t n : {std::size_t{50}, scaled(700)}) {
+        const SiteSet set = kind.make(n, 21);
+        Options options;
+        options.model = model;
+        options.sphere = set.sphere;
+        const Triangulation built = delaunay(set.sites, options);
+        const CheckReport report = check(set.sites, built.faces(), options);
+        EXPECT_TRUE(report.is_valid) << kind.name << ' ' << report.reason;
+        EXPECT_EQ(report.num_duplicates, built.duplicates().size()) << kind.name;
+        if (built.dimension() < 2) continue;
+        EXPECT_EQ(report.num_vertices, built.num_vertices()) << kind.name;
+        EXPECT_EQ(report.num_hidden, built.hidden().size()) << kind.name;
+      }
+    }
+  }
+}
+
+TEST(check_api, refutes_one_flipped_edge_among_thousands) {
+  Random random(4);
+  const SiteSet set = generator("globe_grid").make(2000, 1);
+  const Triangulation built = delaunay(set.sites);
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    std::vector<Triple> faces(built.faces().begin(), built.faces().end());
+    const Triple& face = faces[random.below(faces.size())];
+    flip(faces, face[0], face[1]);
+    EXPECT_FALSE(check(set.sites, faces).is_valid);
+  }
+}
+
+TEST(check_api, throws_on_invalid_sites) {
+  std::vector<Point> sites = cube_sites();
+  sites[5].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(thrown_index([&] { check(sites, {}); }), 5U)
+      << "accepted a coordinate that is not a number";
+  sites[5] = {};
+  EXPECT_THROW(check(sites, {}), InvalidInput);
 }
 
 }  // namespace

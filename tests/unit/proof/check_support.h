@@ -36,9 +36,6 @@ inline Solid solid(std::vector<Point> sites, Model model = Model::projected,
   return {std::move(sites), {hull.faces.begin(), hull.faces.end()}, options, {}};
 }
 
-inline std::vector<Point> tetrahedron_sites() {
-  return {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-}
 inline std::vector<Point> octahedron_sites() {
   return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
 }

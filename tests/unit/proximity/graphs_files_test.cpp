@@ -18,6 +18,7 @@
 #include "rondel/outlines.h"
 #include "support/generators.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 
 namespace rondel::test {
 namespace {
@@ -40,12 +41,7 @@ TEST(write_graph, npy_has_the_sites_as_integers_of_four_bytes) {
 }
 
 std::size_t index_of_refusal(const Triangulation& t, const SiteGraph& graph) {
-  try {
-    write_graph(temporary_path("bad.csv"), t, graph);
-  } catch (const InvalidInput& error) {
-    return error.index();
-  }
-  return 99;
+  return thrown_index([&] { write_graph(temporary_path("bad.csv"), t, graph); });
 }
 
 TEST(write_graph, names_the_first_edge_that_is_wrong) {

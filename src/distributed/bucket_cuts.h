@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which squares are buckets: as large as they can be with a number of sites that is not exceeded. The
+// sites are counted, not sampled, so the number is a guarantee; they come in pieces of any size, and
+// more than once where they are dense.
+//
+// in    the keys of all sites, in any order, round after round
+// out   the buckets in the order of the curve, and the bucket of a key
+// index buckets; high keys of the curve (order/place_keys.h)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bulk/squares.h"
+
+namespace rondel::distributed {
+
+struct BucketCut {
+  bulk::Square square;
+  std::uint64_t first_key = 0;  // the lowest one of the square
+  std::uint64_t num_sites = 0;
+};
+
+class BucketCounts {
+ public:
+  // 12 MB of counts.
+  static constexpr int usual_depth = 9;
+
+  // With at most this many sites in a bucket. Copies of a site count. In the first round 6 * 4^depth
+  // squares are told apart, on which no result depends.
+  explicit BucketCounts(std::uint64_t most_sites, int depth = usual_depth);
+
+  // Counts these sites. In each round all sites are counted once.
+  void add(std::span<const std::uint64_t> high_keys);
+  // What was counted in this round, by squares that depend on the counts of earlier rounds alone, for
+  // those who count together: they go on with the sums of their counts.
+  [[nodiscard]] std::vector<std::uint64_t> counts_of_round() const;
+  void set_counts_of_round(std::span<const std::uint64_t> counts);
+  // Ends a round. Returns whether another one is needed, in which dense squares are counted finer.
+  bool end_round();
+
+  // The buckets, when no round is needed. One that has more sites than it may is as small as a high
+  // key can tell, 2^-28 of a face of the cube.
+  [[nodiscard]] std::vector<BucketCut> cuts() const;
+
+ private:
+  // Counts of the squares into which some squares are split: 4^depth of each.
+  struct Table {
+    int level;  // of the finer squares, 0 for a face of the cube
+    int depth;
+    std::vector<std::uint64_t> counts;
+    std::vector<Index> finer;  // by square: the number of its table, or no_index
+  };
+
+  void refine(Index table);
+  // Adds the buckets of a square that has the counts begin ... begin + 4^depth - 1.
+  void cut(Index table, const bulk::Square& square, std::uint64_t first_key, std::size_t begin,
+           int depth, std::vector<BucketCut>& cuts) const;
+
+  std::uint64_t most_sites_;
+  std::size_t num_old_ = 0;  // tables that were counted in earlier rounds
+  std::vector<Table> tables_;
+};
+
+// The bucket of a key that one of them has.
+std::size_t bucket_of(std::uint64_t high_key, std::span<const BucketCut> cuts);
+
+}  // namespace rondel::distributed
