@@ -29,10 +29,10 @@ int main() {
     const auto& [a, b, c] = triangulation.faces()[face];
     std::printf("circle %u is hidden below the face %u %u %u\n", site, a, b, c);
   }
-  const auto& [offsets, rings, points] = diagram.cells;
+  const auto& [rings, points] = diagram.cells;
   std::printf("the cell of circle 0 has the corners\n");
-  for (auto i = offsets[0]; i < offsets[1]; ++i) {
-    const auto& [x, y, z] = points[rings[i]];
+  for (const rondel::Index i : rings[0]) {
+    const auto& [x, y, z] = points[i];
     std::printf("  %.6f %.6f %.6f\n", x, y, z);
   }
 }

@@ -41,7 +41,7 @@ void draw_contours() {
   const rondel::Isolines lines = rondel::isolines(triangulation, heights.values, levels);
   for (std::size_t k = 0; k < levels.size(); ++k) {
     std::printf("level %g: %d lines\n", levels[k],
-                static_cast<int>(lines.level_offsets[k + 1] - lines.level_offsets[k]));
+                static_cast<int>(lines.lines.offsets[k + 1] - lines.lines.offsets[k]));
   }
   const auto folder = std::filesystem::temp_directory_path();
   rondel::write_isolines(folder / "rondel-isolines.geojson", lines);

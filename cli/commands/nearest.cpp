@@ -38,23 +38,23 @@ std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& t
 }
 
 // Returns the sites of each query in compressed rows.
-SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
+CompressedRows<Index> find_sites(QueryJob& job, const QueryOptions& options) {
   if (options.within_deg >= 0) {
     const double angle = options.within_deg / degrees_per_radian;
     return job.ask([&] { return job.locator().within(job.queries(), angle, job.execution()); });
   }
   const std::size_t k = std::max<std::uint64_t>(options.k, 1);
   const std::size_t row = std::min(k, job.triangulation().num_vertices());
-  SiteLists lists;
-  lists.sites =
+  CompressedRows<Index> lists;
+  lists.values =
       job.ask([&] { return job.locator().k_nearest(job.queries(), row, job.execution()); });
-  for (std::size_t i = 0; i <= job.queries().size(); ++i) lists.offsets.push_back(i * row);
+  for (std::size_t i = 1; i <= job.queries().size(); ++i) lists.offsets.push_back(i * row);
   return lists;
 }
 
 // Returns the answers as a table with a header; columns whose name is taken get another one.
 std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
-                     const SiteLists& lists) {
+                     const CompressedRows<Index>& lists) {
   const char separator = job.separator();
   std::vector<std::string> names = {"query", "site", "distance_deg"};
   for (const Column& column : columns) names.push_back(column.name);
@@ -66,8 +66,7 @@ std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
   }
   text += '\n';
   for (std::size_t i = 0; i < job.queries().size(); ++i) {
-    for (std::uint64_t k = lists.offsets[i]; k < lists.offsets[i + 1]; ++k) {
-      const Index site = lists.sites[k];
+    for (const Index site : lists[i]) {
       append(text, i);
       text += separator;
       append(text, std::uint64_t{site});
@@ -84,14 +83,12 @@ std::string table_of(const QueryJob& job, const std::vector<Column>& columns,
 }
 
 // Writes rows of k sites; missing ones are filled with no_index.
-void write_npy(QueryJob& job, const QueryOptions& options, const SiteLists& lists) {
+void write_npy(QueryJob& job, const QueryOptions& options, const CompressedRows<Index>& lists) {
   const std::size_t k = std::max<std::uint64_t>(options.k, 1);
   const std::size_t num_queries = job.queries().size();
   std::vector<Index> values(num_queries * k, no_index);
   for (std::size_t i = 0; i < num_queries; ++i) {
-    std::copy(lists.sites.begin() + static_cast<std::ptrdiff_t>(lists.offsets[i]),
-              lists.sites.begin() + static_cast<std::ptrdiff_t>(lists.offsets[i + 1]),
-              values.begin() + static_cast<std::ptrdiff_t>(i * k));
+    std::ranges::copy(lists[i], values.begin() + static_cast<std::ptrdiff_t>(i * k));
   }
   if (options.k == 0) {
     job.write_npy(values, {num_queries});
@@ -107,13 +104,13 @@ ExitStatus run_nearest(const QueryOptions& options) {
   }
   job.prepare();
   const std::vector<Column> columns = find_columns(options, job.sites());
-  const SiteLists lists = find_sites(job, options);
+  const CompressedRows<Index> lists = find_sites(job, options);
   if (job.is_npy()) {
     write_npy(job, options, lists);
   } else {
     job.write_text(table_of(job, columns, lists));
   }
-  job.report({{"found", lists.sites.size()}});
+  job.report({{"found", lists.values.size()}});
   return done;
 }
 

@@ -70,12 +70,12 @@ std::vector<Point> turned(std::vector<Point> points, const View& view) {
   return points;
 }
 
-// Returns the arcs of the isolines as pairs of positions in lines.points.
+// Returns the arcs of the isolines as pairs of places in the values of their rows.
 std::vector<ArcEnds> line_arcs(const Isolines& lines) {
   std::vector<ArcEnds> arcs;
   for (std::size_t line = 0; line < lines.num_lines(); ++line) {
-    const auto begin = static_cast<Index>(lines.line_offsets[line]);
-    const auto end = static_cast<Index>(lines.line_offsets[line + 1]);
+    const auto begin = static_cast<Index>(lines.lines.rows.offsets[line]);
+    const auto end = static_cast<Index>(lines.lines.rows.offsets[line + 1]);
     for (Index i = begin; i + 1 < end; ++i) arcs.push_back({i, i + 1});
     if (lines.is_closed[line] != 0) arcs.push_back({end - 1, begin});
   }
@@ -103,7 +103,7 @@ void add_values(Figure& figure, const PlotOptions& options, const Triangulation&
   if (options.contours > 0) {
     const auto levels = levels_at(options.contours, values, "--contours");
     const Isolines lines = isolines(triangulation, values, levels, execution);
-    figure.isolines = {turned(lines.points, figure.view), line_arcs(lines)};
+    figure.isolines = {turned(lines.lines.rows.values, figure.view), line_arcs(lines)};
   }
   if (filling(options) == Fill::cells) {
     figure.filled->values = std::move(values);
@@ -131,8 +131,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
   if (options.show_coast.value_or(table.is_lonlat())) {
-    const CoastLines coast = coast_lines();
-    figure.coast = seen(coast.positions, coast.offsets, figure.view);
+    figure.coast = seen(coast_lines(), figure.view);
   }
   if (options.show_circles) {
     figure.circles = real_circles(table, triangulation, sites);

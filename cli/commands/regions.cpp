@@ -135,13 +135,13 @@ std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, b
   std::size_t unlocated = 0;
   std::size_t without = 0;
   std::size_t first = 0;
-  for (std::size_t f = 0; f < table.lines.num_features(); ++f) {
+  for (std::size_t f = 0; f < table.lines.size(); ++f) {
     if (!table.is_located[f]) {
       ++unlocated;
       continue;
     }
     const CellRings& cells = is_clipped ? table.polygons : cut.cells;
-    const bool has_line = table.lines.features[f] < table.lines.features[f + 1];
+    const bool has_line = table.lines.offsets[f] < table.lines.offsets[f + 1];
     if (cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f) || (is_clipped && has_line)) {
       continue;
     }
@@ -177,13 +177,12 @@ ExitStatus write_cells_of_features(const RegionsOptions& options) {
     }
     Cut cut = cut_cells_of_features(options, table, execution);
     tell(table.facts.name, remarks_on(table, cut, !options.clip.empty(), options.common.quiet));
-    made =
-        features_of(options, std::move(cut), groups,
-                    numbered("feature", table.lines.num_features(), std::move(table.facts.columns)),
-                    table.ids, execution);
+    made = features_of(options, std::move(cut), groups,
+                       numbered("feature", table.lines.size(), std::move(table.facts.columns)),
+                       table.ids, execution);
   });
   write(job, options, made);
-  const std::size_t count_of_features = table.lines.num_features();
+  const std::size_t count_of_features = table.lines.size();
   const double seconds = job.seconds().total;
   job.report(
       nlohmann::ordered_json{{"features", count_of_features}, {"seconds", seconds}}.dump(2) + '\n',

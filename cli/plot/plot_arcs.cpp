@@ -70,10 +70,9 @@ std::vector<ArcEnds> triangulation_arcs(const Triangulation& triangulation,
 
 std::vector<ArcEnds> cell_arcs(const Cells& cells) {
   std::vector<ArcEnds> arcs;
-  arcs.reserve(cells.rings.size() / 2);
-  for (std::size_t cell = 0; cell + 1 < cells.offsets.size(); ++cell) {
-    const std::span<const Index> ring(cells.rings.data() + cells.offsets[cell],
-                                      cells.rings.data() + cells.offsets[cell + 1]);
+  arcs.reserve(cells.rings.values.size() / 2);
+  for (std::size_t cell = 0; cell < cells.rings.size(); ++cell) {
+    const std::span<const Index> ring = cells.rings[cell];
     for (std::size_t i = 0; i < ring.size(); ++i) {
       // The cell on the other side has the same edge, from q to p.
       const Index p = ring[i], q = ring[(i + 1) % ring.size()];

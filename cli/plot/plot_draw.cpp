@@ -127,9 +127,7 @@ void for_each_cell(const Figure& figure, const Paint& paint) {
     const double area = filled.areas[cell];
     if (!(area > 0)) continue;  // duplicates and hidden sites have no cell
     corners.clear();
-    for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
-      corners.push_back(cells.points[cells.rings[i]]);
-    }
+    for (const Index i : cells.rings[cell]) corners.push_back(cells.points[i]);
     if (!has_values) {
       paint(std::span<const Point>(corners), area_color(scale(area)));
     } else if (!std::isnan(filled.values[cell])) {

@@ -14,21 +14,16 @@ constexpr Color coast_color{0.20, 0.25, 0.35, 0.75};
 }  // namespace
 
 // The offsets stay those of the positions, since each position becomes one point.
-LineLayer seen(std::span<const LonLat> positions, std::span<const std::uint64_t> offsets,
-               const View& view) {
-  LineLayer layer;
-  for (const LonLat& position : positions) layer.points.push_back(view.turn(unit_vector(position)));
-  layer.offsets.assign(offsets.begin(), offsets.end());
+LineLayer seen(const CompressedRows<LonLat>& lines, const View& view) {
+  LineLayer layer{lines.offsets, {}};
+  for (const LonLat& p : lines.values) layer.values.push_back(view.turn(unit_vector(p)));
   return layer;
 }
 
 void draw_coast(Canvas& canvas, const LineLayer& coast, int size) {
   const double tolerance = 0.02 / canvas.radius();
-  for (std::size_t line = 0; line + 1 < coast.offsets.size(); ++line) {
-    const auto first = static_cast<std::size_t>(coast.offsets[line]);
-    const auto past = static_cast<std::size_t>(coast.offsets[line + 1]);
-    trace_line(canvas, std::span(coast.points).subspan(first, past - first), Side::front,
-               tolerance);
+  for (std::size_t line = 0; line < coast.size(); ++line) {
+    trace_line(canvas, coast[line], Side::front, tolerance);
   }
   canvas.stroke(coast_color, 0.9 * size / 1000);
 }

@@ -14,19 +14,16 @@
 
 #include "globe.h"
 #include "plot_canvas.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
 namespace rondel::cli {
 
-/// Lines of arcs in the view frame: line k is `points[offsets[k]] ... points[offsets[k+1]-1]`.
-struct LineLayer {
-  std::vector<Point> points;
-  std::vector<std::uint64_t> offsets = {0};
-};
+/// Lines of arcs in the view frame.
+using LineLayer = CompressedRows<Point>;
 
 /// Returns lines of positions in degrees, such as rondel::coast_lines(), in the view frame.
-LineLayer seen(std::span<const LonLat> positions, std::span<const std::uint64_t> offsets,
-               const View& view);
+LineLayer seen(const CompressedRows<LonLat>& lines, const View& view);
 
 /// The parts of the coasts that are in front, as thin lines.
 void draw_coast(Canvas& canvas, const LineLayer& coast, int size);

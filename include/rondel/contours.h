@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/triangulation.h"
@@ -17,33 +18,29 @@
 
 namespace rondel {
 
-/// Lines of equal value, in compressed rows. Line i has the points line_offsets[i] ...
-/// line_offsets[i+1]-1, and levels[k] has the lines level_offsets[k] ... level_offsets[k+1]-1.
+/// Lines of equal value.
 struct Isolines {
   std::vector<double> levels;
-  std::vector<std::uint64_t> level_offsets = {0};  ///< one offset more than levels; counts lines
-  std::vector<std::uint64_t> line_offsets = {0};   ///< one offset more than lines; counts points
+  /// A group has the lines of a level, a row the points of a line: unit vectors from the center of
+  /// the sphere.
+  RowGroups<CompressedRows<Point>> lines;
   /// 1 for a line whose last point is joined to its first one
   std::vector<std::uint8_t> is_closed;
-  std::vector<Point> points;  ///< unit vectors from the center of the sphere
 
   [[nodiscard]] std::size_t num_lines() const noexcept { return is_closed.size(); }
 };
 
-/// Regions between levels, in compressed rows. Band k has the values from levels[k-1] to below
-/// levels[k]; the first band has all values below levels[0], and the last one all values from the
-/// last level on. Band k consists of the polygons band_offsets[k] ... band_offsets[k+1]-1, polygon
-/// i of the rings polygon_offsets[i] ... polygon_offsets[i+1]-1, and ring j of the points
-/// ring_offsets[j] ... ring_offsets[j+1]-1.
+/// Regions between levels. Band k has the values from levels[k-1] to below levels[k]; the first
+/// band has all values below levels[0], and the last one all values from the last level on.
 struct Bands {
   std::vector<double> levels;
-  std::vector<std::uint64_t> band_offsets = {0};     ///< number of levels + 2
-  std::vector<std::uint64_t> polygon_offsets = {0};  ///< number of polygons + 1
-  std::vector<std::uint64_t> ring_offsets = {0};     ///< number of rings + 1
-  std::vector<Point> points;                         ///< unit vectors from the center of the sphere
+  /// A group has the polygons of a band, a group of its `rows` the rings of a polygon, and a row of
+  /// their `rows` the points of a ring: unit vectors from the center of the sphere.
+  RowGroups<RowGroups<CompressedRows<Point>>> bands;
 
   [[nodiscard]] std::size_t num_bands() const noexcept { return levels.size() + 1; }
-  [[nodiscard]] std::size_t num_polygons() const noexcept { return polygon_offsets.size() - 1; }
+  [[nodiscard]] std::size_t num_polygons() const noexcept { return bands.rows.size(); }
+  [[nodiscard]] const CompressedRows<Point>& rings() const noexcept { return bands.rows.rows; }
 };
 
 /// Returns the values that count at the vertices: of the sites in one place, the first one that has

@@ -10,14 +10,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
 namespace rondel {
 
-/// The cells of a diagram in compressed rows: the ring of site i is
-/// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, indices into `points`,
+/// The cells of a diagram: the ring of site i is `rings[i]`, indices into `points`,
 /// counterclockwise seen from outside.
 ///
 /// 1. `points` begins with the circumcenters of the faces, so that below
@@ -27,21 +27,14 @@ namespace rondel {
 /// 3. Duplicates and hidden sites have empty rings. So has a single vertex, whose
 ///    cell is the whole sphere.
 struct Cells {
-  std::vector<std::uint64_t> offsets;  ///< one offset more than sites
-  std::vector<Index> rings;
-  std::vector<Point> points;  ///< unit vectors from the center of the sphere
+  CompressedRows<Index> rings;  ///< a row for each site
+  std::vector<Point> points;    ///< unit vectors from the center of the sphere
 };
 
 /// Cells and their areas.
 struct Diagram {
   Cells cells;
   std::vector<double> areas;  ///< steradians, for each site; 0 for duplicates and hidden sites
-};
-
-/// Polygons in compressed rows: polygon i has the corners offsets[i] ... offsets[i+1]-1.
-struct Polygons {
-  std::vector<std::uint64_t> offsets;
-  std::vector<Index> corners;  ///< input indices, counterclockwise seen from outside
 };
 
 /// Computes the circumcenters of the faces (power centers in the weighted model), shape (m, 3):
@@ -71,8 +64,9 @@ RONDEL_API std::vector<Point> centroids(const Triangulation& triangulation,
 RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
 
 /// Returns the facets of cocircular sites: faces that lie exactly in one plane are merged into one
-/// polygon (a cube has 6 facets, not 12). Each polygon begins with its lowest index.
-RONDEL_API Polygons merge_cocircular(const Triangulation& triangulation,
-                                     const Execution& execution = {});
+/// polygon (a cube has 6 facets, not 12). A row has the corners of a polygon, as input indices
+/// counterclockwise seen from outside, and begins with its lowest index.
+RONDEL_API CompressedRows<Index> merge_cocircular(const Triangulation& triangulation,
+                                                  const Execution& execution = {});
 
 }  // namespace rondel

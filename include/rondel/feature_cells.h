@@ -13,6 +13,7 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/polygon_files.h"
@@ -21,16 +22,10 @@
 
 namespace rondel {
 
-/// Polylines of features, in compressed rows. Feature i has the lines `features[i] ...
-/// features[i+1]-1`. Line l goes along shorter arcs of great circles from `points[lines[l]]` to
-/// `points[lines[l+1]-1]`. A line of one point is that point.
-struct FeatureLines {
-  std::vector<std::uint64_t> features = {0};  ///< one offset more than features; counts lines
-  std::vector<std::uint64_t> lines = {0};     ///< one offset more than lines; counts points
-  std::vector<Point> points;                  ///< unit vectors
-
-  [[nodiscard]] std::size_t num_features() const { return features.size() - 1; }
-};
+/// Polylines of features: a group has the lines of a feature, a row the points of a line, which are
+/// unit vectors. A line goes along shorter arcs of great circles from its first point to its last
+/// one. A line of one point is that point.
+using FeatureLines = RowGroups<CompressedRows<Point>>;
 
 /// Sites along the lines of features, with the index of the feature that each belongs to.
 struct FeatureSites {

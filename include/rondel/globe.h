@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/contours.h"
 #include "rondel/diagram.h"
 #include "rondel/export.h"
@@ -23,17 +24,11 @@
 
 namespace rondel {
 
-/// Coasts as lines of longitude and latitude: line k is `positions[offsets[k]] ...
-/// positions[offsets[k+1]-1]`. Longitudes exceed 180 degrees where a line crosses the antimeridian.
-struct CoastLines {
-  std::vector<LonLat> positions;
-  std::vector<std::uint64_t> offsets = {0};
-};
-
-/// Returns the coasts of Natural Earth at 1:110 million, which globes show: 126 closed lines, in
-/// hundredths of a degree. The last position of a line equals its first, or, around the south pole,
-/// is 360 degrees from it.
-RONDEL_API CoastLines coast_lines();
+/// Returns the coasts of Natural Earth at 1:110 million, which globes show: 126 closed lines, a row
+/// each, in hundredths of a degree. Longitudes exceed 180 degrees where a line crosses the
+/// antimeridian. The last position of a line equals its first, or, around the south pole, is 360
+/// degrees from it.
+RONDEL_API CompressedRows<LonLat> coast_lines();
 
 /// The lines that a globe shows when it is opened.
 enum class GlobeLines : std::uint8_t { delaunay, voronoi, both };

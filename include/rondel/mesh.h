@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
@@ -27,9 +28,9 @@ namespace rondel::mesh {
 ///    lie; angles are radians.
 /// 3. The normal of an edge points from its first cell, the lower one, to its second; the second
 ///    vertex is to the left of it.
-/// 4. The lists around a cell are counterclockwise seen from outside, in rows offsets[i] ...
-///    offsets[i+1]-1: the cell cells_on_cell[j] lies across edges_on_cell[j], which ends at
-///    vertices_on_cell[j] and starts at the vertex before.
+/// 4. The lists around a cell are counterclockwise seen from outside: entry j of the rows of
+///    edges_on_cell, an edge, has across it the cell cells_on_cell[j], ends at vertices_on_cell[j]
+///    and starts at the vertex before.
 /// 5. The three lists around a vertex are counterclockwise: cells_on_vertex[j] and its kite lie
 ///    between edges_on_vertex[j] and the next edge.
 /// 6. The kite of a vertex and a cell has its corners there and in the middles of two edges of the
@@ -45,8 +46,7 @@ struct MeshArrays {
   std::vector<double> cell_areas;
   /// The density of each cell by design, the largest 1; empty: 1 everywhere.
   std::vector<double> density;
-  std::vector<std::uint64_t> offsets = {0};  ///< one offset more than cells
-  std::vector<Index> edges_on_cell;
+  CompressedRows<Index> edges_on_cell;  ///< a row for each cell
   std::vector<Index> cells_on_cell;
   std::vector<Index> vertices_on_cell;
 
@@ -105,16 +105,15 @@ RONDEL_API MeshArrays arrays(const Triangulation& triangulation, const MeshOptio
 RONDEL_API void rescale(MeshArrays& arrays, double radius);
 
 /// The weights that reconstruct the tangential velocity (TRiSK: Thuburn, Ringler, Skamarock, Klemp
-/// 2009, eq. 33). Row e is offsets[e] ... offsets[e+1]-1: the sum of weights[k] u[edges[k]] over
-/// normal velocities u is the velocity along the edge e, from its first to its second vertex.
+/// 2009, eq. 33): over the entries k of row e, the sum of weights[k] u[edges.values[k]] for normal
+/// velocities u is the velocity along the edge e, from its first to its second vertex.
 ///
 /// 1. A row has the other edges of the first cell counterclockwise from e, then those of the second
 ///    cell.
 /// 2. weight(e, e') * cell_distance(e) / vertex_distance(e') is antisymmetric, so that the
 ///    Coriolis force does no work.
 struct TangentialWeights {
-  std::vector<std::uint64_t> offsets = {0};  ///< one offset more than edges
-  std::vector<Index> edges;
+  CompressedRows<Index> edges;  ///< a row for each edge
   std::vector<double> weights;
 };
 RONDEL_API TangentialWeights tangential_weights(const MeshArrays& arrays,

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/triangulation.h"
@@ -19,20 +20,13 @@
 
 namespace rondel {
 
-/// Polygons whose corners are sites. Polygon i has the rings polygon_offsets[i] ...
-/// polygon_offsets[i+1]-1, and ring j has the sites ring_offsets[j] ... ring_offsets[j+1]-1.
+/// Polygons whose corners are sites: a group is a polygon, a row is a ring.
 ///
 /// 1. Sides are the shorter arcs of great circles; the inside is to the left of each ring.
 /// 2. The inside of a polygon is connected. Rings are simple, and two rings or polygons meet at
 ///    most in sites.
 /// 3. A polygon without rings is the whole sphere.
-struct Outline {
-  std::vector<std::uint64_t> polygon_offsets = {0};
-  std::vector<std::uint64_t> ring_offsets = {0};
-  std::vector<Index> sites;
-
-  [[nodiscard]] std::size_t num_polygons() const noexcept { return polygon_offsets.size() - 1; }
-};
+using Outline = RowGroups<CompressedRows<Index>>;
 
 /// Computes the convex hull on the sphere: the union of the solid faces, exactly. It is one
 /// polygon: the whole sphere if no closed hemisphere contains all sites. Below dimension 2 there is

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/diagram.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
@@ -16,12 +17,11 @@
 
 namespace rondel {
 
-/// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position equals its
+/// Polygons in compressed rows. Each is one ring, counterclockwise, whose last position equals its
 /// first, within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
 struct LonLatPolygons {
-  std::vector<LonLat> positions;       ///< the positions of all rings, one after the other
-  std::vector<std::uint64_t> offsets;  ///< ring k: positions[offsets[k]] to [offsets[k + 1]]
-  std::vector<Index> owners;           ///< the site or face of each ring, never decreasing
+  CompressedRows<LonLat> rings;  ///< the positions of each ring
+  std::vector<Index> owners;     ///< the site or face of each ring, never decreasing
 };
 
 /// Computes the polygons of the cells of a diagram, by site. Arcs are densified as by

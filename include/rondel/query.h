@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/dynamic.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
@@ -39,12 +40,6 @@ struct Location {
   Index face = no_index;
   std::array<Index, 3> sites = {no_index, no_index, no_index};
   friend bool operator==(const Location&, const Location&) = default;
-};
-
-/// Lists of sites in compressed rows: list i is sites[offsets[i]] ... sites[offsets[i+1]-1].
-struct SiteLists {
-  std::vector<std::uint64_t> offsets;
-  std::vector<Index> sites;
 };
 
 /// Answers queries to a triangulation. A query point stands for the ray from the center of the
@@ -102,11 +97,11 @@ class RONDEL_API Locator {
   /// vertices. For weighted sites and angle 0 these are the circles that contain the query. The
   /// answer is exact for an angle that differs from the given one by a factor of at most 1 + 1e-15
   /// (beyond 90 degrees: whose difference from pi differs by 1e-15 and such a factor), and for
-  /// exactly 0 if it is 0.
+  /// exactly 0 if it is 0. For a range of queries row i has the vertices of query i.
   /// \throws InvalidInput if the angle is negative or not a number.
   [[nodiscard]] std::vector<Index> within(const Point& query, double angle) const;
-  [[nodiscard]] SiteLists within(std::span<const Point> queries, double angle,
-                                 const Execution& execution = {}) const;
+  [[nodiscard]] CompressedRows<Index> within(std::span<const Point> queries, double angle,
+                                             const Execution& execution = {}) const;
 
   /// Returns the distance of any site, hidden ones too, in radians from 0 to pi. The error for
   /// projected sites is at most 8e-16 times the distance plus 1e-29. For weighted sites the cosine

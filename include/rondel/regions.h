@@ -13,6 +13,7 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
@@ -101,16 +102,11 @@ RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
 /// Computes the area of each cell in steradians, whatever its size and form.
 RONDEL_API std::vector<double> areas(const CellRings& cells);
 
-/// Cells as polygons with holes in longitude and latitude, in compressed rows: the polygons of
-/// write_regions().
+/// Cells as polygons with holes in longitude and latitude: the polygons of write_regions().
 struct LonLatRegions {
-  /// The positions of all rings; the last one of a ring equals its first.
-  std::vector<LonLat> positions;
-  /// Ring k has `positions[rings[k]] ... positions[rings[k+1]-1]`; outer rings are
-  /// counterclockwise, holes clockwise.
-  std::vector<std::uint64_t> rings = {0};
-  std::vector<std::uint64_t> polygons = {
-      0};  ///< polygon j has the rings polygons[j] ... polygons[j+1]-1, the outer one first
+  /// A group has the rings of a polygon, the outer one first. A row has the positions of a ring,
+  /// whose last one equals its first; outer rings are counterclockwise, holes clockwise.
+  RowGroups<CompressedRows<LonLat>> polygons;
   std::vector<Index> owners;  ///< the cell of each polygon, never decreasing
 };
 

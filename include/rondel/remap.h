@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
@@ -75,11 +76,10 @@ struct Remap {
   std::vector<double> source_fractions;  ///< the share of each source that targets cover
   std::vector<double> target_fractions;  ///< the share of each target that sources cover
 
-  /// The pieces. Entry k of `offsets` and `columns` (which are those of `weights` of order 1) has
-  /// its area in steradians, and in `moments` the integral of x - m over it, where m is the mean of
-  /// x over the source.
-  std::vector<std::uint64_t> offsets;
-  std::vector<Index> columns;
+  /// The source of each piece, a row for each target: the offsets and columns of `weights` of order
+  /// 1. Piece k has its area in steradians, and in `moments` the integral of x - m over it, where m
+  /// is the mean of x over the source.
+  CompressedRows<Index> pieces;
   std::vector<double> areas;
   std::vector<Point> moments;  ///< empty for order 1
 };

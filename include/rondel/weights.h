@@ -32,6 +32,8 @@ struct Weights {
   std::uint64_t targets_hash = 0;
 
   [[nodiscard]] std::size_t num_rows() const noexcept { return offsets.size() - 1; }
+  /// Ends a row, whose entries are those that were appended after the row before it.
+  void end_row() { offsets.push_back(columns.size()); }
   friend bool operator==(const Weights&, const Weights&) = default;
 };
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <mutex>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +21,7 @@
 #include "system/job.h"
 #include "system/message_text.h"
 #include "system/mutex.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -43,7 +43,7 @@ Limit limit_of(double angle, const Sphere& sphere) {
 // The answers of one range of queries.
 struct RangeLists {
   std::vector<Index> queries;
-  std::vector<std::uint64_t> ends;
+  std::vector<Index> sizes;
   std::vector<Index> sites;
 };
 
@@ -150,8 +150,8 @@ class Locator::Impl {
     });
   }
 
-  [[nodiscard]] SiteLists within(std::span<const Point> queries, const Limit& limit,
-                                 unsigned threads) const;
+  [[nodiscard]] CompressedRows<Index> within(std::span<const Point> queries, const Limit& limit,
+                                             unsigned threads) const;
 
  private:
   void require_current() const {
@@ -171,41 +171,29 @@ class Locator::Impl {
 };
 
 // The ranges collect their lists apart; these are put together when their lengths are known.
-SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& limit,
-                                unsigned threads) const {
+CompressedRows<Index> Locator::Impl::within(std::span<const Point> queries, const Limit& limit,
+                                            unsigned threads) const {
   std::vector<RangeLists> ranges;
   system::Mutex mutex;
   for_each_range(queries, threads, [&](std::span<const Index> range, Cursor& cursor) {
     RangeLists lists;
     lists.queries.assign(range.begin(), range.end());
     query::for_each_query(range, queries, cursor, [&](Index i, Cursor& at) {
+      const std::size_t before = lists.sites.size();
       engine_.within(queries[i], limit, at, lists.sites);
-      lists.ends.push_back(lists.sites.size());
+      lists.sizes.push_back(static_cast<Index>(lists.sites.size() - before));
     });
     const std::lock_guard lock(mutex);
     ranges.push_back(std::move(lists));
   });
 
-  SiteLists result;
-  result.offsets.resize(queries.size() + 1);
-  for (const RangeLists& lists : ranges) {
-    std::uint64_t begin = 0;
-    for (std::size_t k = 0; k < lists.queries.size(); ++k) {
-      result.offsets[lists.queries[k] + 1] = lists.ends[k] - std::exchange(begin, lists.ends[k]);
-    }
-  }
-  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.sites.resize(result.offsets.back());
-  for (const RangeLists& lists : ranges) {
-    std::uint64_t begin = 0;
-    for (std::size_t k = 0; k < lists.queries.size(); ++k) {
-      std::copy(
-          lists.sites.begin() + static_cast<std::ptrdiff_t>(begin),
-          lists.sites.begin() + static_cast<std::ptrdiff_t>(lists.ends[k]),
-          result.sites.begin() + static_cast<std::ptrdiff_t>(result.offsets[lists.queries[k]]));
-      begin = lists.ends[k];
-    }
-  }
+  CompressedRows<Index> result;
+  result.offsets = system::join_rows(
+      threads, queries.size(), std::move(ranges),
+      [](std::size_t /*range*/, const RangeLists& lists, std::size_t k) {
+        return lists.queries[k];
+      },
+      system::JoinedColumn{&RangeLists::sites, result.values});
   return result;
 }
 
@@ -296,14 +284,14 @@ std::vector<Index> Locator::within(const Point& query, double angle) const {
   return found;
 }
 
-SiteLists Locator::within(std::span<const Point> queries, double angle,
-                          const Execution& execution) const {
+CompressedRows<Index> Locator::within(std::span<const Point> queries, double angle,
+                                      const Execution& execution) const {
   const system::Call call(execution);
   impl_->validate(queries);
   check_angle(angle);
   if (!impl_->is_empty())
     return impl_->within(queries, limit_of(angle, impl_->sphere()), execution.threads);
-  SiteLists none;
+  CompressedRows<Index> none;
   none.offsets.assign(queries.size() + 1, 0);
   return none;
 }

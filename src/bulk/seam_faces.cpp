@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 #include "topology/mesh.h"
 
 namespace rondel::bulk {
@@ -23,12 +24,12 @@ constexpr Triple no_links = {no_index, no_index, no_index};
 class EdgeTable {
  public:
   // An edge goes to the place of its b, in two passes; then those of each b are sorted, mostly one.
-  EdgeTable(const std::vector<SeamEdge>& edges, std::size_t num_sites)
-      : begin_(num_sites + 1, 0), edges_(edges.size()) {
-    for (const SeamEdge& edge : edges) ++begin_[edge.b + 1];
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    std::vector<Index> next = begin_;
-    for (const SeamEdge& edge : edges) edges_[next[edge.b]++] = edge;
+  EdgeTable(const std::vector<SeamEdge>& edges, std::size_t num_sites) : edges_(edges.size()) {
+    system::RowPlaces<Index> places(num_sites);
+    for (const SeamEdge& edge : edges) places.count(edge.b);
+    places.sum();
+    for (const SeamEdge& edge : edges) edges_[places.place(edge.b)] = edge;
+    begin_ = std::move(places).offsets();
     for (std::size_t b = 0; b < num_sites; ++b) {
       std::sort(edges_.begin() + begin_[b], edges_.begin() + begin_[b + 1],
                 [](const SeamEdge& x, const SeamEdge& y) { return x.a < y.a; });
@@ -54,7 +55,8 @@ class EdgeTable {
 SeamFaces::SeamFaces(std::span<const BlockResult> results, FaceStore store, unsigned threads)
     : store_(store), first_site_(results.size() + 1, 0) {
   for (std::size_t i = 0; i < results.size(); ++i)
-    first_site_[i + 1] = first_site_[i] + static_cast<Index>(results[i].seam_sites.size());
+    first_site_[i + 1] = static_cast<Index>(results[i].seam_sites.size());
+  system::sum_counts(first_site_);
   sites_.resize(first_site_.back());
   system::parallel_for(threads, results.size(), 1, [&](std::size_t i, std::size_t /*end*/) {
     std::ranges::copy(results[i].seam_sites, sites_.begin() + first_site_[i]);
@@ -169,7 +171,7 @@ void SeamFaces::list_owned(unsigned threads) {
   for_faces([this](Index owner, std::size_t /*face*/) {
     std::atomic_ref(owned_begin_[owner + 1]).fetch_add(1, std::memory_order_relaxed);
   });
-  for (std::size_t i = 1; i < owned_begin_.size(); ++i) owned_begin_[i] += owned_begin_[i - 1];
+  system::sum_counts(owned_begin_);
   owned_.resize(owned_begin_.back());
   std::vector<Index> next = owned_begin_;
   for_faces([&](Index owner, std::size_t face) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::distributed {
 // Successive sites, sorted by bucket.
@@ -31,15 +32,15 @@ class Slots::DealtSites {
                              bucket_of_[i] = static_cast<Index>(bucket_of(keys_[i], cuts));
                            }
                          });
-    std::ranges::fill(begin_, 0);
-    for (std::size_t i = 0; i < size; ++i) ++begin_[bucket_of_[i] + 1];
-    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
-    auto next = begin_;
+    system::RowPlaces<std::size_t> places(begin_.size() - 1);
+    for (std::size_t i = 0; i < size; ++i) places.count(bucket_of_[i]);
+    places.sum();
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t place = next[bucket_of_[i]]++;
+      const std::size_t place = places.place(bucket_of_[i]);
       points_[place] = sites_[i];
       rows_[place] = first_number + first + i;
     }
+    begin_ = std::move(places).offsets();
   }
 
   [[nodiscard]] std::span<const Point> points(std::size_t bucket) const {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -43,7 +43,7 @@ std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,
   for (const ArcPoint& p : arc_points) {
     ++offsets[faces[p.halfedge / 3][dual::previous_corner(p.halfedge % 3)] + 1];
   }
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  system::sum_counts(offsets);
   return offsets;
 }
 
@@ -54,7 +54,7 @@ class DiagramWriter {
       : faces_(triangulation.faces()),
         neighbors_(triangulation.neighbors()),
         sites_(sites),
-        cells_(cells),
+        rings_(cells.rings),
         localize_(triangulation, sites, cells) {}
 
   void write(std::size_t begin, std::size_t end, std::span<const ArcPoint> arc_points,
@@ -62,10 +62,10 @@ class DiagramWriter {
     const auto order = sites_.order();
     for (std::size_t k = begin; k < end; ++k) {
       if (k + 2 * prefetch_distance < end) {
-        prefetch(&cells_.offsets[order[k + 2 * prefetch_distance]]);
+        prefetch(&rings_.offsets[order[k + 2 * prefetch_distance]]);
         const Index ahead = order[k + prefetch_distance];
-        prefetch_to_write(&cells_.rings[cells_.offsets[ahead]]);
-        prefetch_to_write(&cells_.rings[cells_.offsets[ahead + 1] - 1]);
+        prefetch_to_write(&rings_.values[rings_.offsets[ahead]]);
+        prefetch_to_write(&rings_.values[rings_.offsets[ahead + 1] - 1]);
         if (areas != nullptr) prefetch_to_write(&areas[ahead]);
         const Index face = sites_.first_face(static_cast<Index>(k + 2 * prefetch_distance));
         prefetch(&faces_[face]);
@@ -96,7 +96,7 @@ class DiagramWriter {
 
   // Returns the sum of the kites, nan where one of them is; 0 without kites.
   double write_ring(Index rank, std::span<const ArcPoint> arc_points, const dual::Kites* kites) {
-    Index* out = &cells_.rings[cells_.offsets[sites_.order()[rank]]];
+    Index* out = &rings_.values[rings_.offsets[sites_.order()[rank]]];
     double area = 0;
     if (arc_points.empty() && kites == nullptr) {
       turn(rank, [&](Index f, Index) { *out++ = f; });
@@ -120,7 +120,7 @@ class DiagramWriter {
   std::span<const Triple> faces_;
   std::span<const Triple> neighbors_;
   const dual::SplitSites& sites_;
-  Cells& cells_;
+  CompressedRows<Index>& rings_;
   dual::RingLocalizer localize_;
 };
 
@@ -134,8 +134,8 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
   if (!with_kites || kites.has_careful) {
     arc_points = dual::add_arc_points(triangulation, sites, result.points);
   }
-  result.offsets = ring_offsets(triangulation, sites, arc_points);
-  result.rings = system::large_vector<Index>(result.offsets.back());
+  result.rings.offsets = ring_offsets(triangulation, sites, arc_points);
+  result.rings.values = system::large_vector<Index>(result.rings.offsets.back());
   if (areas != nullptr) *areas = system::large_vector<double>(triangulation.num_sites());
   system::parallel_for(sites.threads(), sites.order().size(), dual::parallel_grain,
                        [&](std::size_t begin, std::size_t end) {

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <utility>
 
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -45,14 +46,12 @@ void for_each_edge(std::span<const Triple> faces, F visit) {
 std::vector<Edge> edges(const Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return ring_edges(triangulation.ring());
   const auto faces = triangulation.faces();
-  std::vector<std::uint64_t> ends(triangulation.num_sites() + 1, 0);
-  for_each_edge(faces, [&](Index a, Index) { ++ends[a + 1]; });
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<Edge> result(ends.back());
-  // ends[a] moves from the first place of a's edges to the first place after them.
-  for_each_edge(faces, [&](Index a, Index b) { result[ends[a]++] = {a, b}; });
+  system::RowPlaces places(triangulation.num_sites());
+  for_each_edge(faces, [&](Index a, Index) { places.count(a); });
+  std::vector<Edge> result(places.sum());
+  for_each_edge(faces, [&](Index a, Index b) { result[places.place(a)] = {a, b}; });
   std::uint64_t begin = 0;
-  for (const std::uint64_t end : ends) {
+  for (const std::uint64_t end : std::move(places).offsets()) {
     std::sort(result.begin() + static_cast<std::ptrdiff_t>(begin),
               result.begin() + static_cast<std::ptrdiff_t>(end));
     begin = end;

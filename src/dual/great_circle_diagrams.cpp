@@ -41,13 +41,8 @@ void set_rings(std::span<const Index> vertices, std::span<const std::array<Index
                std::size_t num_sites, Cells& cells) {
   std::vector<Index> place(num_sites, no_index);
   for (std::size_t j = 0; j < vertices.size(); ++j) place[vertices[j]] = static_cast<Index>(j);
-  cells.offsets.assign(num_sites + 1, 0);
-  for (std::size_t i = 0; i < num_sites; ++i) {
-    if (place[i] != no_index) {
-      const auto& ring = rings[place[i]];
-      cells.rings.insert(cells.rings.end(), ring.begin(), ring.end());
-    }
-    cells.offsets[i + 1] = cells.rings.size();
+  for (const Index j : place) {
+    cells.rings.append(j == no_index ? std::span<const Index>() : std::span(rings[j]));
   }
 }
 
@@ -117,7 +112,7 @@ Cells great_circle_cells(const Triangulation& triangulation, const SplitSites& s
   if (ring.size() > 2) return lunes(sites, ring, triangulation.num_sites());
   if (ring.size() == 2) return hemispheres(sites, ring, triangulation.num_sites());
   Cells cells;
-  cells.offsets.assign(triangulation.num_sites() + 1, 0);
+  cells.rings.offsets.assign(triangulation.num_sites() + 1, 0);
   return cells;
 }
 

@@ -29,8 +29,7 @@ constexpr double circumcenter_error = 0x1p-51;
 
 const LocalRing& RingLocalizer::operator()(Index rank) {
   const Index site = sites_.order()[rank];
-  const std::span<const Index> ring(cells_.rings.data() + cells_.offsets[site],
-                                    cells_.rings.data() + cells_.offsets[site + 1]);
+  const std::span<const Index> ring = cells_.rings[site];
   ring_.points.clear();
   ring_.error = 0;
   if (sites_.is_projected()) {

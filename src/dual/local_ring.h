@@ -96,10 +96,10 @@ void measure_cells(const Triangulation& triangulation, const SplitSites& sites, 
     RingLocalizer localize(triangulation, sites, cells);
     for (std::size_t k = begin; k < end; ++k) {
       if (k + 2 * prefetch_distance < end) {
-        prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);
+        prefetch(&cells.rings.offsets[order[k + 2 * prefetch_distance]]);
         const Index ahead = order[k + prefetch_distance];
-        prefetch(&cells.rings[cells.offsets[ahead]]);
-        prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
+        prefetch(&cells.rings.values[cells.rings.offsets[ahead]]);
+        prefetch(&cells.rings.values[cells.rings.offsets[ahead + 1] - 1]);
         prefetch_to_write(&result[ahead]);
       }
       result[order[k]] = measure(localize(static_cast<Index>(k)));

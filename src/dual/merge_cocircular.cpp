@@ -28,7 +28,7 @@ class FacetFinder {
         normals_(dual::circumcenters(triangulation, split_sites_)),
         sets_(faces_.size()) {}
 
-  Polygons facets() {
+  CompressedRows<Index> facets() {
     for (Index f = 0; f < faces_.size(); ++f) {
       for (Index i = 0; i < 3; ++i) {
         if (is_same_facet(f, i)) sets_.join(f, neighbors_[f][i]);
@@ -77,9 +77,8 @@ class FacetFinder {
   // The halfedge (f, i) is on the border of its facet.
   bool is_border(Index f, Index i) { return sets_[neighbors_[f][i]] != sets_[f]; }
 
-  Polygons traced() {
-    Polygons result;
-    result.offsets.push_back(0);
+  CompressedRows<Index> traced() {
+    CompressedRows<Index> result;
     std::vector<bool> is_traced(faces_.size(), false);
     for (Index f = 0; f < faces_.size(); ++f) {
       for (Index i = 0; i < 3; ++i) {
@@ -93,12 +92,12 @@ class FacetFinder {
 
   // A facet is a convex polygon, so its border is one cycle. After a border halfedge the next one
   // is found by turning around its head, inside the facet.
-  void trace(Index first, Index i, Polygons& polygons) {
-    const auto begin = static_cast<std::ptrdiff_t>(polygons.corners.size());
+  void trace(Index first, Index i, CompressedRows<Index>& polygons) {
+    const auto begin = static_cast<std::ptrdiff_t>(polygons.values.size());
     const Index first_corner = i;
     Index f = first;
     do {
-      polygons.corners.push_back(faces_[f][dual::next_corner(i)]);
+      polygons.values.push_back(faces_[f][dual::next_corner(i)]);
       i = dual::next_corner(i);
       while (!is_border(f, i)) {
         const Index g = neighbors_[f][i];
@@ -106,9 +105,9 @@ class FacetFinder {
         f = g;
       }
     } while (f != first || i != first_corner);
-    const auto polygon = polygons.corners.begin() + begin;
-    std::rotate(polygon, std::min_element(polygon, polygons.corners.end()), polygons.corners.end());
-    polygons.offsets.push_back(polygons.corners.size());
+    const auto polygon = polygons.values.begin() + begin;
+    std::rotate(polygon, std::min_element(polygon, polygons.values.end()), polygons.values.end());
+    polygons.end_row();
   }
 
   const Triangulation& triangulation_;
@@ -121,7 +120,8 @@ class FacetFinder {
 
 }  // namespace
 
-Polygons merge_cocircular(const Triangulation& triangulation, const Execution& execution) {
+CompressedRows<Index> merge_cocircular(const Triangulation& triangulation,
+                                       const Execution& execution) {
   const system::Call call(execution);
   return FacetFinder(triangulation, execution.threads).facets();
 }

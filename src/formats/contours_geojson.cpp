@@ -28,6 +28,7 @@
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::formats {
 namespace {
@@ -66,18 +67,11 @@ std::vector<std::string> made_texts(
   return texts;
 }
 
-// Returns row i of values in compressed rows.
-template <class T>
-std::span<const T> row(const std::vector<T>& values, const std::vector<std::uint64_t>& offsets,
-                       std::uint64_t i) {
-  return std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
-}
-
 void write_isolines_geojson(io::AtomicFile& file, const IsolinesToWrite& job) {
   const Isolines& isolines = job.isolines;
   const std::vector<std::string> texts =
       made_texts(job.execution, isolines.num_lines(), [&](std::string& text, std::size_t line) {
-        const auto points = row(isolines.points, isolines.line_offsets, line);
+        const auto points = isolines.lines.rows[line];
         const bool is_closed = isolines.is_closed[line] != 0;
         for (const auto& part : map::line_parts(points, is_closed, job.tolerance)) {
           io::append_positions(text, part);
@@ -91,7 +85,8 @@ void write_isolines_geojson(io::AtomicFile& file, const IsolinesToWrite& job) {
     text += R"("level":)";
     io::append_number(text, isolines.levels[k]);
     text += io::geometry_begin;
-    io::append_multi_line(text, joined(row(texts, isolines.level_offsets, k)));
+    const std::vector<std::uint64_t>& ends = isolines.lines.offsets;
+    io::append_multi_line(text, joined(std::span(texts).subspan(ends[k], ends[k + 1] - ends[k])));
     file.write(text + '}');
   }
   file.write(io::features_end);
@@ -102,8 +97,8 @@ void write_isolines_geojson(io::AtomicFile& file, const IsolinesToWrite& job) {
 bool is_closed_surface(const Bands& bands) {
   using Arc = std::array<double, 6>;
   std::vector<Arc> arcs;
-  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
-    const auto points = row(bands.points, bands.ring_offsets, ring);
+  for (std::size_t ring = 0; ring < bands.rings().size(); ++ring) {
+    const auto points = bands.rings()[ring];
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Point& p = points[k];
       const Point& q = points[k + 1 < points.size() ? k + 1 : 0];
@@ -140,11 +135,12 @@ void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
 // Returns the rings of a band as unit vectors.
 std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const Point> points,
                                             std::size_t band) {
+  const auto& [bands_ends, polygons] = bands.bands;
+  const std::vector<std::uint64_t>& ends = polygons.rows.offsets;
   std::vector<map::UnitVectors> rings;
-  for (auto ring = bands.polygon_offsets[bands.band_offsets[band]];
-       ring < bands.polygon_offsets[bands.band_offsets[band + 1]]; ++ring) {
-    rings.push_back(points.subspan(bands.ring_offsets[ring],
-                                   bands.ring_offsets[ring + 1] - bands.ring_offsets[ring]));
+  for (auto ring = polygons.offsets[bands_ends[band]];
+       ring < polygons.offsets[bands_ends[band + 1]]; ++ring) {
+    rings.push_back(points.subspan(ends[ring], ends[ring + 1] - ends[ring]));
   }
   return rings;
 }
@@ -161,15 +157,15 @@ map::BorderKnowledge border_by_area(std::span<const map::UnitVectors> rings) {
 // points.
 std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   const Bands& bands = job.bands;
-  const std::vector<Point> points = map::merged_points(bands.points);
+  const std::vector<Point> points = map::merged_points(bands.rings().values);
   std::vector<map::DrawnRegion> drawn(bands.num_bands());
   system::parallel_for(
       job.execution.threads, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t band = begin; band < end; ++band) {
-          if (bands.band_offsets[band] == bands.band_offsets[band + 1]) continue;
+          if (bands.bands.offsets[band] == bands.bands.offsets[band + 1]) continue;
           drawn[band] = map::draw_region(rings_of_band(bands, points, band), job.tolerance);
           if (is_unsure(drawn[band]))
-            drawn[band].border = border_by_area(rings_of_band(bands, bands.points, band));
+            drawn[band].border = border_by_area(rings_of_band(bands, bands.rings().values, band));
         }
       });
   const bool may_overlap = std::ranges::any_of(drawn, is_unsure);
@@ -219,9 +215,10 @@ void write_isolines(const FileName& file, const Isolines& isolines, double toler
                     const Execution& execution) {
   const system::Call call(execution);
   const std::size_t num_lines = isolines.is_closed.size();
-  io::require_fit(io::are_offsets(isolines.level_offsets, isolines.levels.size(), num_lines) &&
-                      io::are_offsets(isolines.line_offsets, num_lines, isolines.points.size()) &&
-                      io::are_unit_vectors(isolines.points),
+  const auto& [ends, lines] = isolines.lines;
+  io::require_fit(system::are_offsets(ends, isolines.levels.size(), num_lines) &&
+                      system::are_offsets(lines.offsets, num_lines, lines.values.size()) &&
+                      io::are_unit_vectors(lines.values),
                   "isolines");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<formats::IsolinesToWrite>(
@@ -231,14 +228,13 @@ void write_isolines(const FileName& file, const Isolines& isolines, double toler
 void write_bands(const FileName& file, const Bands& bands, double tolerance_deg,
                  const Execution& execution) {
   const system::Call call(execution);
-  io::require_fit(
-      !bands.polygon_offsets.empty() && !bands.ring_offsets.empty() &&
-          io::are_offsets(bands.band_offsets, bands.num_bands(), bands.num_polygons()) &&
-          io::are_offsets(bands.polygon_offsets, bands.num_polygons(),
-                          bands.ring_offsets.size() - 1) &&
-          io::are_offsets(bands.ring_offsets, bands.ring_offsets.size() - 1, bands.points.size()) &&
-          io::are_unit_vectors(bands.points),
-      "bands");
+  const auto& [ends, polygons] = bands.bands;
+  const CompressedRows<Point>& rings = bands.rings();
+  io::require_fit(system::are_offsets(rings.offsets, rings.values.size()) &&
+                      system::are_offsets(polygons.offsets, rings.size()) &&
+                      system::are_offsets(ends, bands.num_bands(), polygons.size()) &&
+                      io::are_unit_vectors(rings.values),
+                  "bands");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<formats::BandsToWrite>(formats::band_writers, file, "bands are written as",
                                          {bands, tolerance, execution});

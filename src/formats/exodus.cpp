@@ -19,6 +19,7 @@
 #include "io/number.h"
 #include "rondel/delaunay.h"
 #include "rondel/version.h"
+#include "system/row_assembly.h"
 
 namespace rondel::formats {
 namespace {
@@ -156,23 +157,20 @@ std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::stri
 
 // Groups the cells by their number of corners with a counting sort.
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners) {
-  std::vector<std::size_t> sizes(arrays.max_edges() + 1, 0);
-  for (std::size_t i = 0; i < arrays.num_cells(); ++i) ++sizes[corners.count(i)];
+  system::RowPlaces<std::size_t> places(arrays.max_edges() + 1);
+  for (std::size_t i = 0; i < arrays.num_cells(); ++i) places.count(corners.count(i));
   CellBlocks blocks;
-  blocks.cells.resize(arrays.num_cells());
-  std::vector<std::size_t> next(sizes.size(), 0);
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    next[k] = begin;
-    if (sizes[k] == 0) continue;
-    blocks.begins.push_back(begin);
-    blocks.corners.push_back(k);
-    begin += sizes[k];
-  }
-  blocks.begins.push_back(begin);
+  blocks.cells.resize(places.sum());
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
-    blocks.cells[next[corners.count(i)]++] = static_cast<Index>(i);
+    blocks.cells[places.place(corners.count(i))] = static_cast<Index>(i);
   }
+  const std::vector<std::size_t> begins = std::move(places).offsets();
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    if (begins[k] == begins[k + 1]) continue;
+    blocks.begins.push_back(begins[k]);
+    blocks.corners.push_back(k);
+  }
+  blocks.begins.push_back(begins.back());
   return blocks;
 }
 

@@ -25,6 +25,7 @@
 #include "rondel/graphs.h"
 #include "rondel/outlines.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -103,23 +104,21 @@ void write_graph_npy(io::AtomicFile& file, const GraphToWrite& job) {
 
 void write_outline_geojson(io::AtomicFile& file, const OutlineToWrite& job) {
   const Outline& outline = job.outline;
+  const std::vector<std::uint64_t>& ends = outline.rows.offsets;
   file.write(io::features_begin);
-  std::vector<Point> units(outline.sites.size());
-  std::ranges::transform(outline.sites, units.begin(),
+  std::vector<Point> units(outline.rows.values.size());
+  std::ranges::transform(outline.rows.values, units.begin(),
                          [&](Index site) { return unit_of(job.triangulation, site); });
-  for (std::size_t i = 0; i < outline.num_polygons(); ++i) {
-    const auto first = outline.polygon_offsets[i];
-    const auto last = outline.polygon_offsets[i + 1];
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const auto first = outline.offsets[i];
+    const auto last = outline.offsets[i + 1];
     std::vector<map::UnitVectors> rings;
     for (auto r = first; r < last; ++r) {
-      rings.push_back(std::span<const Point>(units).subspan(
-          outline.ring_offsets[r], outline.ring_offsets[r + 1] - outline.ring_offsets[r]));
+      rings.push_back(std::span<const Point>(units).subspan(ends[r], ends[r + 1] - ends[r]));
     }
     std::string text;
     io::begin_feature(text, i == 0);
-    text += R"("sites":)" +
-            std::to_string(outline.ring_offsets[last] - outline.ring_offsets[first]) +
-            io::geometry_begin;
+    text += R"("sites":)" + std::to_string(ends[last] - ends[first]) + io::geometry_begin;
     io::append_multi_polygon(text, map::region_polygons(rings, job.tolerance));
     file.write(text + '}');
   }
@@ -189,9 +188,10 @@ void write_outline(const FileName& file, const Triangulation& triangulation, con
                    double tolerance_deg, const Execution& execution) {
   const system::Call call(execution);
   const auto is_site = [&](Index site) { return site < triangulation.num_sites(); };
-  if (!io::are_offsets(outline.ring_offsets, outline.sites.size()) ||
-      !io::are_offsets(outline.polygon_offsets, outline.ring_offsets.size() - 1) ||
-      !std::ranges::all_of(outline.sites, is_site)) {
+  const auto& [rings, sites] = outline.rows;
+  if (!system::are_offsets(rings, sites.size()) ||
+      !system::are_offsets(outline.offsets, outline.rows.size()) ||
+      !std::ranges::all_of(sites, is_site)) {
     throw InvalidInput("the arrays of the outline do not fit together");
   }
   const double tolerance = tolerance_of(tolerance_deg);

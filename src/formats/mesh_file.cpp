@@ -138,8 +138,8 @@ void write_graph(const FileName& name, const MeshArrays& arrays, const Execution
                         [&](std::string& text, std::size_t begin, std::size_t end) {
                           for (std::size_t i = begin; i < end; ++i) {
                             bool is_first = true;
-                            for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1];
-                                 ++at) {
+                            for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
+                                 at < arrays.edges_on_cell.offsets[i + 1]; ++at) {
                               if (arrays.cells_on_cell[at] == no_index) continue;
                               if (!is_first) text += ' ';
                               is_first = false;

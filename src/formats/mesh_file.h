@@ -140,8 +140,8 @@ class CellCorners {
   // Calls visit(vertex) for the corners of a cell, counterclockwise.
   template <typename Visit>
   void visit(std::size_t cell, const Visit& visit) const {
-    const std::uint64_t begin = arrays_.offsets[cell];
-    const std::uint64_t end = arrays_.offsets[cell + 1];
+    const std::uint64_t begin = arrays_.edges_on_cell.offsets[cell];
+    const std::uint64_t end = arrays_.edges_on_cell.offsets[cell + 1];
     Index last = corner(arrays_.vertices_on_cell[end - 1]);
     for (std::uint64_t at = begin; at < end; ++at) {
       const Index next = corner(arrays_.vertices_on_cell[at]);

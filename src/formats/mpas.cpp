@@ -91,7 +91,8 @@ void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
   const MeshArrays& arrays = file.arrays();
   file.indices(name, {sizes.cells, sizes.max_edges}, {}, arrays.num_cells(), sizes.of_cell,
                [&arrays, &ring](std::size_t i, std::int32_t* out) {
-                 for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+                 for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
+                      at < arrays.edges_on_cell.offsets[i + 1]; ++at) {
                    *out++ = one_based(ring[at]);
                  }
                });
@@ -112,9 +113,10 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
   define_places(file, "Cell", sizes.cells, arrays.cell_points);
-  file.indices("nEdgesOnCell", sizes.cells, {}, size,
-               [&arrays](std::size_t i) { return arrays.offsets[i + 1] - arrays.offsets[i]; });
-  define_ring(file, "edgesOnCell", sizes, arrays.edges_on_cell);
+  file.indices("nEdgesOnCell", sizes.cells, {}, size, [&arrays](std::size_t i) {
+    return arrays.edges_on_cell.offsets[i + 1] - arrays.edges_on_cell.offsets[i];
+  });
+  define_ring(file, "edgesOnCell", sizes, arrays.edges_on_cell.values);
   define_ring(file, "cellsOnCell", sizes, arrays.cells_on_cell);
   define_ring(file, "verticesOnCell", sizes, arrays.vertices_on_cell);
   define_values(file, "areaCell", sizes.cells, {}, arrays.cell_areas);
@@ -123,13 +125,15 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
   // MPAS-Tools defines cellQuality as the least distance of neighbors over the largest, and
   // gridSpacing as the mean distance.
   const auto distances = [&arrays](std::size_t i) {
-    std::array<double, 3> found = {arrays.cell_distances[arrays.edges_on_cell[arrays.offsets[i]]],
-                                   0, 0};
-    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
-      const double distance = arrays.cell_distances[arrays.edges_on_cell[at]];
+    std::array<double, 3> found = {
+        arrays.cell_distances[arrays.edges_on_cell.values[arrays.edges_on_cell.offsets[i]]], 0, 0};
+    for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
+         at < arrays.edges_on_cell.offsets[i + 1]; ++at) {
+      const double distance = arrays.cell_distances[arrays.edges_on_cell.values[at]];
       found = {std::min(found[0], distance), std::max(found[1], distance), found[2] + distance};
     }
-    found[2] /= static_cast<double>(arrays.offsets[i + 1] - arrays.offsets[i]);
+    found[2] /=
+        static_cast<double>(arrays.edges_on_cell.offsets[i + 1] - arrays.edges_on_cell.offsets[i]);
     return found;
   };
   file.numbers("cellQuality", sizes.cells, {}, size, [distances](std::size_t i) {

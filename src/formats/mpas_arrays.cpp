@@ -24,6 +24,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_io.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -244,12 +245,12 @@ class MpasReader {
     std::vector<std::uint8_t> is_turned(arrays_.num_edges(), 0);
     in_pieces(arrays_.num_cells(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const std::uint64_t first = arrays_.offsets[i];
-        const std::uint64_t last = arrays_.offsets[i + 1];
+        const std::uint64_t first = arrays_.edges_on_cell.offsets[i];
+        const std::uint64_t last = arrays_.edges_on_cell.offsets[i + 1];
         for (std::uint64_t at = first; at < last; ++at) {
-          const Index e = arrays_.edges_on_cell[at];
+          const Index e = arrays_.edges_on_cell.values[at];
           if (arrays_.cells_on_edge[e][0] != i) continue;
-          const Index next = arrays_.edges_on_cell[at + 1 < last ? at + 1 : first];
+          const Index next = arrays_.edges_on_cell.values[at + 1 < last ? at + 1 : first];
           const auto& ends = arrays_.vertices_on_edge[next];
           is_turned[e] = std::ranges::count(ends, arrays_.vertices_on_edge[e][1]) == 0 ? 1 : 0;
         }
@@ -275,27 +276,27 @@ class MpasReader {
     const Variable& rings = require("edgesOnCell", 0);
     const std::uint64_t room = rings.num_values / size;
     if (room * size != rings.num_values) throw BadValue("variable \"edgesOnCell\" has no rows");
-    arrays_.offsets.assign(size + 1, 0);
     for (std::size_t i = 0; i < size; ++i) {
       if (sides[i] < 3 || static_cast<std::uint64_t>(sides[i]) > room) {
         throw BadValue("variable \"nEdgesOnCell\", row " + std::to_string(i) + ": " +
                        std::to_string(sides[i]) + " is not in 3 to " + std::to_string(room));
       }
-      arrays_.offsets[i + 1] = arrays_.offsets[i] + static_cast<std::uint64_t>(sides[i]);
     }
+    arrays_.edges_on_cell.offsets = system::offsets_of(
+        size, [&](std::size_t i) { return static_cast<std::uint64_t>(sides[i]); });
     const std::uint64_t sides_of_edges = 2 * arrays_.num_edges() - num_border_edges_;
-    if (arrays_.offsets.back() != sides_of_edges) {
-      throw BadValue("the cells have " + std::to_string(arrays_.offsets.back()) +
+    if (arrays_.edges_on_cell.offsets.back() != sides_of_edges) {
+      throw BadValue("the cells have " + std::to_string(arrays_.edges_on_cell.offsets.back()) +
                      " edges, and the edges " + std::to_string(sides_of_edges) + " cells");
     }
-    arrays_.edges_on_cell.resize(arrays_.offsets.back());
+    arrays_.edges_on_cell.values.resize(arrays_.edges_on_cell.offsets.back());
     in_pieces(size, [&](std::size_t begin, std::size_t end) {
       std::vector<std::int64_t> numbers((end - begin) * room);
       file_.read_integers(rings, begin * room, numbers);
       for (std::size_t i = begin; i < end; ++i) {
-        std::uint64_t at = arrays_.offsets[i];
-        for (std::uint64_t j = 0; at < arrays_.offsets[i + 1]; ++at, ++j) {
-          arrays_.edges_on_cell[at] =
+        std::uint64_t at = arrays_.edges_on_cell.offsets[i];
+        for (std::uint64_t j = 0; at < arrays_.edges_on_cell.offsets[i + 1]; ++at, ++j) {
+          arrays_.edges_on_cell.values[at] =
               index_of("edgesOnCell", i, numbers[(i - begin) * room + j], arrays_.num_edges());
         }
       }
@@ -304,8 +305,8 @@ class MpasReader {
 
   // Finds the cells and vertices around each cell.
   void follow_rings() {
-    arrays_.cells_on_cell.resize(arrays_.edges_on_cell.size());
-    arrays_.vertices_on_cell.resize(arrays_.edges_on_cell.size());
+    arrays_.cells_on_cell.resize(arrays_.edges_on_cell.values.size());
+    arrays_.vertices_on_cell.resize(arrays_.edges_on_cell.values.size());
     in_pieces(arrays_.num_cells(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) follow_ring(static_cast<Index>(i));
     });
@@ -313,12 +314,12 @@ class MpasReader {
 
   // Counterclockwise around its first cell, an edge begins at its first vertex.
   void follow_ring(Index cell) {
-    const std::uint64_t end = arrays_.offsets[cell + 1];
-    Index last_end = end_of(arrays_.edges_on_cell[end - 1], cell, 1);
+    const std::uint64_t end = arrays_.edges_on_cell.offsets[cell + 1];
+    Index last_end = end_of(arrays_.edges_on_cell.values[end - 1], cell, 1);
     Point last_corner = arrays_.vertex_points[last_end] - arrays_.cell_points[cell];
     Point around{0, 0, 0};
-    for (std::uint64_t at = arrays_.offsets[cell]; at < end; ++at) {
-      const Index e = arrays_.edges_on_cell[at];
+    for (std::uint64_t at = arrays_.edges_on_cell.offsets[cell]; at < end; ++at) {
+      const Index e = arrays_.edges_on_cell.values[at];
       const auto [a, b] = arrays_.cells_on_edge[e];
       if (a != cell && b != cell) {
         throw BadValue("cell " + std::to_string(cell) + " has edge " + std::to_string(e) +
@@ -384,8 +385,8 @@ class MpasReader {
             throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
                            std::to_string(cells[j]) + " and " + std::to_string(cells[next]));
           }
-          edges[next] = arrays_.edges_on_cell[at];
-          edges[j] = arrays_.edges_on_cell[after(at, cells[j])];
+          edges[next] = arrays_.edges_on_cell.values[at];
+          edges[j] = arrays_.edges_on_cell.values[after(at, cells[j])];
         }
       }
     });
@@ -404,11 +405,13 @@ class MpasReader {
   }
   // Returns the position that follows in the ring of a cell.
   [[nodiscard]] std::uint64_t after(std::uint64_t at, Index cell) const {
-    return at + 1 < arrays_.offsets[cell + 1] ? at + 1 : arrays_.offsets[cell];
+    return at + 1 < arrays_.edges_on_cell.offsets[cell + 1] ? at + 1
+                                                            : arrays_.edges_on_cell.offsets[cell];
   }
   // Returns the position of a vertex in the ring of a cell.
   [[nodiscard]] std::uint64_t place_of(Index v, Index cell) const {
-    for (std::uint64_t at = arrays_.offsets[cell]; at < arrays_.offsets[cell + 1]; ++at) {
+    for (std::uint64_t at = arrays_.edges_on_cell.offsets[cell];
+         at < arrays_.edges_on_cell.offsets[cell + 1]; ++at) {
       if (arrays_.vertices_on_cell[at] == v) return at;
     }
     throw BadValue("vertex " + std::to_string(v) + " is none of those of cell " +

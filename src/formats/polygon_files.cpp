@@ -45,23 +45,24 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
 FeatureLines lines_of_features(const map::PolygonFeatures& features,
                                const PolygonOptions& options) {
   FeatureLines all;
+  std::vector<Point>& points = all.rows.values;
   std::vector<LonLat> positions;
   for (const auto& lines : features.lines) {
     for (const std::vector<LonLat>& line : lines) {
       for (std::size_t k = 0; k + 1 < line.size(); ++k) {
         if (options.edges == PolygonEdges::geodesic) {
-          all.points.push_back(unit_vector(line[k]));
+          points.push_back(unit_vector(line[k]));
         } else {
           positions.clear();
           overlay::append_divided(line[k], line[k + 1], options.tolerance_deg * radians_per_degree,
                                   positions);
-          for (const LonLat& p : positions) all.points.push_back(unit_vector(p));
+          for (const LonLat& p : positions) points.push_back(unit_vector(p));
         }
       }
-      all.points.push_back(unit_vector(line.back()));
-      all.lines.push_back(all.points.size());
+      points.push_back(unit_vector(line.back()));
+      all.rows.end_row();
     }
-    all.features.push_back(all.lines.size() - 1);
+    all.end_group();
   }
   return all;
 }

@@ -40,7 +40,8 @@ namespace {
 // True if a cell has a corner within that distance.
 bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
                 double square_distance) {
-  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
+  for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+       at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
     const Point away =
         (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]] - corner;
     if (dot(away, away) <= square_distance) return true;
@@ -78,7 +79,8 @@ void require_cells(const MeshArrays& arrays, const CellTable& table) {
         meshing::refuse_cell(i);
       }
     }
-    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+    for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
+         at < arrays.edges_on_cell.offsets[i + 1]; ++at) {
       const Point corner = (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]];
       if (!has_corner_in_file(cells, i, corner, distance * distance)) meshing::refuse_cell(i);
     }

@@ -80,14 +80,13 @@ std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t firs
   WkbWriter wkb;
   wkb.begin(type_multi_polygon);
   wkb.add_number(static_cast<std::uint32_t>(past - first));
+  const auto& [ends, rings] = regions.polygons;
   for (std::size_t p = first; p < past; ++p) {
     wkb.begin(type_polygon);
-    wkb.add_number(static_cast<std::uint32_t>(regions.polygons[p + 1] - regions.polygons[p]));
-    for (std::uint64_t r = regions.polygons[p]; r < regions.polygons[p + 1]; ++r) {
-      wkb.add_number(static_cast<std::uint32_t>(regions.rings[r + 1] - regions.rings[r]));
-      for (std::uint64_t k = regions.rings[r]; k < regions.rings[r + 1]; ++k) {
-        wkb.add_position(regions.positions[k]);
-      }
+    wkb.add_number(static_cast<std::uint32_t>(ends[p + 1] - ends[p]));
+    for (std::uint64_t r = ends[p]; r < ends[p + 1]; ++r) {
+      wkb.add_number(static_cast<std::uint32_t>(rings[r].size()));
+      for (const LonLat& position : rings[r]) wkb.add_position(position);
     }
   }
   return wkb.bytes();

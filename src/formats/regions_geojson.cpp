@@ -26,6 +26,7 @@
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::formats {
 namespace {
@@ -153,10 +154,9 @@ LonLatRegions polygons_of(const RegionsToWrite& job) {
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     for (const map::PolygonWithHoles& polygon : drawn[i]) {
       for (const std::vector<LonLat>& ring : polygon.rings) {
-        all.positions.insert(all.positions.end(), ring.begin(), ring.end());
-        all.rings.push_back(all.positions.size());
+        all.polygons.rows.append(ring);
       }
-      all.polygons.push_back(all.rings.size() - 1);
+      all.polygons.end_group();
       all.owners.push_back(static_cast<Index>(i));
     }
   }
@@ -170,8 +170,8 @@ constexpr std::array<io::Writer<RegionsToWrite>, 1> region_writers = {
 // Throws InvalidInput if the arrays of the rings do not fit together.
 void require_rings(const CellRings& cells) {
   io::require_fit(
-      !cells.rings.empty() && io::are_offsets(cells.cells, cells.rings.size() - 1) &&
-          io::are_offsets(cells.rings, cells.corners.size()) &&
+      !cells.rings.empty() && system::are_offsets(cells.cells, cells.rings.size() - 1) &&
+          system::are_offsets(cells.rings, cells.corners.size()) &&
           std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); }) &&
           io::are_unit_vectors(cells.points),
       "cells");

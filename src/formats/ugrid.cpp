@@ -136,16 +136,18 @@ void face_nodes(const mesh::MeshArrays& /*arrays*/, const CellCorners& corners, 
 
 void face_edges(const mesh::MeshArrays& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
-  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
-    const Index e = arrays.edges_on_cell[at];
+  for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+       at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
+    const Index e = arrays.edges_on_cell.values[at];
     if (arrays.vertex_distances[e] > 0) *out++ = static_cast<std::int32_t>(e);
   }
 }
 
 void face_faces(const mesh::MeshArrays& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
-  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
-    if (arrays.vertex_distances[arrays.edges_on_cell[at]] > 0) {
+  for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+       at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
+    if (arrays.vertex_distances[arrays.edges_on_cell.values[at]] > 0) {
       *out++ = static_cast<std::int32_t>(arrays.cells_on_cell[at]);
     }
   }

@@ -14,6 +14,7 @@
 #include "io/column_text.h"
 #include "io/number.h"
 #include "system/message_text.h"
+#include "system/row_assembly.h"
 
 namespace rondel::formats {
 namespace {
@@ -238,21 +239,20 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
   };
   Weights weights;
   weights.num_columns = num_columns;
-  weights.offsets.assign(num_rows + 1, 0);
+  system::RowPlaces places(num_rows);
   for (std::size_t k = 0; k < num_entries; ++k) {
     require("row", rows[k], num_rows, k);
     require("column", columns[k], num_columns, k);
-    ++weights.offsets[static_cast<std::size_t>(rows[k])];
+    places.count(static_cast<std::size_t>(rows[k] - 1));
   }
-  for (std::size_t r = 0; r < num_rows; ++r) weights.offsets[r + 1] += weights.offsets[r];
-  std::vector<std::uint64_t> next(weights.offsets.begin(), weights.offsets.end() - 1);
-  weights.columns.resize(num_entries);
+  weights.columns.resize(places.sum());
   weights.values.resize(num_entries);
   for (std::size_t k = 0; k < num_entries; ++k) {
-    const std::uint64_t at = next[static_cast<std::size_t>(rows[k] - 1)]++;
+    const std::uint64_t at = places.place(static_cast<std::size_t>(rows[k] - 1));
     weights.columns[at] = static_cast<Index>(columns[k] - 1);
     weights.values[at] = values[k];
   }
+  weights.offsets = std::move(places).offsets();
   return weights;
 }
 

@@ -287,7 +287,7 @@ Weights bilinear_weights(const LonLatAxes& grid, std::span<const LonLat> targets
   for (const LonLat& target : targets) {
     rectangles.find_entries(target, row);
     rectangles.append(row, weights);
-    weights.offsets.push_back(weights.columns.size());
+    weights.end_row();
   }
   return weights;
 }

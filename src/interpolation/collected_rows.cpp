@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <mutex>
-#include <numeric>
 #include <utility>
 
-#include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::interpolation {
 
@@ -16,7 +15,8 @@ CollectedRows::CollectedRows(const Ground& ground, SharedPlace shared) : ground_
   if (shared == SharedPlace::mean) shared_ = shared_places(ground);
 }
 
-void CollectedRows::append(const Row& row, RowList& list) const {
+void CollectedRows::append(Index target, const Row& row, RowList& list) const {
+  const std::size_t before = list.columns.size();
   for (const auto& [vertex, weight] : row) {
     const auto place = std::ranges::lower_bound(shared_, vertex, {}, &SharedSites::vertex);
     if (place == shared_.end() || place->vertex != vertex) {
@@ -29,6 +29,8 @@ void CollectedRows::append(const Row& row, RowList& list) const {
       list.values.push_back(weight / static_cast<double>(place->sites.size()));
     }
   }
+  list.targets.push_back(target);
+  list.sizes.push_back(static_cast<Index>(list.columns.size() - before));
 }
 
 void CollectedRows::add(RowList list) {
@@ -36,32 +38,14 @@ void CollectedRows::add(RowList list) {
   lists_.push_back(std::move(list));
 }
 
-// Lengths of rows are summed to offsets; then each list is copied to its places, in parallel.
-Weights CollectedRows::joined(std::size_t num_targets, unsigned threads) const {
+Weights CollectedRows::joined(std::size_t num_targets, unsigned threads) {
   Weights weights;
   weights.num_columns = ground_.num_sites();
-  weights.offsets.assign(num_targets + 1, 0);
-  for (const RowList& list : lists_) {
-    std::uint64_t begin = 0;
-    for (std::size_t k = 0; k < list.targets.size(); ++k) {
-      weights.offsets[list.targets[k] + std::size_t{1}] =
-          list.ends[k] - std::exchange(begin, list.ends[k]);
-    }
-  }
-  std::partial_sum(weights.offsets.begin(), weights.offsets.end(), weights.offsets.begin());
-  weights.columns.resize(weights.offsets.back());
-  weights.values.resize(weights.offsets.back());
-  system::parallel_for(threads, lists_.size(), 1, [&](std::size_t first, std::size_t /*last*/) {
-    const RowList& list = lists_[first];
-    std::uint64_t from = 0;
-    for (std::size_t k = 0; k < list.targets.size(); ++k) {
-      std::uint64_t to = weights.offsets[list.targets[k]];
-      for (; from < list.ends[k]; ++from, ++to) {
-        weights.columns[to] = list.columns[from];
-        weights.values[to] = list.values[from];
-      }
-    }
-  });
+  weights.offsets = system::join_rows(
+      threads, num_targets, std::move(lists_),
+      [](std::size_t /*list*/, const RowList& list, std::size_t k) { return list.targets[k]; },
+      system::JoinedColumn{&RowList::columns, weights.columns},
+      system::JoinedColumn{&RowList::values, weights.values});
   return weights;
 }
 

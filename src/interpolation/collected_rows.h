@@ -21,10 +21,10 @@
 
 namespace rondel::interpolation {
 
-// The rows of some targets: row k is that of targets[k] and ends before entry ends[k].
+// The rows of some targets: row k is that of targets[k] and has sizes[k] entries.
 struct RowList {
   std::vector<Index> targets;
-  std::vector<std::uint64_t> ends;
+  std::vector<Index> sizes;
   std::vector<Index> columns;
   std::vector<double> values;
 };
@@ -35,13 +35,13 @@ class CollectedRows {
   // all sites of its place, with equal parts of the weight.
   CollectedRows(const Ground& ground, SharedPlace shared);
 
-  // Appends the entries of a row to a list, with sites instead of vertices.
-  void append(const Row& row, RowList& list) const;
+  // Appends the row of a target to a list, with sites instead of vertices.
+  void append(Index target, const Row& row, RowList& list) const;
   // Takes over a finished list. Several threads may call this at once.
   void add(RowList list);
   // Returns the rows of targets 0 ... num_targets - 1; the row of a target that nobody added is
   // empty. Call this once, when all lists have been added.
-  [[nodiscard]] Weights joined(std::size_t num_targets, unsigned threads) const;
+  [[nodiscard]] Weights joined(std::size_t num_targets, unsigned threads);
 
  private:
   const Ground& ground_;

@@ -23,8 +23,7 @@ bool may_repeat(std::span<const Point> line) {
 // Appends a line unless it has too few points: a closed one has three, an open one two.
 void append_line(std::span<const Point> line, bool is_closed, TracedLines& out) {
   if (line.size() < (is_closed ? 3U : 2U)) return;
-  out.points.insert(out.points.end(), line.begin(), line.end());
-  out.ends.push_back(out.points.size());
+  out.lines.append(line);
   out.is_closed.push_back(is_closed ? 1 : 0);
 }
 

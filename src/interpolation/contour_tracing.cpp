@@ -217,7 +217,7 @@ TracedLines ContourTracer::rings(std::size_t region) {
         go_on(place, values);
       }
       append_simple_lines(ring, true, out);
-      out.component.resize(out.ends.size(), part_[piece_name(face, region)]);
+      out.component.resize(out.lines.size(), part_[piece_name(face, region)]);
     }
   }
   return out;

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "interpolation/contour_pieces.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -32,8 +33,7 @@ enum class RegionKind : std::uint8_t { band, from_level_on };
 
 // The lines or rings of one region, one after the other.
 struct TracedLines {
-  std::vector<Point> points;
-  std::vector<std::uint64_t> ends;      // line i ends before point ends[i]
+  CompressedRows<Point> lines;
   std::vector<std::uint8_t> is_closed;  // by line: whether it returns to its first point
   std::vector<std::uint64_t>
       component;  // by ring: the number of the connected part of the band that it borders

@@ -66,19 +66,14 @@ std::vector<TracedLines> traced_regions(std::size_t num_regions, const Execution
 void append_polygons(const TracedLines& rings, Bands& out) {
   std::unordered_map<std::uint64_t, std::size_t> polygon_of;
   std::vector<std::vector<std::size_t>> polygons;
-  for (std::size_t ring = 0; ring < rings.ends.size(); ++ring) {
+  for (std::size_t ring = 0; ring < rings.lines.size(); ++ring) {
     const auto [place, is_new] = polygon_of.try_emplace(rings.component[ring], polygons.size());
     if (is_new) polygons.emplace_back();
     polygons[place->second].push_back(ring);
   }
   for (const std::vector<std::size_t>& polygon : polygons) {
-    for (const std::size_t ring : polygon) {
-      const std::uint64_t begin = ring == 0 ? 0 : rings.ends[ring - 1];
-      out.points.insert(out.points.end(), rings.points.begin() + static_cast<std::ptrdiff_t>(begin),
-                        rings.points.begin() + static_cast<std::ptrdiff_t>(rings.ends[ring]));
-      out.ring_offsets.push_back(out.points.size());
-    }
-    out.polygon_offsets.push_back(out.ring_offsets.size() - 1);
+    for (const std::size_t ring : polygon) out.bands.rows.rows.append(rings.lines[ring]);
+    out.bands.rows.end_group();
   }
 }
 
@@ -105,11 +100,9 @@ Isolines isolines(const Triangulation& triangulation, std::span<const double> va
   Isolines out;
   out.levels.assign(levels.begin(), levels.end());
   for (const TracedLines& lines : traced) {
-    const std::uint64_t first = out.points.size();
-    out.points.insert(out.points.end(), lines.points.begin(), lines.points.end());
-    for (const std::uint64_t end : lines.ends) out.line_offsets.push_back(first + end);
+    out.lines.rows.append_rows(lines.lines);
+    out.lines.end_group();
     out.is_closed.insert(out.is_closed.end(), lines.is_closed.begin(), lines.is_closed.end());
-    out.level_offsets.push_back(out.num_lines());
   }
   return out;
 }
@@ -123,14 +116,14 @@ Bands bands(const Triangulation& triangulation, std::span<const double> values,
   const std::vector<TracedLines> traced = traced_regions(
       tracer.num_regions(), execution, [&](std::size_t region) { return tracer.rings(region); });
   const bool is_without_rings =
-      std::ranges::all_of(traced, [](const TracedLines& rings) { return rings.ends.empty(); });
+      std::ranges::all_of(traced, [](const TracedLines& rings) { return rings.lines.size() == 0; });
   const std::size_t whole = is_without_rings ? tracer.region_without_border() : traced.size();
   Bands out;
   out.levels.assign(levels.begin(), levels.end());
   for (std::size_t k = 0; k < traced.size(); ++k) {
     append_polygons(traced[k], out);
-    if (k == whole) out.polygon_offsets.push_back(out.ring_offsets.size() - 1);
-    out.band_offsets.push_back(out.num_polygons());
+    if (k == whole) out.bands.rows.end_group();
+    out.bands.end_group();
   }
   return out;
 }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Each source is given to its nearest target.
-#include <numeric>
+#include <utility>
 
 #include "rondel/regrid.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 
@@ -17,17 +18,16 @@ Weights nearest_d2s_weights(const Interpolator& targets, std::span<const Point> 
   weights.num_columns = sources.size();
   weights.sites_hash = nearest.targets_hash;
   weights.targets_hash = nearest.sites_hash;
-  weights.offsets.assign(nearest.num_columns + 1, 0);
-  for (const Index target : nearest.columns) ++weights.offsets[target + std::size_t{1}];
-  std::partial_sum(weights.offsets.begin(), weights.offsets.end(), weights.offsets.begin());
-  weights.columns.resize(nearest.columns.size());
-  weights.values.assign(nearest.columns.size(), 1);
-  std::vector<std::uint64_t> next(weights.offsets.begin(), weights.offsets.end() - 1);
+  system::RowPlaces places(nearest.num_columns);
+  for (const Index target : nearest.columns) places.count(target);
+  weights.columns.resize(places.sum());
+  weights.values.assign(weights.columns.size(), 1);
   for (std::size_t source = 0; source < nearest.num_rows(); ++source) {
     for (std::uint64_t k = nearest.offsets[source]; k < nearest.offsets[source + 1]; ++k) {
-      weights.columns[next[nearest.columns[k]]++] = static_cast<Index>(source);
+      weights.columns[places.place(nearest.columns[k])] = static_cast<Index>(source);
     }
   }
+  weights.offsets = std::move(places).offsets();
   return weights;
 }
 

@@ -10,6 +10,7 @@
 #include "interpolation/unity.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -129,13 +130,10 @@ Weights gradient_weights(const Ground& ground, const GradientRows& rows, unsigne
   const std::size_t n = ground.num_sites();
   Weights weights;
   weights.num_columns = n;
-  weights.offsets.resize(3 * n + 1);
   const auto size_of = [&](Index v) { return rows.offsets[v + std::size_t{1}] - rows.offsets[v]; };
-  for (Index i = 0; i < n; ++i) {
-    const std::uint64_t size = size_of(ground.vertex_of(i));
-    std::uint64_t* const offsets = &weights.offsets[3 * std::size_t{i}];
-    for (std::size_t c = 0; c < 3; ++c) offsets[c + 1] = offsets[c] + size;
-  }
+  weights.offsets = system::offsets_of(3 * n, [&](std::size_t row) {
+    return size_of(ground.vertex_of(static_cast<Index>(row / 3)));
+  });
   weights.columns.resize(weights.offsets.back());
   weights.values.resize(weights.offsets.back());
   system::parallel_for(threads, n, vertices_at_once, [&](std::size_t begin, std::size_t end) {

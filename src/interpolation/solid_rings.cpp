@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
-#include "system/parallel.h"
+#include "system/row_assembly.h"
 #include "topology/mesh.h"
 
 namespace rondel::interpolation {
@@ -24,6 +25,12 @@ std::vector<topology::Halfedge> corners_of(const Ground& ground) {
   }
   return corners;
 }
+
+// The stars of consecutive vertices.
+struct StarBlock {
+  std::vector<Index> sizes;
+  std::vector<Index> ends;
+};
 
 // Appends the other ends of the edges of solid faces around a vertex, counterclockwise.
 void append_star(const Ground& ground, topology::Halfedge first, std::vector<Index>& star) {
@@ -46,24 +53,23 @@ void append_star(const Ground& ground, topology::Halfedge first, std::vector<Ind
 SolidStars::SolidStars(const Ground& ground, unsigned threads) {
   const std::vector<topology::Halfedge> corners = corners_of(ground);
   const std::size_t n = ground.num_vertices();
-  std::vector<std::vector<Index>> pieces(system::num_pieces(n, stars_per_piece));
-  offsets_.assign(n + 1, 0);
+  std::vector<StarBlock> blocks(system::num_pieces(n, stars_per_piece));
   system::parallel_for(threads, n, stars_per_piece, [&](std::size_t begin, std::size_t end) {
-    std::vector<Index>& ends = pieces[begin / stars_per_piece];
+    auto& [sizes, ends] = blocks[begin / stars_per_piece];
+    sizes.reserve(end - begin);
     ends.reserve(6 * (end - begin) + 6);
     for (std::size_t v = begin; v < end; ++v) {
       const auto size = static_cast<std::ptrdiff_t>(ends.size());
       append_star(ground, corners[v], ends);
       std::rotate(ends.begin() + size, std::min_element(ends.begin() + size, ends.end()),
                   ends.end());
-      offsets_[v + 1] = ends.size() - static_cast<std::size_t>(size);
+      sizes.push_back(static_cast<Index>(ends.size() - static_cast<std::size_t>(size)));
     }
   });
-  for (std::size_t v = 0; v < n; ++v) offsets_[v + 1] += offsets_[v];
-  ends_.reserve(offsets_[n]);
-  for (const std::vector<Index>& piece : pieces) {
-    ends_.insert(ends_.end(), piece.begin(), piece.end());
-  }
+  rows_.offsets = system::join_rows(
+      threads, n, std::move(blocks),
+      [](std::size_t b, const StarBlock&, std::size_t k) { return b * stars_per_piece + k; },
+      system::JoinedColumn{&StarBlock::ends, rows_.values});
 }
 
 // About every second vertex has been found before, in no order that a processor could predict, so

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "interpolation/ground.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
 namespace rondel::interpolation {
@@ -28,14 +29,11 @@ class SolidStars {
   // Precondition: dimension 2.
   SolidStars(const Ground& ground, unsigned threads);
 
-  [[nodiscard]] std::size_t size() const { return offsets_.size() - 1; }
-  [[nodiscard]] std::span<const Index> operator[](Index v) const {
-    return {ends_.data() + offsets_[v], offsets_[v + 1] - offsets_[v]};
-  }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::span<const Index> operator[](Index v) const { return rows_[v]; }
 
  private:
-  std::vector<std::uint64_t> offsets_;
-  std::vector<Index> ends_;
+  CompressedRows<Index> rows_;  // the other ends of the edges at each vertex
 };
 
 // Finds several rings around a vertex. Each thread has its own, since it has an entry for every

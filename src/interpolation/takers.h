@@ -123,9 +123,7 @@ class WeightsTaker {
 
   void expect(Index /*target*/) const {}
   void take(Index target, const exact::SplitPoint& /*u*/, const Row& row) {
-    rows_.append(row, list_);
-    list_.targets.push_back(target);
-    list_.ends.push_back(list_.columns.size());
+    rows_.append(target, row, list_);
   }
   void take(Index target, const exact::SplitPoint& u, const SlopeRow& row) {
     take(target, u, join_(row));

@@ -3,6 +3,7 @@
 
 #include "rondel/weights.h"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "system/message_text.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -51,11 +53,12 @@ void require_rows(const Weights& weights) {
   const std::size_t num_entries = weights.columns.size();
   require_length("values", weights.values.size(), num_entries);
   const auto& offsets = weights.offsets;
-  if (offsets.empty() || offsets.front() != 0 || offsets.back() != num_entries) {
-    throw InvalidInput("the offsets do not go from 0 to " + std::to_string(num_entries));
-  }
-  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
-    if (offsets[r] > offsets[r + 1]) throw InvalidInput("the offsets decrease", r + 1);
+  if (!system::are_offsets(offsets, num_entries)) {
+    const auto row = std::ranges::is_sorted_until(offsets) - offsets.begin();
+    if (offsets.empty() || offsets.front() != 0 || offsets.back() != num_entries) {
+      throw InvalidInput("the offsets do not go from 0 to " + std::to_string(num_entries));
+    }
+    throw InvalidInput("the offsets decrease", static_cast<std::size_t>(row));
   }
   for (std::size_t k = 0; k < num_entries; ++k) {
     if (weights.columns[k] < weights.num_columns) continue;
@@ -153,7 +156,7 @@ void append_row(const Weights& from, std::size_t r, Weights& to) {
   const auto end = static_cast<std::ptrdiff_t>(from.offsets[r + 1]);
   to.columns.insert(to.columns.end(), from.columns.begin() + begin, from.columns.begin() + end);
   to.values.insert(to.values.end(), from.values.begin() + begin, from.values.begin() + end);
-  to.offsets.push_back(to.columns.size());
+  to.end_row();
 }
 
 }  // namespace
@@ -212,7 +215,7 @@ Weights renumbered(const Weights& weights, std::span<const Index> rows, std::siz
   result.values.reserve(weights.values.size());
   for (const std::size_t r : former) {
     if (r == none) {
-      result.offsets.push_back(result.columns.size());
+      result.end_row();
     } else {
       append_row(weights, r, result);
     }
@@ -244,7 +247,7 @@ Weights with_rows(const Weights& weights, std::span<const std::int32_t> mask,
     } else if (others != nullptr) {
       append_row(*others, r, result);
     } else {
-      result.offsets.push_back(result.columns.size());
+      result.end_row();
     }
   }
   return result;

@@ -10,6 +10,7 @@
 #include "io/ending.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel::io {
 
@@ -29,15 +30,14 @@ double checked_tolerance(double tolerance_deg) {
 void require_diagram(const Triangulation& triangulation, const Diagram& diagram) {
   const std::size_t n = triangulation.num_sites();
   const Cells& cells = diagram.cells;
-  const bool is_sized = diagram.areas.size() == n && cells.offsets.size() == n + 1 &&
-                        cells.offsets.front() == 0 && cells.offsets.back() == cells.rings.size() &&
+  const bool is_sized = diagram.areas.size() == n &&
+                        system::are_offsets(cells.rings.offsets, n, cells.rings.values.size()) &&
                         cells.points.size() >= triangulation.num_faces();
   const auto is_unit = [](const Point& p) {
     return std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) < 1e-6;
   };
-  if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
-      !std::ranges::all_of(cells.points, is_unit) ||
-      std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
+  if (!is_sized || !std::ranges::all_of(cells.points, is_unit) ||
+      std::ranges::any_of(cells.rings.values, [&](Index i) { return i >= cells.points.size(); })) {
     throw InvalidInput("the diagram is not that of the triangulation");
   }
 }

@@ -17,10 +17,10 @@ void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write) {
                        std::string_view bytes) {
     zip.add(name, make_npy_header(dtype, shape), bytes);
   };
-  add("offsets.npy", "<u8", std::array<std::uint64_t, 1>{cells.offsets.size()},
-      NumberBytes(cells.offsets));
-  add("rings.npy", "<u4", std::array<std::uint64_t, 1>{cells.rings.size()},
-      NumberBytes(cells.rings));
+  add("offsets.npy", "<u8", std::array<std::uint64_t, 1>{cells.rings.offsets.size()},
+      NumberBytes(cells.rings.offsets));
+  add("rings.npy", "<u4", std::array<std::uint64_t, 1>{cells.rings.values.size()},
+      NumberBytes(cells.rings.values));
   add("points.npy", "<f8", std::array<std::uint64_t, 2>{cells.points.size(), 3},
       NumberBytes(cells.points));
   add("areas.npy", "<f8", std::array<std::uint64_t, 1>{areas.size()}, NumberBytes(areas));

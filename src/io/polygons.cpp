@@ -18,8 +18,7 @@ constexpr std::size_t grain = 512;
 // Appends the polygons of an owner to the flat arrays.
 void append(LonLatPolygons& all, const std::vector<map::LonLatPolygon>& polygons, Index owner) {
   for (const map::LonLatPolygon& polygon : polygons) {
-    all.positions.insert(all.positions.end(), polygon.ring.begin(), polygon.ring.end());
-    all.offsets.push_back(all.positions.size());
+    all.rings.append(polygon.ring);
     all.owners.push_back(owner);
   }
 }
@@ -29,18 +28,15 @@ LonLatPolygons joined(const std::vector<LonLatPolygons>& pieces) {
   std::size_t num_positions = 0;
   std::size_t num_rings = 0;
   for (const LonLatPolygons& piece : pieces) {
-    num_positions += piece.positions.size();
+    num_positions += piece.rings.values.size();
     num_rings += piece.owners.size();
   }
   LonLatPolygons all;
-  all.positions.reserve(num_positions);
+  all.rings.values.reserve(num_positions);
   all.owners.reserve(num_rings);
-  all.offsets.reserve(num_rings + 1);
-  all.offsets.push_back(0);
+  all.rings.offsets.reserve(num_rings + 1);
   for (const LonLatPolygons& piece : pieces) {
-    const std::uint64_t before = all.positions.size();
-    for (const std::uint64_t end : piece.offsets) all.offsets.push_back(before + end);
-    all.positions.insert(all.positions.end(), piece.positions.begin(), piece.positions.end());
+    all.rings.append_rows(piece.rings);
     all.owners.insert(all.owners.end(), piece.owners.begin(), piece.owners.end());
   }
   return all;

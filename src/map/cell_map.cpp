@@ -59,10 +59,7 @@ bool CellMap::is_unchanged(std::size_t site) const {
          ((inner_points_.empty() && merged_.empty()) || !has_changed_arc(site));
 }
 
-std::span<const Index> CellMap::points_of(std::size_t site) const {
-  const std::uint64_t first = cells_.offsets[site];
-  return std::span(cells_.rings).subspan(first, cells_.offsets[site + 1] - first);
-}
+std::span<const Index> CellMap::points_of(std::size_t site) const { return cells_.rings[site]; }
 
 Index CellMap::representative(Index point) const {
   while (representatives_[point] != point) point = representatives_[point];
@@ -99,11 +96,11 @@ void CellMap::list_cells() {
 void CellMap::prefetch_listed(std::size_t cell) const {
   constexpr std::size_t prefetch_distance = 128;
   if (cell + 2 * prefetch_distance < cells_in_order_.size()) {
-    system::prefetch(&cells_.offsets[cells_in_order_[cell + 2 * prefetch_distance]]);
+    system::prefetch(&cells_.rings.offsets[cells_in_order_[cell + 2 * prefetch_distance]]);
   }
   if (cell + prefetch_distance < cells_in_order_.size()) {
     const Index site = cells_in_order_[cell + prefetch_distance];
-    system::prefetch(cells_.rings.data() + cells_.offsets[site]);
+    system::prefetch(cells_.rings.values.data() + cells_.rings.offsets[site]);
     system::prefetch(&directions_[site]);
   }
 }

@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
 #include "exact/vector.h"
 #include "map/arc.h"
 #include "order/along_the_curve.h"
+#include "rondel/compressed_rows.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::map {
 namespace {
@@ -25,28 +27,26 @@ bool is_before_in_space(const Point& p, const Point& q) {
 // Knows which points are joined by an arc of a ring in this direction.
 class OutgoingArcs {
  public:
-  explicit OutgoingArcs(const CellRings& cells) : begins_(cells.points.size() + 1) {
-    for (const Index from : cells.corners) ++begins_[from + std::size_t{1}];
-    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-    ends_.resize(cells.corners.size());
-    std::vector<std::uint64_t> places(begins_.begin(), begins_.end() - 1);
+  explicit OutgoingArcs(const CellRings& cells) {
+    system::RowPlaces places(cells.points.size());
+    for (const Index from : cells.corners) places.count(from);
+    ends_.values.resize(places.sum());
     for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
       for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
         const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
-        ends_[places[cells.corners[k]]++] = cells.corners[next];
+        ends_.values[places.place(cells.corners[k])] = cells.corners[next];
       }
     }
+    ends_.offsets = std::move(places).offsets();
   }
 
   [[nodiscard]] bool has(Index from, Index to) const {
-    const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(begins_[from]);
-    const auto last = ends_.begin() + static_cast<std::ptrdiff_t>(begins_[from + std::size_t{1}]);
-    return std::find(first, last, to) != last;
+    const std::span<const Index> ends = ends_[from];
+    return std::ranges::find(ends, to) != ends.end();
   }
 
  private:
-  std::vector<std::uint64_t> begins_;
-  std::vector<Index> ends_;
+  CompressedRows<Index> ends_;  // a row for each point
 };
 
 }  // namespace

@@ -32,6 +32,7 @@
 #include "system/arithmetic.h"
 #include "system/message_text.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -135,25 +136,25 @@ class Newton {
     const auto faces = now.triangulation.faces();
     const auto neighbors = now.triangulation.neighbors();
     WeightedGraph graph;
-    graph.offsets.assign(sites_.size() + 1, 0);
+    system::RowPlaces places(sites_.size());
     for (const Triple& face : faces) {
-      for (const Index v : face) ++graph.offsets[v + 1];
+      for (const Index v : face) places.count(v);
     }
-    for (std::size_t i = 0; i < sites_.size(); ++i) graph.offsets[i + 1] += graph.offsets[i];
-    graph.neighbors.resize(graph.offsets.back());
-    graph.weights.resize(graph.offsets.back());
+    graph.neighbors.resize(places.sum());
+    graph.weights.resize(graph.neighbors.size());
     graph.diagonal.assign(sites_.size(), 0);
-    std::vector<std::uint64_t> next(graph.offsets.begin(), graph.offsets.end() - 1);
     for (Index f = 0; f < faces.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index i = faces[f][(k + 1) % 3];
         const Index j = faces[f][(k + 2) % 3];
         const double weight = wall(now, i, j, centers[f], centers[neighbors[f][k]]);
-        graph.neighbors[next[i]] = j;
-        graph.weights[next[i]++] = weight;
+        const std::uint64_t at = places.place(i);
+        graph.neighbors[at] = j;
+        graph.weights[at] = weight;
         graph.diagonal[i] += weight;
       }
     }
+    graph.offsets = std::move(places).offsets();
     return graph;
   }
 

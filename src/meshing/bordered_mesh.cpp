@@ -90,11 +90,12 @@ class BorderedMeshMaker {
     for_each(size, [&](std::size_t i) {
       const Point& site = from_.sites[i];
       double area = 0;
-      for (std::uint64_t at = arrays_.offsets[i]; at < arrays_.offsets[i + 1]; ++at) {
+      for (std::uint64_t at = arrays_.edges_on_cell.offsets[i];
+           at < arrays_.edges_on_cell.offsets[i + 1]; ++at) {
         const Index v = arrays_.vertices_on_cell[at];
         const Point& corner = arrays_.vertex_points[v];
-        const Index before = arrays_.edges_on_cell[at];
-        const Index after = arrays_.edges_on_cell[from_.sides.next(static_cast<Index>(at))];
+        const Index before = arrays_.edges_on_cell.values[at];
+        const Index after = arrays_.edges_on_cell.values[from_.sides.next(static_cast<Index>(at))];
         const double kite =
             square * (exact::triangle_area(site, arrays_.edge_points[before], corner) +
                       exact::triangle_area(site, corner, arrays_.edge_points[after]));
@@ -121,7 +122,8 @@ class BorderedMeshMaker {
     for_each(from_.sites.size(), [&](std::size_t i) {
       const double allowed =
           corner_tolerance * mesh::spacing_of(arrays_.cell_areas[i]) / options_.radius;
-      for (std::uint64_t at = arrays_.offsets[i]; at < arrays_.offsets[i + 1]; ++at) {
+      for (std::uint64_t at = arrays_.edges_on_cell.offsets[i];
+           at < arrays_.edges_on_cell.offsets[i + 1]; ++at) {
         const Index v = arrays_.vertices_on_cell[at];
         const Point& corner = arrays_.vertex_points[v];
         const double least = distance_between(corner, from_.sites[nearest[v]]);

@@ -38,7 +38,8 @@ struct Offsets {
 // True if the densities of the cell and its neighbors differ.
 bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
   if (arrays.density.empty()) return false;
-  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
+  for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+       at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
     const Index beyond = arrays.cells_on_cell[at];
     if (beyond != no_index && arrays.density[beyond] != arrays.density[cell]) return true;
   }
@@ -66,8 +67,8 @@ Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);
   const Offsets offset{arrays, site};
-  const std::uint64_t begin = arrays.offsets[cell];
-  const std::uint64_t end = arrays.offsets[cell + 1];
+  const std::uint64_t begin = arrays.edges_on_cell.offsets[cell];
+  const std::uint64_t end = arrays.edges_on_cell.offsets[cell + 1];
   Vec weighted{0, 0, 0};
   Vec plain{0, 0, 0};
   double mass = 0;
@@ -95,8 +96,8 @@ void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& sha
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);
   const Offsets offset{arrays, site};
-  const std::uint64_t begin = arrays.offsets[cell];
-  const std::uint64_t end = arrays.offsets[cell + 1];
+  const std::uint64_t begin = arrays.edges_on_cell.offsets[cell];
+  const std::uint64_t end = arrays.edges_on_cell.offsets[cell + 1];
   Vec moment{0, 0, 0};
   Vec last = offset(end - 1);
   for (std::uint64_t at = begin; at < end; ++at) {
@@ -141,8 +142,9 @@ CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell) {
   double nearest = infinite;
   double farthest = 0;
   shape.least_edge_ratio = infinite;
-  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
-    const Index e = arrays.edges_on_cell[at];
+  for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+       at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
+    const Index e = arrays.edges_on_cell.values[at];
     const double side = arrays.vertex_distances[e];
     const double distance = arrays.cell_distances[e];
     least_side = std::min(least_side, side);

@@ -138,16 +138,17 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   require_points("vertex_points", threads, arrays.vertex_points, arrays.radius);
   require_size("cell_areas", arrays.cell_areas.size(), cells);
   if (!arrays.density.empty()) require_size("density", arrays.density.size(), cells);
-  require_size("offsets", arrays.offsets.size(), cells + 1);
+  require_size("offsets", arrays.edges_on_cell.offsets.size(), cells + 1);
   for (std::size_t i = 0; i < cells; ++i) {
     // A cell has three edges at least.
-    if (arrays.offsets[i] + 3 > arrays.offsets[i + 1] || arrays.offsets[0] != 0) {
+    if (arrays.edges_on_cell.offsets[i] + 3 > arrays.edges_on_cell.offsets[i + 1] ||
+        arrays.edges_on_cell.offsets[0] != 0) {
       throw InvalidInput(
           "the offsets of the mesh do not grow by three or more at cell " + std::to_string(i), i);
     }
   }
-  const auto entries = static_cast<std::size_t>(arrays.offsets.back());
-  require_size("edges_on_cell", arrays.edges_on_cell.size(), entries);
+  const auto entries = static_cast<std::size_t>(arrays.edges_on_cell.offsets.back());
+  require_size("edges_on_cell", arrays.edges_on_cell.values.size(), entries);
   require_size("cells_on_cell", arrays.cells_on_cell.size(), entries);
   require_size("vertices_on_cell", arrays.vertices_on_cell.size(), entries);
   require_size("cells_on_edge", arrays.cells_on_edge.size(), edges);
@@ -159,7 +160,7 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   require_size("edges_on_vertex", arrays.edges_on_vertex.size(), vertices);
   require_size("kite_areas", arrays.kite_areas.size(), vertices);
   require_size("triangle_areas", arrays.triangle_areas.size(), vertices);
-  require_indices("edges_on_cell", threads, arrays.edges_on_cell, edges);
+  require_indices("edges_on_cell", threads, arrays.edges_on_cell.values, edges);
   require_indices("cells_on_cell", threads, arrays.cells_on_cell, cells, None::allowed);
   require_indices("vertices_on_cell", threads, arrays.vertices_on_cell, vertices);
   require_indices("cells_on_edge", threads, arrays.cells_on_edge, cells, None::allowed);

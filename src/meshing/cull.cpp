@@ -14,6 +14,7 @@
 #include "rondel/mesh_cull.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -59,8 +60,9 @@ class Culler {
     for (std::size_t i = 0; i < from_.num_cells(); ++i) {
       if (is_removed_[i] != 0) continue;
       culled_.cells[i] = 0;
-      for (std::uint64_t at = from_.offsets[i]; at < from_.offsets[i + 1]; ++at) {
-        culled_.edges[from_.edges_on_cell[at]] = 0;
+      for (std::uint64_t at = from_.edges_on_cell.offsets[i];
+           at < from_.edges_on_cell.offsets[i + 1]; ++at) {
+        culled_.edges[from_.edges_on_cell.values[at]] = 0;
         culled_.vertices[from_.vertices_on_cell[at]] = 0;
       }
     }
@@ -95,18 +97,20 @@ class Culler {
     if (!from_.density.empty()) {
       keep_values(culled_.cells, num_cells_, from_.density, to_.density);
     }
-    to_.offsets.reserve(num_cells_ + 1);
-    for (std::size_t i = 0; i < from_.num_cells(); ++i) {
-      if (culled_.cells[i] == no_index) continue;
-      to_.offsets.push_back(to_.offsets.back() + (from_.offsets[i + 1] - from_.offsets[i]));
-    }
-    to_.edges_on_cell.resize(to_.offsets.back());
-    to_.cells_on_cell.resize(to_.offsets.back());
-    to_.vertices_on_cell.resize(to_.offsets.back());
+    auto& offsets = to_.edges_on_cell.offsets;
+    offsets.assign(num_cells_ + 1, 0);
     for_each_kept(culled_.cells, [&](std::size_t i, Index number) {
-      std::uint64_t out = to_.offsets[number];
-      for (std::uint64_t at = from_.offsets[i]; at < from_.offsets[i + 1]; ++at, ++out) {
-        to_.edges_on_cell[out] = culled_.edges[from_.edges_on_cell[at]];
+      offsets[number + 1] = from_.edges_on_cell[i].size();
+    });
+    system::sum_counts(offsets);
+    to_.edges_on_cell.values.resize(to_.edges_on_cell.offsets.back());
+    to_.cells_on_cell.resize(to_.edges_on_cell.offsets.back());
+    to_.vertices_on_cell.resize(to_.edges_on_cell.offsets.back());
+    for_each_kept(culled_.cells, [&](std::size_t i, Index number) {
+      std::uint64_t out = to_.edges_on_cell.offsets[number];
+      for (std::uint64_t at = from_.edges_on_cell.offsets[i];
+           at < from_.edges_on_cell.offsets[i + 1]; ++at, ++out) {
+        to_.edges_on_cell.values[out] = culled_.edges[from_.edges_on_cell.values[at]];
         to_.cells_on_cell[out] = renumbered(culled_.cells, from_.cells_on_cell[at]);
         to_.vertices_on_cell[out] = culled_.vertices[from_.vertices_on_cell[at]];
       }

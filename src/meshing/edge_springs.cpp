@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -32,7 +33,7 @@ void EdgeSprings::measure(const MovingSurface& surface, std::span<const Point> s
   for (const Triple& face : faces) {
     for (const Index v : face) ++offsets_[v + 1];
   }
-  for (std::size_t i = 0; i < n; ++i) offsets_[i + 1] += offsets_[i];
+  system::sum_counts(offsets_);
   springs_.resize(offsets_.back());
   softness_.resize(n);
   const auto density = [&](std::size_t i) {

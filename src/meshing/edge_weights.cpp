@@ -15,6 +15,7 @@
 #include "meshing/mesh_arrays.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel::meshing {
 namespace {
@@ -35,7 +36,9 @@ std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
   std::size_t count = 0;
   for (const Index cell : arrays.cells_on_edge[edge]) {
     if (cell == no_index) continue;
-    count += static_cast<std::size_t>(arrays.offsets[cell + 1] - arrays.offsets[cell]) - 1;
+    count += static_cast<std::size_t>(arrays.edges_on_cell.offsets[cell + 1] -
+                                      arrays.edges_on_cell.offsets[cell]) -
+             1;
   }
   return count;
 }
@@ -46,10 +49,10 @@ void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<I
   for (std::size_t side = 0; side < 2; ++side) {
     const Index cell = arrays.cells_on_edge[edge][side];
     if (cell == no_index) continue;
-    const std::uint64_t begin = arrays.offsets[cell];
-    const std::uint64_t end = arrays.offsets[cell + 1];
+    const std::uint64_t begin = arrays.edges_on_cell.offsets[cell];
+    const std::uint64_t end = arrays.edges_on_cell.offsets[cell + 1];
     std::uint64_t at = begin;
-    while (at < end && arrays.edges_on_cell[at] != edge) ++at;
+    while (at < end && arrays.edges_on_cell.values[at] != edge) ++at;
     if (at == end) {
       throw InvalidInput("edge " + std::to_string(edge) +
                              " of the mesh is not among those of cell " + std::to_string(cell),
@@ -59,7 +62,7 @@ void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<I
     for (std::uint64_t left = end - begin - 1; left > 0; --left, ++out) {
       if (!weights.empty()) sum += kite_of(arrays, arrays.vertices_on_cell[at], cell);
       at = at + 1 < end ? at + 1 : begin;
-      const Index other = arrays.edges_on_cell[at];
+      const Index other = arrays.edges_on_cell.values[at];
       if (!edges.empty()) edges[out] = other;
       if (weights.empty()) continue;
       const bool is_leaving = arrays.cells_on_edge[other][0] == cell;
@@ -78,19 +81,18 @@ TangentialWeights tangential_weights(const MeshArrays& arrays, const Execution& 
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   TangentialWeights result;
-  result.offsets.resize(arrays.num_edges() + 1);
-  for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
-    result.offsets[e + 1] = result.offsets[e] + meshing::num_weights(arrays, e);
-  }
-  result.edges.resize(result.offsets.back());
-  result.weights.resize(result.offsets.back());
+  auto& [offsets, edges] = result.edges;
+  offsets = system::offsets_of(arrays.num_edges(),
+                               [&](std::size_t e) { return meshing::num_weights(arrays, e); });
+  edges.resize(offsets.back());
+  result.weights.resize(offsets.back());
   system::parallel_for(
       execution.threads, arrays.num_edges(), meshing::weights_grain,
       [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
-          const auto first = static_cast<std::size_t>(result.offsets[e]);
-          const auto size = static_cast<std::size_t>(result.offsets[e + 1]) - first;
-          meshing::write_weights(arrays, e, std::span(result.edges).subspan(first, size),
+          const auto first = static_cast<std::size_t>(result.edges.offsets[e]);
+          const auto size = static_cast<std::size_t>(result.edges.offsets[e + 1]) - first;
+          meshing::write_weights(arrays, e, std::span(result.edges.values).subspan(first, size),
                                  std::span(result.weights).subspan(first, size));
         }
       });

@@ -206,12 +206,9 @@ class PartJoin {
 std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
   std::vector<OutlinePoints> lines;
   std::vector<OutlinePoints> closed;
-  const FeatureLines& given = features.lines;
-  for (std::size_t i = 0; i + 1 < given.lines.size(); ++i) {
-    const auto at = [&](std::uint64_t p) {
-      return given.points.begin() + static_cast<std::ptrdiff_t>(p);
-    };
-    OutlinePoints line(at(given.lines[i]), at(given.lines[i + 1]));
+  const CompressedRows<Point>& given = features.lines.rows;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    OutlinePoints line(given[i].begin(), given[i].end());
     const bool is_closed = line.size() > 3 && line.front() == line.back();
     (is_closed ? closed : lines).push_back(std::move(line));
   }

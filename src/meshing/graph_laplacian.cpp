@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "meshing/tangent.h"
+#include "rondel/compressed_rows.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -77,20 +79,20 @@ std::vector<Index> groups_of(const WeightedGraph& graph, Index& num_groups) {
 // vertices.
 WeightedGraph coarse_graph(const WeightedGraph& fine, const std::vector<Index>& group,
                            std::size_t num_groups) {
-  std::vector<std::uint64_t> starts(num_groups + 1, 0);
-  for (const Index g : group) ++starts[g + 1];
-  for (std::size_t g = 0; g < num_groups; ++g) starts[g + 1] += starts[g];
-  std::vector<Index> members(group.size());
-  std::vector<std::uint64_t> next(starts.begin(), starts.end() - 1);
-  for (std::size_t i = 0; i < group.size(); ++i) members[next[group[i]]++] = static_cast<Index>(i);
+  system::RowPlaces places(num_groups);
+  for (const Index g : group) places.count(g);
+  CompressedRows<Index> members;
+  members.values.resize(places.sum());
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    members.values[places.place(group[i])] = static_cast<Index>(i);
+  }
+  members.offsets = std::move(places).offsets();
 
   WeightedGraph coarse;
-  coarse.offsets.push_back(0);
   std::vector<std::uint64_t> place(num_groups, 0);  // 1 + the position of this neighbor in the row
   for (std::size_t g = 0; g < num_groups; ++g) {
     const std::size_t begin = coarse.neighbors.size();
-    for (auto m = starts[g]; m < starts[g + 1]; ++m) {
-      const Index i = members[m];
+    for (const Index i : members[g]) {
       for (auto k = fine.offsets[i]; k < fine.offsets[i + 1]; ++k) {
         const Index h = group[fine.neighbors[k]];
         if (h == g) continue;
@@ -105,7 +107,7 @@ WeightedGraph coarse_graph(const WeightedGraph& fine, const std::vector<Index>& 
     double sum = 0;
     for (std::size_t k = begin; k < coarse.weights.size(); ++k) sum += coarse.weights[k];
     coarse.diagonal.push_back(sum);
-    coarse.offsets.push_back(coarse.neighbors.size());
+    coarse.end_row();
   }
   return coarse;
 }

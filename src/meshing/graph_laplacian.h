@@ -23,12 +23,13 @@ namespace rondel::mesh {
 // A graph in compressed rows: the neighbors of vertex i are neighbors[offsets[i]] ...
 // [offsets[i+1]-1], each edge is in both rows.
 struct WeightedGraph {
-  std::vector<std::uint64_t> offsets;
+  std::vector<std::uint64_t> offsets = {0};
   std::vector<Index> neighbors;
   std::vector<double> weights;
   std::vector<double> diagonal;  // sum of the weights of each row
 
   [[nodiscard]] std::size_t size() const { return diagonal.size(); }
+  void end_row() { offsets.push_back(neighbors.size()); }
 };
 
 // Solves equations with one Laplacian; the coarser graphs are made once.

@@ -25,6 +25,7 @@
 #include "system/job.h"
 #include "system/large_arrays.h"
 #include "system/message_text.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -91,7 +92,7 @@ class MeshMaker {
       }
       firsts[begin / mesh_grain + 1] = count;
     });
-    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+    system::sum_counts(firsts);
     in_pieces(faces_.size(), [&](std::size_t begin, std::size_t end) {
       Index next = firsts[begin / mesh_grain];
       for (std::size_t f = begin; f < end; ++f) {
@@ -218,14 +219,14 @@ class MeshMaker {
     const auto order = sites_.order();
     arrays_.cell_points.resize(size);
     arrays_.cell_areas.resize(size);
-    arrays_.offsets.assign(size + 1, 0);
+    arrays_.edges_on_cell.offsets.assign(size + 1, 0);
     for (std::size_t k = 0; k < order.size(); ++k) {
-      arrays_.offsets[order[k] + 1] = sites_.degree(static_cast<Index>(k));
+      arrays_.edges_on_cell.offsets[order[k] + 1] = sites_.degree(static_cast<Index>(k));
     }
-    std::partial_sum(arrays_.offsets.begin(), arrays_.offsets.end(), arrays_.offsets.begin());
-    arrays_.edges_on_cell.resize(arrays_.offsets.back());
-    arrays_.cells_on_cell.resize(arrays_.offsets.back());
-    arrays_.vertices_on_cell.resize(arrays_.offsets.back());
+    system::sum_counts(arrays_.edges_on_cell.offsets);
+    arrays_.edges_on_cell.values.resize(arrays_.edges_on_cell.offsets.back());
+    arrays_.cells_on_cell.resize(arrays_.edges_on_cell.offsets.back());
+    arrays_.vertices_on_cell.resize(arrays_.edges_on_cell.offsets.back());
     in_pieces(order.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) set_cell(static_cast<Index>(k));
     });
@@ -235,12 +236,13 @@ class MeshMaker {
   // cell across this edge.
   void set_cell(Index rank) {
     const Index site = sites_.order()[rank];
-    std::uint64_t at = arrays_.offsets[site];
+    std::uint64_t at = arrays_.edges_on_cell.offsets[site];
     Index f = sites_.first_face(rank);
     double area = 0;
     for (Index left = sites_.degree(rank); left > 0; --left, ++at) {
       const Index i = corner_of(faces_[f], site);
-      arrays_.edges_on_cell[at] = edges_of_[3 * static_cast<std::size_t>(f) + previous_corner(i)];
+      arrays_.edges_on_cell.values[at] =
+          edges_of_[3 * static_cast<std::size_t>(f) + previous_corner(i)];
       arrays_.cells_on_cell[at] = faces_[f][next_corner(i)];
       arrays_.vertices_on_cell[at] = f;
       area += arrays_.kite_areas[f][i];
@@ -286,8 +288,8 @@ void require_mesh(const Triangulation& triangulation, const MeshOptions& options
 
 std::size_t MeshArrays::max_edges() const {
   std::uint64_t most = 0;
-  for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
-    most = std::max(most, offsets[i + 1] - offsets[i]);
+  for (std::size_t i = 0; i < edges_on_cell.size(); ++i) {
+    most = std::max<std::uint64_t>(most, edges_on_cell[i].size());
   }
   return static_cast<std::size_t>(most);
 }

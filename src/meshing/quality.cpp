@@ -152,7 +152,8 @@ class QualityFinder {
   void add_cell(std::size_t i, PieceQuality& part) {
     const meshing::CellShape shape = meshing::shape_of(arrays_, i);
     Quality& found = part.found;
-    const auto sides = static_cast<std::size_t>(arrays_.offsets[i + 1] - arrays_.offsets[i]);
+    const auto sides = static_cast<std::size_t>(arrays_.edges_on_cell.offsets[i + 1] -
+                                                arrays_.edges_on_cell.offsets[i]);
     if (found.sides.size() <= sides) found.sides.resize(sides + 1);
     ++found.sides[sides];
     found.energy += shape.energy;
@@ -163,7 +164,8 @@ class QualityFinder {
     found.min_spacing = std::min(found.min_spacing, shape.spacing);
     found.max_spacing = std::max(found.max_spacing, shape.spacing);
     double kites = 0;
-    for (std::uint64_t at = arrays_.offsets[i]; at < arrays_.offsets[i + 1]; ++at) {
+    for (std::uint64_t at = arrays_.edges_on_cell.offsets[i];
+         at < arrays_.edges_on_cell.offsets[i + 1]; ++at) {
       const Index v = arrays_.vertices_on_cell[at];
       const Triple& cells = arrays_.cells_on_vertex[v];
       const std::size_t k = cells[0] == i ? 0 : cells[1] == i ? 1 : 2;

@@ -25,11 +25,13 @@
 #include "exact/angles.h"
 #include "exact/vector.h"
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::mesh {
 namespace {
@@ -149,21 +151,20 @@ class RegionSites {
     num_bins_ = std::clamp<std::size_t>(edges_.size(), 1, most_bins);
     std::vector<std::array<std::size_t, 2>> spans;  // first bin and number of bins
     spans.reserve(edges_.size());
-    begins_of_bins_.assign(num_bins_ + 1, 0);
+    system::RowPlaces places(num_bins_);
     for (const RegionEdge& edge : edges_) {
       spans.push_back(bins_of(edge));
       for (std::size_t j = 0; j < spans.back()[1]; ++j) {
-        ++begins_of_bins_[(spans.back()[0] + j) % num_bins_ + 1];
+        places.count((spans.back()[0] + j) % num_bins_);
       }
     }
-    for (std::size_t b = 0; b < num_bins_; ++b) begins_of_bins_[b + 1] += begins_of_bins_[b];
-    in_bins_.resize(begins_of_bins_.back());
-    std::vector<std::size_t> next(begins_of_bins_.begin(), begins_of_bins_.end() - 1);
+    in_bins_.values.resize(places.sum());
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       for (std::size_t j = 0; j < spans[e][1]; ++j) {
-        in_bins_[next[(spans[e][0] + j) % num_bins_]++] = e;
+        in_bins_.values[places.place((spans[e][0] + j) % num_bins_)] = e;
       }
     }
+    in_bins_.offsets = std::move(places).offsets();
   }
 
   // Returns the bins of an edge, which goes the shorter way around the pole; if it is not clear
@@ -197,8 +198,8 @@ class RegionSites {
     const auto bin =
         static_cast<std::size_t>(azimuth(q) * static_cast<double>(num_bins_)) % num_bins_;
     int change = 0;
-    for (std::size_t k = begins_of_bins_[bin]; k < begins_of_bins_[bin + 1]; ++k) {
-      if (!add_crossing(edges_[in_bins_[k]], q, poles[0], change)) return std::nullopt;
+    for (const std::size_t e : in_bins_[bin]) {
+      if (!add_crossing(edges_[e], q, poles[0], change)) return std::nullopt;
     }
     return change;
   }
@@ -253,8 +254,7 @@ class RegionSites {
   std::vector<RegionEdge> edges_;
   PolarFrame frame_;
   std::size_t num_bins_ = 0;
-  std::vector<std::size_t> begins_of_bins_;
-  std::vector<std::size_t> in_bins_;
+  CompressedRows<std::size_t> in_bins_;
   std::array<int, poles.size()> depths_{};
 };
 

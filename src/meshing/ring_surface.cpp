@@ -9,6 +9,7 @@
 #include <string>
 
 #include "io/bad_value.h"
+#include "system/row_assembly.h"
 
 namespace rondel::meshing {
 namespace {
@@ -24,21 +25,18 @@ namespace {
 RingSides::RingSides(const CellRings& cells) : cells_(cells) {
   if (cells.corners.size() >= no_index) throw io::BadValue("more than 2^32 - 2 corners of cells");
   cell_of_.resize(cells.corners.size());
-  begins_.assign(cells.points.size() + 1, 0);
+  system::RowPlaces<Index> places(cells.points.size());
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     for (std::uint64_t k = cells.rings[i]; k < cells.rings[i + 1]; ++k) {
       cell_of_[k] = static_cast<Index>(i);
-      ++begins_[cells.corners[k] + 1];
+      places.count(cells.corners[k]);
     }
   }
-  for (std::size_t corner = 0; corner + 1 < begins_.size(); ++corner) {
-    begins_[corner + 1] += begins_[corner];
-  }
-  ending_.resize(cells.corners.size());
-  std::vector<Index> ends(begins_.begin(), begins_.end() - 1);
+  ending_.resize(places.sum());
   for (std::size_t side = 0; side < cells.corners.size(); ++side) {
-    ending_[ends[cells.corners[side]]++] = static_cast<Index>(side);
+    ending_[places.place(cells.corners[side])] = static_cast<Index>(side);
   }
+  begins_ = std::move(places).offsets();
   find_opposites();
 }
 
@@ -71,7 +69,7 @@ Index RingSides::find_opposite(Index side) const {
 }
 
 void RingSides::set_lists(mesh::MeshArrays& arrays) const {
-  arrays.offsets = cells_.rings;
+  arrays.edges_on_cell.offsets = cells_.rings;
   arrays.vertices_on_cell.assign(num_sides(), no_index);
   for (Index corner = 0; corner + 1 < begins_.size(); ++corner) add_vertices(corner, arrays);
   number_edges(arrays);
@@ -124,7 +122,7 @@ void RingSides::add_vertex(Index first, std::size_t count, mesh::MeshArrays& arr
 
 // Numbers edges in the order of the first of their two vertices.
 void RingSides::number_edges(mesh::MeshArrays& arrays) const {
-  arrays.edges_on_cell.assign(num_sides(), no_index);
+  arrays.edges_on_cell.values.assign(num_sides(), no_index);
   arrays.edges_on_vertex.assign(arrays.num_vertices(), {no_index, no_index, no_index});
   std::vector<Index> first_sides(arrays.num_vertices(), no_index);
   for (Index side = 0; side < num_sides(); ++side) {
@@ -132,12 +130,12 @@ void RingSides::number_edges(mesh::MeshArrays& arrays) const {
     if (arrays.cells_on_vertex[v][0] == cell_of(side)) first_sides[v] = side;
   }
   const auto number = [&](Index side) {
-    Index& edge = arrays.edges_on_cell[side];
+    Index& edge = arrays.edges_on_cell.values[side];
     if (edge != no_index) return edge;
     edge = static_cast<Index>(arrays.cells_on_edge.size());
     const Index other = opposite(side);
     const bool is_first = other == no_index || cell_of(side) < cell_of(other);
-    if (other != no_index) arrays.edges_on_cell[other] = edge;
+    if (other != no_index) arrays.edges_on_cell.values[other] = edge;
     const Index ring_side = is_first ? side : other;
     arrays.cells_on_edge.push_back(
         {cell_of(ring_side), other == no_index ? no_index : cell_of(is_first ? other : side)});

@@ -59,10 +59,10 @@ class MeasureCheck {
   void check_area(std::size_t cell) const {
     constexpr double most = 2;
     const Point site = unit(arrays_.cell_points[cell]);
-    const std::uint64_t end = arrays_.offsets[cell + 1];
+    const std::uint64_t end = arrays_.edges_on_cell.offsets[cell + 1];
     Point last = unit(arrays_.vertex_points[arrays_.vertices_on_cell[end - 1]]);
     double area = 0;
-    for (std::uint64_t at = arrays_.offsets[cell]; at < end; ++at) {
+    for (std::uint64_t at = arrays_.edges_on_cell.offsets[cell]; at < end; ++at) {
       const Point corner = unit(arrays_.vertex_points[arrays_.vertices_on_cell[at]]);
       area += exact::triangle_area(site, last, corner);
       last = corner;

@@ -17,8 +17,10 @@
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "overlay/same_nodes.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -41,8 +43,7 @@ struct NamedSide {
 // All points in the order of their coordinates, and the sides of each key in compressed rows.
 struct Named {
   std::vector<Point> points;
-  std::vector<std::uint64_t> offsets;
-  std::vector<NamedSide> links;
+  CompressedRows<NamedSide> links;
 };
 
 // Replaces the ends of arcs by the places of equal points in the order of coordinates.
@@ -66,15 +67,14 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
     names[place] = static_cast<Index>(result.points.size());
     result.points.push_back(places.values[place]);
   }
-  result.offsets.assign(num_keys + 1, 0);
-  for (const KeyedArc& arc : arcs) ++result.offsets[arc.key + std::size_t{1}];
-  for (std::size_t k = 0; k < num_keys; ++k) result.offsets[k + 1] += result.offsets[k];
-  std::vector<std::uint64_t> next(result.offsets.begin(), result.offsets.end() - 1);
-  result.links.resize(arcs.size());
+  system::RowPlaces links(num_keys);
+  for (const KeyedArc& arc : arcs) links.count(arc.key);
+  result.links.values.resize(links.sum());
   for (std::size_t k = 0; k < arcs.size(); ++k) {
-    result.links[next[arcs[k].key]++] = {names[places.numbers[2 * k]],
-                                         names[places.numbers[2 * k + 1]]};
+    result.links.values[links.place(arcs[k].key)] = {names[places.numbers[2 * k]],
+                                                     names[places.numbers[2 * k + 1]]};
   }
+  result.links.offsets = std::move(links).offsets();
   return result;
 }
 
@@ -250,8 +250,7 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
   system::parallel_for(threads, num_keys, keys_per_block, [&](std::size_t begin, std::size_t end) {
     RingMaker make(all.points);
     for (std::size_t key = begin; key < end; ++key) {
-      const std::size_t first = all.offsets[key];
-      rings[key] = make(std::span(all.links).subspan(first, all.offsets[key + 1] - first), key);
+      rings[key] = make(all.links[key], key);
     }
   });
   CellRings result;

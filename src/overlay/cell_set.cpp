@@ -22,6 +22,7 @@
 #include "system/job.h"
 #include "system/message_text.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace overlay {
@@ -159,11 +160,11 @@ using overlay::Subdivision;
 CellRings rings_of(Cells cells) {
   CellRings rings;
   rings.points = std::move(cells.points);
-  rings.corners = std::move(cells.rings);
-  for (std::size_t i = 0; i + 1 < cells.offsets.size(); ++i) {
-    if (cells.offsets[i + 1] > cells.offsets[i]) rings.rings.push_back(cells.offsets[i + 1]);
+  for (std::size_t i = 0; i < cells.rings.size(); ++i) {
+    if (!cells.rings[i].empty()) rings.rings.push_back(cells.rings.offsets[i + 1]);
     rings.end_cell();
   }
+  rings.corners = std::move(cells.rings.values);
   return rings;
 }
 
@@ -191,12 +192,8 @@ bool is_arc(const Point& p, const Point& q) {
 
 // Throws InvalidInput, with the cell, for arrays that are no valid cells.
 void validate(const CellRings& cells) {
-  const auto is_sound = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
-    return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
-           std::ranges::is_sorted(offsets);
-  };
-  if (cells.rings.empty() || !is_sound(cells.cells, cells.rings.size() - 1) ||
-      !is_sound(cells.rings, cells.corners.size())) {
+  if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
+      !system::are_offsets(cells.rings, cells.corners.size())) {
     throw InvalidInput("the offsets of cells and rings do not fit");
   }
   if (cells.corners.size() >= no_index) throw InvalidInput("there are too many corners");

@@ -17,6 +17,7 @@
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -65,12 +66,8 @@ std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
 
 // Returns the sides of all cells. Throws InvalidInput if the arrays are no compressed rows.
 std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {
-  const auto fits = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
-    return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
-           std::ranges::is_sorted(offsets);
-  };
-  if (cells.rings.empty() || !fits(cells.cells, cells.rings.size() - 1) ||
-      !fits(cells.rings, cells.corners.size()) ||
+  if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
+      !system::are_offsets(cells.rings, cells.corners.size()) ||
       !std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); })) {
     throw InvalidInput("the arrays of the cells do not fit");
   }

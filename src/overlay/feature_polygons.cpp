@@ -218,8 +218,8 @@ class FeatureCells {
     DividedSides divided = divide_for_areas(
         sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
     share_polar_corners(sides, divided);
-    std::vector<Point> corners(divided.positions.size());
-    std::ranges::transform(divided.positions, corners.begin(),
+    std::vector<Point> corners(divided.values.size());
+    std::ranges::transform(divided.values, corners.begin(),
                            [](const LonLat& p) { return unit_vector(p); });
     std::vector<KeyedArc> arcs;
     for (std::size_t s = 0; s < sides.size(); ++s) {

@@ -10,7 +10,6 @@
 //       order
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -18,14 +17,14 @@
 
 #include "exact/eft.h"
 #include "overlay/pieces.h"
-#include "system/parallel.h"
+#include "system/row_assembly.h"
 #include "system/stage_progress.h"
 
 namespace rondel::overlay {
 
 // The pieces of a block of cells, in the order of the cells.
 struct RowBlock {
-  std::vector<Index> counts;  // the number of pieces of each cell
+  std::vector<Index> sizes;  // the number of pieces of each cell
   // The column of each piece.
   std::vector<Index> columns;
   // The place of each piece.
@@ -62,7 +61,6 @@ PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, 
   const std::size_t n = cells.num_cells();
   std::vector<RowBlock> blocks(system::num_pieces(n, cells_per_row_block));
   PieceRows result;
-  result.offsets.assign(n + 1, 0);
   result.row_sums.assign(n, 0);
   system::StageProgress progress(execution.progress, "cut", blocks.size());
   system::parallel_for(execution.threads, n, cells_per_row_block,
@@ -83,32 +81,20 @@ PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, 
                                ++count;
                              }
                            }
-                           block.counts.push_back(count);
-                           result.offsets[cells.names[c] + std::size_t{1}] = count;
+                           block.sizes.push_back(count);
                            result.row_sums[cells.names[c]] = sum.hi + sum.lo;
                          }
                          progress.step();
                        });
-  for (std::size_t i = 0; i < n; ++i) result.offsets[i + 1] += result.offsets[i];
   result.column_sums = column_sums(blocks, names);
-  result.columns.resize(result.offsets[n]);
-  result.areas.resize(result.offsets[n]);
-  if (has_moments) result.moments.resize(result.offsets[n]);
-  system::parallel_for(
-      execution.threads, n, cells_per_row_block, [&](std::size_t begin, std::size_t end) {
-        RowBlock block = std::move(blocks[begin / cells_per_row_block]);
-        auto from = std::ptrdiff_t{0};
-        for (std::size_t c = begin; c < end; ++c) {
-          const auto to = static_cast<std::ptrdiff_t>(result.offsets[cells.names[c]]);
-          const Index size = block.counts[c - begin];
-          std::copy_n(block.columns.begin() + from, size, result.columns.begin() + to);
-          std::copy_n(block.areas.begin() + from, size, result.areas.begin() + to);
-          if (has_moments) {
-            std::copy_n(block.moments.begin() + from, size, result.moments.begin() + to);
-          }
-          from += size;
-        }
-      });
+  result.offsets = system::join_rows(
+      execution.threads, n, std::move(blocks),
+      [&](std::size_t b, const RowBlock&, std::size_t k) {
+        return cells.names[b * cells_per_row_block + k];
+      },
+      system::JoinedColumn{&RowBlock::columns, result.columns},
+      system::JoinedColumn{&RowBlock::areas, result.areas},
+      system::JoinedColumn{&RowBlock::moments, result.moments});
   return result;
 }
 

@@ -145,7 +145,7 @@ void append_row(const std::vector<BoxPiece>& row, bool has_moments, PieceRows& r
     result.areas.push_back(piece.area);
     if (has_moments) result.moments.push_back(piece.moment);
   }
-  result.offsets.push_back(result.columns.size());
+  result.end_row();
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "exact/vector.h"
 #include "overlay/index_numbers.h"
 #include "overlay/ranks.h"
-#include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::size_t rows_per_block = 1024;
 
 // Consecutive rows of weights.
 struct LinearRows {
-  std::vector<Index> counts;
+  std::vector<Index> sizes;
   std::vector<Index> columns;
   std::vector<double> values;
 };
@@ -37,8 +37,9 @@ class LinearRowMaker {
   void append(std::size_t target, double area, LinearRows& rows) {
     numbers_.clear();
     sums_.clear();
-    for (std::uint64_t k = remap_.offsets[target]; k < remap_.offsets[target + 1]; ++k) {
-      const Index source = remap_.columns[k];
+    for (std::uint64_t k = remap_.pieces.offsets[target]; k < remap_.pieces.offsets[target + 1];
+         ++k) {
+      const Index source = remap_.pieces.values[k];
       double own = remap_.areas[k];
       const std::uint64_t end = gradients_.offsets[source + std::size_t{1}];
       for (std::uint64_t g = gradients_.offsets[source]; g < end; ++g) {
@@ -64,7 +65,7 @@ class LinearRowMaker {
   void put_in_order(LinearRows& rows) {
     const std::span<const Index> sources = numbers_.keys();
     const std::size_t begin = rows.columns.size();
-    rows.counts.push_back(static_cast<Index>(sources.size()));
+    rows.sizes.push_back(static_cast<Index>(sources.size()));
     rows.columns.resize(begin + sources.size());
     rows.values.resize(begin + sources.size());
     const auto put = [&](std::size_t place, std::size_t number) {
@@ -98,30 +99,19 @@ Weights linear_weights(const Remap& remap, const CellGradients& gradients,
   const auto target = [&](std::size_t k) { return targets.empty() ? k : std::size_t{targets[k]}; };
   std::vector<LinearRows> blocks(system::num_pieces(n, rows_per_block));
   Weights weights;
-  weights.offsets.assign(n + 1, 0);
   system::parallel_for(threads, n, rows_per_block, [&](std::size_t begin, std::size_t end) {
-    LinearRows& rows = blocks[begin / rows_per_block];
     LinearRowMaker maker(remap, gradients);
     for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t j = target(k);
-      maker.append(j, target_areas[j], rows);
-      weights.offsets[j + 1] = rows.counts.back();
+      maker.append(target(k), target_areas[target(k)], blocks[begin / rows_per_block]);
     }
   });
-  for (std::size_t j = 0; j < n; ++j) weights.offsets[j + 1] += weights.offsets[j];
-  weights.columns.resize(weights.offsets[n]);
-  weights.values.resize(weights.offsets[n]);
-  system::parallel_for(threads, n, rows_per_block, [&](std::size_t begin, std::size_t end) {
-    const LinearRows rows = std::move(blocks[begin / rows_per_block]);
-    std::ptrdiff_t from = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto to = static_cast<std::ptrdiff_t>(weights.offsets[target(k)]);
-      const Index size = rows.counts[k - begin];
-      std::copy_n(rows.columns.begin() + from, size, weights.columns.begin() + to);
-      std::copy_n(rows.values.begin() + from, size, weights.values.begin() + to);
-      from += size;
-    }
-  });
+  weights.offsets = system::join_rows(
+      threads, n, std::move(blocks),
+      [&](std::size_t b, const LinearRows&, std::size_t k) {
+        return target(b * rows_per_block + k);
+      },
+      system::JoinedColumn{&LinearRows::columns, weights.columns},
+      system::JoinedColumn{&LinearRows::values, weights.values});
   return weights;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "exact/eft.h"
@@ -15,6 +16,7 @@
 #include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -222,21 +224,20 @@ PieceRows transposed(const PieceRows& pieces, std::size_t num_columns) {
   PieceRows result;
   result.row_sums = pieces.column_sums;
   result.column_sums = pieces.row_sums;
-  result.offsets.assign(num_columns + 1, 0);
-  for (const Index column : pieces.columns) ++result.offsets[column + std::size_t{1}];
-  for (std::size_t i = 0; i < num_columns; ++i) result.offsets[i + 1] += result.offsets[i];
-  result.columns.resize(pieces.columns.size());
+  system::RowPlaces places(num_columns);
+  for (const Index column : pieces.columns) places.count(column);
+  result.columns.resize(places.sum());
   result.areas.resize(pieces.areas.size());
   result.moments.resize(pieces.moments.size());
-  std::vector<std::uint64_t> next(result.offsets.begin(), result.offsets.end() - 1);
   for (std::size_t row = 0; row + 1 < pieces.offsets.size(); ++row) {
     for (std::uint64_t k = pieces.offsets[row]; k < pieces.offsets[row + 1]; ++k) {
-      const std::uint64_t to = next[pieces.columns[k]]++;
+      const std::uint64_t to = places.place(pieces.columns[k]);
       result.columns[to] = static_cast<Index>(row);
       result.areas[to] = pieces.areas[k];
       if (!pieces.moments.empty()) result.moments[to] = pieces.moments[k];
     }
   }
+  result.offsets = std::move(places).offsets();
   return result;
 }
 

@@ -29,6 +29,8 @@ struct PieceRows {
   // them.
   std::vector<double> row_sums;
   std::vector<double> column_sums;
+
+  void end_row() { offsets.push_back(columns.size()); }
 };
 
 // Computes row_sums and column_sums.

@@ -268,16 +268,16 @@ DividedSides SideDivider::divided() {
   };
   std::ranges::sort(pieces_, {}, along);
   DividedSides result;
-  result.positions.reserve(pieces_.size());
+  result.values.reserve(pieces_.size());
   for (std::size_t first = 0; first < pieces_.size();) {
     std::size_t end = first;
     while (end < pieces_.size() && pieces_[end].side == pieces_[first].side) ++end;
     const PlaneSide& side = sides_[pieces_[first].side];
     const bool goes_east = is_west_of(side.from, side.to);
     for (std::size_t k = first; k < end; ++k) {
-      result.positions.push_back(goes_east ? pieces_[k].west : pieces_[first + (end - 1 - k)].east);
+      result.values.push_back(goes_east ? pieces_[k].west : pieces_[first + (end - 1 - k)].east);
     }
-    result.offsets.push_back(result.positions.size());
+    result.end_row();
     first = end;
   }
   return result;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "overlay/plane_sweep.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -23,11 +24,8 @@ namespace rondel::overlay {
 void append_divided(const LonLat& from, const LonLat& to, double tolerance,
                     std::vector<LonLat>& positions);
 
-// The corners of sides as arcs, in compressed rows.
-struct DividedSides {
-  std::vector<LonLat> positions;
-  std::vector<std::uint64_t> offsets = {0};  // of each side: its positions, without the last one
-};
+// The corners of sides as arcs: a row has those of a side without the last one.
+using DividedSides = CompressedRows<LonLat>;
 
 // A part of a side, from west to east.
 struct LinePiece {

@@ -125,7 +125,7 @@ class CellLines {
     for (std::size_t s = first_; s < end_; ++s) {
       const std::uint64_t end = divided_.offsets[s + 1];
       for (std::uint64_t k = divided_.offsets[s]; k < end; ++k) {
-        visit(divided_.positions[k], k + 1 < end ? divided_.positions[k + 1] : sides_[s].to);
+        visit(divided_.values[k], k + 1 < end ? divided_.values[k + 1] : sides_[s].to);
       }
     }
   }

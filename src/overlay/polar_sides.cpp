@@ -34,7 +34,7 @@ class PolarCorners {
     if (meridians_.empty()) return;
     std::ranges::sort(meridians_);
     meridians_.erase(std::unique(meridians_.begin(), meridians_.end()), meridians_.end());
-    for (const LonLat& p : divided.positions) add(p);
+    for (const LonLat& p : divided.values) add(p);
     for (const PlaneSide& side : sides) add(side.to);
     std::ranges::sort(corners_);
     corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
@@ -65,7 +65,7 @@ class PolarCorners {
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const std::uint64_t end = divided.offsets[s + 1];
       for (std::uint64_t k = divided.offsets[s]; k < end; ++k) {
-        take(divided.positions[k], k + 1 < end ? divided.positions[k + 1] : sides[s].to);
+        take(divided.values[k], k + 1 < end ? divided.values[k + 1] : sides[s].to);
       }
     }
   }
@@ -88,16 +88,16 @@ void share_polar_corners(std::span<const PlaneSide> sides, DividedSides& divided
   const PolarCorners corners(sides, divided);
   if (corners.is_empty()) return;
   DividedSides shared;
-  shared.positions.reserve(divided.positions.size());
+  shared.values.reserve(divided.values.size());
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const std::uint64_t end = divided.offsets[s + 1];
     for (std::uint64_t k = divided.offsets[s]; k < end; ++k) {
-      const LonLat& from = divided.positions[k];
-      const LonLat& to = k + 1 < end ? divided.positions[k + 1] : sides[s].to;
-      shared.positions.push_back(from);
-      if (is_polar(from, to)) corners.append_between(from, to, shared.positions);
+      const LonLat& from = divided.values[k];
+      const LonLat& to = k + 1 < end ? divided.values[k + 1] : sides[s].to;
+      shared.values.push_back(from);
+      if (is_polar(from, to)) corners.append_between(from, to, shared.values);
     }
-    shared.offsets.push_back(shared.positions.size());
+    shared.end_row();
   }
   divided = std::move(shared);
 }

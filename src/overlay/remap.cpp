@@ -24,6 +24,7 @@
 #include "system/message_text.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -35,15 +36,14 @@ using overlay::PieceRows;
 // result is transposed if the sphere is on the other side.
 PieceRows whole_cells(const CellSetData& cells, Index whole, std::size_t num_rows) {
   PieceRows pieces;
-  pieces.offsets.assign(num_rows + 1, 0);
   for (std::size_t i = 0; i < cells.areas().size(); ++i) {
     if (!(cells.areas()[i] > 0)) continue;
     pieces.columns.push_back(static_cast<Index>(i));
     pieces.areas.push_back(cells.areas()[i]);
     pieces.moments.push_back(cells.moments()[i]);
   }
-  for (std::size_t row = whole; row < num_rows; ++row)
-    pieces.offsets[row + 1] = pieces.columns.size();
+  pieces.offsets = system::offsets_of(
+      num_rows, [&](std::size_t row) { return row == whole ? pieces.columns.size() : 0; });
   return pieces;
 }
 
@@ -185,10 +185,10 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
   std::vector<Point> sums(means.size());
   std::vector<std::uint64_t> largest(means.size(), moments.size());
   for (std::size_t k = 0; k < moments.size(); ++k) {
-    prefetch_column(remap.columns, k, means);
-    prefetch_column(remap.columns, k, sums);
-    prefetch_column(remap.columns, k, largest);
-    const Index i = remap.columns[k];
+    prefetch_column(remap.pieces.values, k, means);
+    prefetch_column(remap.pieces.values, k, sums);
+    prefetch_column(remap.pieces.values, k, largest);
+    const Index i = remap.pieces.values[k];
     moments[k] = moments[k] - remap.areas[k] * means[i];
     sums[i] = sums[i] + moments[k];
     if (largest[i] == moments.size() || remap.areas[k] > remap.areas[largest[i]]) largest[i] = k;
@@ -210,14 +210,15 @@ std::span<const Index> spatial_order_of(const CellSetData& cells) {
 Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas,
                      unsigned threads) {
   Weights weights;
-  weights.offsets = remap.offsets;
-  weights.columns.resize(remap.columns.size());
+  weights.offsets = remap.pieces.offsets;
+  weights.columns.resize(remap.pieces.values.size());
   weights.values.resize(remap.areas.size());
   system::parallel_for(threads, target_areas.size(), overlay::cells_per_piece,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t j = begin; j < end; ++j) {
-                           for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-                             weights.columns[k] = remap.columns[k];
+                           for (std::uint64_t k = remap.pieces.offsets[j];
+                                k < remap.pieces.offsets[j + 1]; ++k) {
+                             weights.columns[k] = remap.pieces.values[k];
                              weights.values[k] = remap.areas[k] / target_areas[j];
                            }
                          }
@@ -244,8 +245,7 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
   if (!is_second) pieces.moments.clear();
   const std::vector<Point> moments_of_sources = column_moments(pieces, num_sources);
-  result.offsets = std::move(pieces.offsets);
-  result.columns = std::move(pieces.columns);
+  result.pieces = {std::move(pieces.offsets), std::move(pieces.columns)};
   result.areas = std::move(pieces.areas);
   result.source_areas = areas_of(pieces.column_sums, source_sizes);
   result.target_areas = areas_of(pieces.row_sums, overlay::CountedSizes(targets, of_targets));
@@ -325,8 +325,8 @@ void apply_gradients(const Remap& remap, std::span<const double> means,
   for (std::size_t j = 0; j < out.size(); ++j) {
     double sum = 0;
     double area = 0;
-    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-      const Index i = remap.columns[k];
+    for (std::uint64_t k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+      const Index i = remap.pieces.values[k];
       sum += remap.areas[k] * means[i] + dot(remap.moments[k], gradients[i]);
       area += remap.areas[k];
     }

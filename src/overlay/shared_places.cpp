@@ -14,6 +14,7 @@
 #include "overlay/tidy_rings.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -56,20 +57,15 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
   TakingPart result;
   CellRings all;
   all.points = cells.points;
-  const auto own = [&](const std::vector<Index>& owners) {
-    result.owners.insert(result.owners.end(), owners.begin(), owners.end());
-    result.offsets.push_back(result.owners.size());
-  };
-  result.offsets = {0};
   for (Index i = 0; i < cells.num_cells(); ++i) {
     if (others[i].empty()) {
       all.append_cell(cells, i);
-      own({i});
+      result.owners.append({&i, 1});
       continue;
     }
     for (const OwnedPart& part : parts_of_cell(cells, i, others[i], told)) {
       append(part.rings, all);
-      own(part.owners);
+      result.owners.append(part.owners);
     }
   }
   merge_equal_points(all);
@@ -120,8 +116,7 @@ TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>
 }
 
 std::span<const Index> TakingPart::owners_of(const Index& part) const {
-  if (offsets.empty()) return {&part, 1};
-  return std::span(owners).subspan(offsets[part], offsets[part + std::size_t{1}] - offsets[part]);
+  return has_parts() ? owners[part] : std::span(&part, 1);
 }
 
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
@@ -165,7 +160,7 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
     if (!pieces.moments.empty()) joined.moments.push_back(entry.moment);
     ++joined.offsets[entry.row + std::size_t{1}];
   }
-  for (std::size_t j = 0; j < num_rows; ++j) joined.offsets[j + 1] += joined.offsets[j];
+  system::sum_counts(joined.offsets);
   return joined;
 }
 
@@ -176,7 +171,7 @@ CountedSizes::CountedSizes(const CellSetData& cells, const TakingPart& part)
   areas_.resize(n);
   lengths_.resize(n);
   moments_.resize(n);
-  for (Index k = 0; k + std::size_t{1} < part.offsets.size(); ++k) {
+  for (Index k = 0; k < part.owners.size(); ++k) {
     const std::span<const Index> owners = part.owners_of(k);
     const double share = 1.0 / static_cast<double>(owners.size());
     for (const Index owner : owners) {

@@ -15,6 +15,7 @@
 
 #include "overlay/cell_set_data.h"
 #include "overlay/pieces.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/remap.h"
 #include "rondel/types.h"
 
@@ -25,12 +26,11 @@ struct TakingPart {
   // The cells or the parts.
   const CellSetData* data = nullptr;
   std::shared_ptr<const CellSetData> parts = nullptr;  // owns `data` if these are parts
-  // Part k belongs to the cells owners[offsets[k]] ... owners[offsets[k + 1] - 1], in equal shares.
-  // Both arrays are empty if `data` has the cells themselves.
-  std::vector<std::uint64_t> offsets = {};
-  std::vector<Index> owners = {};
+  // Part k belongs to the cells owners[k], in equal shares. There are no rows if `data` has the
+  // cells themselves.
+  CompressedRows<Index> owners = {};
 
-  [[nodiscard]] bool has_parts() const { return !offsets.empty(); }
+  [[nodiscard]] bool has_parts() const { return parts != nullptr; }
   [[nodiscard]] std::span<const Index> owners_of(const Index& part) const;
 };
 

@@ -7,6 +7,7 @@
 #include "exact/vector.h"
 #include "overlay/linear_weights.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -152,7 +153,7 @@ CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> ce
           neighbors_of(static_cast<Index>(c)).size();
     }
   });
-  for (std::size_t i = 0; i < n; ++i) result.offsets[i + 1] += result.offsets[i];
+  system::sum_counts(result.offsets);
   result.neighbors.resize(result.offsets[n]);
   result.slopes.resize(result.offsets[n]);
   const auto fit = [&](Index c) {

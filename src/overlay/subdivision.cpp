@@ -17,6 +17,7 @@
 #include "rondel/predicates.h"
 #include "system/disjoint_sets.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -237,12 +238,11 @@ void Subdivision::find_twins() {
     }
   }
   // `leaving` lists the halfedges by their origins, in compressed rows.
-  std::vector<Index> starts(points.size() + 1);
-  for (const Index p : corners) ++starts[p + 1];
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<Halfedge> leaving(size);
-  auto next = starts;
-  for (Halfedge h = 0; h < size; ++h) leaving[next[corners[h]]++] = h;
+  system::RowPlaces<Index> places(points.size());
+  for (const Index p : corners) places.count(p);
+  std::vector<Halfedge> leaving(places.sum());
+  for (Halfedge h = 0; h < size; ++h) leaving[places.place(corners[h])] = h;
+  const std::vector<Index> starts = std::move(places).offsets();
   twins.assign(size, no_index);
   for (Halfedge h = 0; h < size; ++h) {
     if (twins[h] != no_index) continue;

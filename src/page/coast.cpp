@@ -12,17 +12,17 @@
 
 namespace rondel {
 
-CoastLines coast_lines() {
+CompressedRows<LonLat> coast_lines() {
   const std::string_view text = page::coast_text();
-  CoastLines coast;
+  CompressedRows<LonLat> coast;
   std::int32_t sums[2] = {0, 0}, step = 0;  // hundredths of degrees
   std::size_t count = 0;                    // how many numbers of the current line were read
   for (const char* at = text.data(); at != text.data() + text.size(); ++at) {
     at = std::from_chars(at, text.data() + text.size(), step).ptr;
     sums[count % 2] += step;
-    if (++count % 2 == 0) coast.positions.push_back({sums[0] / 100.0, sums[1] / 100.0});
+    if (++count % 2 == 0) coast.values.push_back({sums[0] / 100.0, sums[1] / 100.0});
     if (*at != '\n') continue;
-    coast.offsets.push_back(coast.positions.size());
+    coast.end_row();
     sums[0] = sums[1] = 0;
     count = 0;
   }

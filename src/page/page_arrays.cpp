@@ -124,10 +124,9 @@ void add_isolines(const Isolines& lines, std::vector<PageArray>& arrays) {
   std::vector<Point> points;
   std::vector<Index> ends;
   for (std::size_t i = 0; i < lines.num_lines(); ++i) {
-    const std::uint64_t begin = lines.line_offsets[i];
-    const std::uint64_t end = lines.line_offsets[i + 1];
-    for (std::uint64_t k = begin; k < end; ++k) points.push_back(lines.points[k]);
-    if (lines.is_closed[i] != 0 && begin < end) points.push_back(lines.points[begin]);
+    const std::span<const Point> line = lines.lines.rows[i];
+    points.insert(points.end(), line.begin(), line.end());
+    if (lines.is_closed[i] != 0 && !line.empty()) points.push_back(line.front());
     ends.push_back(static_cast<Index>(points.size()));
   }
   arrays.push_back(doubles("isolines", points));
@@ -167,9 +166,9 @@ std::vector<PageArray> page_arrays(const SiteTable& table, const Triangulation& 
   arrays.push_back(
       doubles("points", stored_points(triangulation, cells.points, directions, lengths)));
   if (has_own_rings(triangulation, cells)) {
-    const std::vector<Index> offsets(cells.offsets.begin(), cells.offsets.end());
+    const std::vector<Index> offsets(cells.rings.offsets.begin(), cells.rings.offsets.end());
     arrays.push_back(indices("ringOffsets", std::span<const Index>(offsets)));
-    arrays.push_back(indices("ringPoints", std::span<const Index>(cells.rings)));
+    arrays.push_back(indices("ringPoints", std::span<const Index>(cells.rings.values)));
   }
   arrays.push_back(doubles("areas", diagram.areas));
   if (!options.values.empty()) {

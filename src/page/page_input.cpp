@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondel/error.h"
+#include "system/row_assembly.h"
 
 namespace rondel::page {
 namespace {
@@ -23,9 +24,10 @@ bool are_parts(const std::vector<std::uint64_t>& ends, std::size_t count, std::s
 bool has_shape_of(const Triangulation& triangulation, const Diagram& diagram) {
   const Cells& cells = diagram.cells;
   const std::size_t n = triangulation.num_sites();
-  return diagram.areas.size() == n && are_parts(cells.offsets, n + 1, cells.rings.size()) &&
-         cells.offsets.front() == 0 && cells.points.size() >= triangulation.num_faces() &&
-         std::ranges::all_of(cells.rings, [&](Index i) { return i < cells.points.size(); });
+  return diagram.areas.size() == n &&
+         system::are_offsets(cells.rings.offsets, n, cells.rings.values.size()) &&
+         cells.points.size() >= triangulation.num_faces() &&
+         std::ranges::all_of(cells.rings.values, [&](Index i) { return i < cells.points.size(); });
 }
 
 }  // namespace
@@ -51,9 +53,8 @@ void require_input(const SiteTable& table, const Triangulation& triangulation,
     throw InvalidInput("there is not one value for each site", options.values.size());
   }
   const Isolines* const lines = options.isolines;
-  if (lines != nullptr &&
-      (!are_parts(lines->line_offsets, lines->num_lines() + 1, lines->points.size()) ||
-       lines->line_offsets.front() != 0)) {
+  if (lines != nullptr && !system::are_offsets(lines->lines.rows.offsets, lines->num_lines(),
+                                               lines->lines.rows.values.size())) {
     throw InvalidInput("the arrays of the isolines do not fit together");
   }
   const LonLat view = options.view.value_or(LonLat{});

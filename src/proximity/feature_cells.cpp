@@ -35,21 +35,19 @@ void append_ring_points(const CellRings& cells, std::uint64_t ring, std::vector<
 // Returns the lines of each feature, followed by the rings of its polygon as closed lines.
 FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) {
   FeatureLines all;
-  for (std::size_t f = 0; f < lines.num_features(); ++f) {
-    for (std::uint64_t l = lines.features[f]; l < lines.features[f + 1]; ++l) {
-      for (std::uint64_t k = lines.lines[l]; k < lines.lines[l + 1]; ++k) {
-        all.points.push_back(lines.points[k]);
-      }
-      all.lines.push_back(all.points.size());
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    for (std::uint64_t l = lines.offsets[f]; l < lines.offsets[f + 1]; ++l) {
+      all.rows.append(lines.rows[l]);
     }
     for (std::uint64_t r = polygons.cells[f]; r < polygons.cells[f + 1]; ++r) {
-      const std::size_t first = all.points.size();
-      append_ring_points(polygons, r, all.points);
-      const Point closing = all.points[first];
-      all.points.push_back(closing);
-      all.lines.push_back(all.points.size());
+      std::vector<Point>& points = all.rows.values;
+      const std::size_t first = points.size();
+      append_ring_points(polygons, r, points);
+      const Point closing = points[first];
+      points.push_back(closing);
+      all.rows.end_row();
     }
-    all.features.push_back(all.lines.size() - 1);
+    all.end_group();
   }
   return all;
 }
@@ -80,7 +78,7 @@ struct OwnedCells {
 };
 OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
                        const Execution& execution) {
-  const std::size_t n = lines.num_features();
+  const std::size_t n = lines.size();
   const bool has_polygons = !polygons.corners.empty() || !polygons.whole.empty();
   if (has_polygons && polygons.num_cells() != n) {
     throw InvalidInput("there are " + std::to_string(polygons.num_cells()) + " cells for " +
@@ -117,7 +115,7 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
   const system::Call call(execution);
   OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
   if (owned.joined) return std::move(*owned.joined);
-  return dissolve(owned.cells.rings(), owned.owners, lines.num_features(), execution);
+  return dissolve(owned.cells.rings(), owned.owners, lines.size(), execution);
 }
 
 CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
@@ -126,7 +124,7 @@ CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& poly
   const system::Call call(execution);
   const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
   return dissolve(clip(owned.cells, regions, quiet_after(owned, execution)), owned.owners,
-                  lines.num_features(), execution);
+                  lines.size(), execution);
 }
 
 RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons, double tolerance,

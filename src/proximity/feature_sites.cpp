@@ -34,6 +34,7 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -80,17 +81,14 @@ bool is_short_enough(double half, double to_other_site, double tolerance) {
 // Throws InvalidInput unless the offsets are compressed rows and all points are unit vectors to
 // 1e-9.
 void require_lines(const FeatureLines& lines) {
-  const auto fits = [](std::span<const std::uint64_t> offsets, std::size_t size) {
-    return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
-           std::ranges::is_sorted(offsets);
-  };
-  if (lines.lines.empty() || !fits(lines.features, lines.lines.size() - 1) ||
-      !fits(lines.lines, lines.points.size())) {
+  const std::vector<Point>& points = lines.rows.values;
+  if (!system::are_offsets(lines.rows.offsets, points.size()) ||
+      !system::are_offsets(lines.offsets, lines.rows.size())) {
     throw InvalidInput("the offsets of the lines do not fit");
   }
-  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     constexpr double rounding = 1e-9;
-    const double square = dot(lines.points[i], lines.points[i]);
+    const double square = dot(points[i], points[i]);
     if (!(std::abs(square - 1) <= rounding)) {
       throw InvalidInput("point " + std::to_string(i) + " is no unit vector", i);
     }
@@ -101,17 +99,18 @@ void require_lines(const FeatureLines& lines) {
 // antipodes, between which no shorter arc exists.
 LinePoints points_of_lines(const FeatureLines& lines) {
   LinePoints all;
-  for (std::size_t f = 0; f < lines.num_features(); ++f) {
-    for (std::uint64_t l = lines.features[f]; l < lines.features[f + 1]; ++l) {
-      for (std::uint64_t k = lines.lines[l]; k < lines.lines[l + 1]; ++k) {
-        const bool is_last = k + 1 == lines.lines[l + 1];
-        if (!is_last && lines.points[k] == lines.points[k + 1]) continue;
-        if (!is_last && lines.points[k] + lines.points[k + 1] == Point{}) {
+  const auto& [ends, points] = lines.rows;
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    for (std::uint64_t l = lines.offsets[f]; l < lines.offsets[f + 1]; ++l) {
+      for (std::uint64_t k = ends[l]; k < ends[l + 1]; ++k) {
+        const bool is_last = k + 1 == ends[l + 1];
+        if (!is_last && points[k] == points[k + 1]) continue;
+        if (!is_last && points[k] + points[k + 1] == Point{}) {
           throw InvalidInput("points " + std::to_string(k) + " and " + std::to_string(k + 1) +
                                  " of a line are antipodes",
                              k);
         }
-        all.add(lines.points[k], static_cast<Index>(f), !is_last);
+        all.add(points[k], static_cast<Index>(f), !is_last);
       }
     }
   }

@@ -19,6 +19,7 @@
 #include "system/job.h"
 #include "system/message_text.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -150,7 +151,8 @@ void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKi
   keep_if(candidates, execution,
           [&] { return [&](const NearPair& c) { return is_in_urquhart(chords, c); }; });
   if (kind == GraphKind::relative) {
-    const proximity::Adjacency adjacency(triangulation.num_sites(), edges(triangulation));
+    const CompressedRows<Index> adjacency =
+        proximity::adjacency_of(triangulation.num_sites(), edges(triangulation));
     keep_if(candidates, execution, [&] {
       return [search = proximity::LuneSearch(chords, adjacency)](const NearPair& c) mutable {
         return search.is_empty(c.edge);
@@ -163,14 +165,12 @@ void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKi
 // Sorts the candidates lexicographically: by counting for the lower end, then by comparing the few
 // edges of each site.
 void sort_by_edge(std::size_t num_sites, std::vector<NearPair>& candidates) {
-  std::vector<std::size_t> ends(num_sites + 1);
-  for (const NearPair& c : candidates) ++ends[c.edge[0] + 1];
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<NearPair> sorted(candidates.size());
-  // ends[a] moves from the place of the first edge of a to the place after its last edge.
-  for (const NearPair& c : candidates) sorted[ends[c.edge[0]]++] = c;
+  system::RowPlaces<std::size_t> places(num_sites);
+  for (const NearPair& c : candidates) places.count(c.edge[0]);
+  std::vector<NearPair> sorted(places.sum());
+  for (const NearPair& c : candidates) sorted[places.place(c.edge[0])] = c;
   std::size_t begin = 0;
-  for (const std::size_t end : ends) {
+  for (const std::size_t end : std::move(places).offsets()) {
     std::ranges::sort(std::span(sorted).subspan(begin, end - begin), {}, &NearPair::edge);
     begin = end;
   }

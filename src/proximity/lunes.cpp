@@ -2,22 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proximity/lunes.h"
 
-#include <numeric>
+#include <utility>
+
+#include "system/row_assembly.h"
 
 namespace rondel::proximity {
 
-Adjacency::Adjacency(std::size_t num_sites, std::span<const std::array<Index, 2>> edges)
-    : offsets_(num_sites + 1) {
+CompressedRows<Index> adjacency_of(std::size_t num_sites,
+                                   std::span<const std::array<Index, 2>> edges) {
+  system::RowPlaces places(num_sites);
   for (const auto& [a, b] : edges) {
-    ++offsets_[a];
-    ++offsets_[b];
+    places.count(a);
+    places.count(b);
   }
-  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  ends_.resize(offsets_.back());
+  CompressedRows<Index> result;
+  result.values.resize(places.sum());
   for (const auto& [a, b] : edges) {
-    ends_[--offsets_[a]] = b;
-    ends_[--offsets_[b]] = a;
+    result.values[places.place(a)] = b;
+    result.values[places.place(b)] = a;
   }
+  result.offsets = std::move(places).offsets();
+  return result;
 }
 
 void LuneSearch::Front::start(Index v) {

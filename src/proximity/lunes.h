@@ -17,23 +17,14 @@
 
 #include "proximity/chords.h"
 #include "query/visited.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
 namespace rondel::proximity {
 
-// Lists the neighbors of each vertex, in compressed rows: row v has the other ends of the edges at
-// v.
-class Adjacency {
- public:
-  Adjacency(std::size_t num_sites, std::span<const std::array<Index, 2>> edges);
-  [[nodiscard]] std::span<const Index> operator[](Index v) const {
-    return {ends_.data() + offsets_[v], ends_.data() + offsets_[v + 1]};
-  }
-
- private:
-  std::vector<std::size_t> offsets_;
-  std::vector<Index> ends_;
-};
+// Returns the neighbors of each vertex: row v has the other ends of the edges at v.
+CompressedRows<Index> adjacency_of(std::size_t num_sites,
+                                   std::span<const std::array<Index, 2>> edges);
 
 // Looks for a vertex in the lune of an edge. The vertices that are nearer to one end than the other
 // end is are connected by Delaunay edges (query/graph.h), so that a breadth-first search from this
@@ -41,7 +32,7 @@ class Adjacency {
 // exhausted, since one end may have many such vertices.
 class LuneSearch {
  public:
-  LuneSearch(const Chords& chords, const Adjacency& adjacency)
+  LuneSearch(const Chords& chords, const CompressedRows<Index>& adjacency)
       : chords_(chords), adjacency_(adjacency) {}
 
   bool is_empty(const std::array<Index, 2>& edge);
@@ -63,7 +54,7 @@ class LuneSearch {
   bool step(Front& front, Index from, Index to) const;
 
   const Chords& chords_;
-  const Adjacency& adjacency_;
+  const CompressedRows<Index>& adjacency_;
   Front from_a_;
   Front from_b_;
 };

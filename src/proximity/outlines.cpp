@@ -94,7 +94,7 @@ class Tracer {
         if (is_border(side) && is_done_[3 * std::size_t{f} + i] == 0) append_rings(side);
       }
     }
-    out_.polygon_offsets.push_back(out_.ring_offsets.size() - 1);
+    out_.end_group();
   }
 
   // Appends the border that begins with a side. The closed line is split into simple rings wherever
@@ -120,8 +120,7 @@ class Tracer {
   // Appends a ring, and removes its sites from the current line.
   void append_ring(std::span<const Index> ring) {
     for (const Index site : ring) place_[site] = no_index;
-    out_.sites.insert(out_.sites.end(), ring.begin(), ring.end());
-    out_.ring_offsets.push_back(out_.sites.size());
+    out_.rows.append(ring);
   }
 
   std::span<const Triple> faces_;

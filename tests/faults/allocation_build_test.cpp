@@ -68,16 +68,17 @@ TEST_P(Allocation, duals) {
   expect_result_or_bad_alloc([&] {
     const Diagram d = diagram(built);
     const auto centers = centroids(built);
-    return std::tuple(d.cells.offsets, d.cells.rings, d.cells.points, d.areas, centers);
+    return std::tuple(d.cells.rings.offsets, d.cells.rings.values, d.cells.points, d.areas,
+                      centers);
   });
   expect_result_or_bad_alloc([&] { return circumcenters(built); });
   expect_result_or_bad_alloc([&] {
     const Cells c = cells(built);
-    return std::tuple(c.offsets, areas(built));
+    return std::tuple(c.rings.offsets, areas(built));
   });
   expect_result_or_bad_alloc([&] {
-    const Polygons p = merge_cocircular(built);
-    return std::tuple(p.offsets, p.corners, edges(built));
+    const CompressedRows<Index> p = merge_cocircular(built);
+    return std::tuple(p.offsets, p.values, edges(built));
   });
 }
 
@@ -90,7 +91,7 @@ TEST_P(Allocation, queries) {
   const Execution one{.threads = 1};
   expect_result_or_bad_alloc([&] { return locator.nearest(queries, one); });
   expect_result_or_bad_alloc([&] { return locator.k_nearest(queries, 3, one); });
-  expect_result_or_bad_alloc([&] { return locator.within(queries, 1, one).sites; });
+  expect_result_or_bad_alloc([&] { return locator.within(queries, 1, one).values; });
   expect_result_or_bad_alloc([&] { return locator.conflict_region(queries.front()); });
   expect_result_or_bad_alloc([&] { return locator.locate(queries, one); });
 }

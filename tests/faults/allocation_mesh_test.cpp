@@ -36,7 +36,7 @@ TEST(allocation_of_meshes, arrays_and_their_quality) {
   const mesh::MeshArrays arrays = small_mesh();
   expect_result_or_bad_alloc([&] {
     const mesh::TangentialWeights rows = mesh::tangential_weights(arrays, one_thread);
-    return std::tuple(rows.offsets, rows.edges, rows.weights);
+    return std::tuple(rows.edges.offsets, rows.edges.values, rows.weights);
   });
   expect_result_or_bad_alloc([&] {
     const mesh::Quality quality = mesh::quality(arrays, one_thread);

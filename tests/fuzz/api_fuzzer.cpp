@@ -193,8 +193,8 @@ class Caller {
     static_cast<void>(face_polygons(t_, execution()));
     // A diagram that may be of another triangulation, with a number that is another one.
     Diagram diagram = diagram_;
-    if (source_.below(2) == 0 && !diagram.cells.rings.empty()) {
-      diagram.cells.rings[source_.below(diagram.cells.rings.size())] = index();
+    if (source_.below(2) == 0 && !diagram.cells.rings.values.empty()) {
+      diagram.cells.rings.values[source_.below(diagram.cells.rings.values.size())] = index();
     }
     if (source_.below(8) == 0 && !diagram.cells.points.empty()) {
       diagram.cells.points[source_.below(diagram.cells.points.size())] = point();

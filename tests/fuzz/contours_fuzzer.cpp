@@ -50,19 +50,14 @@ bool is_simple(std::span<const Point> points) {
   return std::ranges::adjacent_find(places) == places.end();
 }
 
-std::span<const Point> part(const std::vector<Point>& points,
-                            const std::vector<std::uint64_t>& offsets, std::size_t i) {
-  return std::span(points).subspan(offsets[i], offsets[i + 1] - offsets[i]);
-}
-
 void test_isolines(const Isolines& lines) {
-  require(lines.level_offsets.size() == lines.levels.size() + 1 &&
-              lines.level_offsets.back() == lines.num_lines() &&
-              lines.line_offsets.size() == lines.num_lines() + 1 &&
-              lines.line_offsets.back() == lines.points.size(),
+  require(lines.lines.offsets.size() == lines.levels.size() + 1 &&
+              lines.lines.offsets.back() == lines.num_lines() &&
+              lines.lines.rows.size() == lines.num_lines() &&
+              lines.lines.rows.offsets.back() == lines.lines.rows.values.size(),
           "the arrays of isolines fit together");
   for (std::size_t i = 0; i < lines.num_lines(); ++i) {
-    const auto points = part(lines.points, lines.line_offsets, i);
+    const auto points = lines.lines.rows[i];
     require(points.size() >= (lines.is_closed[i] != 0 ? 3U : 2U) && is_simple(points),
             "isolines are simple");
   }
@@ -88,22 +83,40 @@ double ring_area(std::span<const Point> ring) {
   return area;
 }
 
+// Rows are the same however they are appended.
+void test_rows(const RowGroups<CompressedRows<Point>>& polygons) {
+  RowGroups<CompressedRows<Point>> copy;
+  CompressedRows<Point> one_by_one;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    for (auto row = polygons.offsets[i]; row < polygons.offsets[i + 1]; ++row) {
+      copy.rows.append(polygons.rows[row]);
+      for (const Point& p : polygons.rows[row]) one_by_one.values.push_back(p);
+      one_by_one.end_row();
+    }
+    copy.end_group();
+  }
+  CompressedRows<Point> at_once;
+  at_once.append_rows(one_by_one);
+  require(copy == polygons && at_once == copy.rows, "rows are what was appended");
+}
+
 void test_bands(const Bands& bands) {
-  require(bands.band_offsets.size() == bands.num_bands() + 1 &&
-              bands.band_offsets.back() == bands.num_polygons() &&
-              bands.polygon_offsets.back() == bands.ring_offsets.size() - 1 &&
-              bands.ring_offsets.back() == bands.points.size(),
+  test_rows(bands.bands.rows);
+  require(bands.bands.offsets.size() == bands.num_bands() + 1 &&
+              bands.bands.offsets.back() == bands.num_polygons() &&
+              bands.bands.rows.offsets.back() == bands.rings().size() &&
+              bands.rings().offsets.back() == bands.rings().values.size(),
           "the arrays of bands fit together");
-  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
-    const auto points = part(bands.points, bands.ring_offsets, ring);
+  for (std::size_t ring = 0; ring < bands.rings().size(); ++ring) {
+    const auto points = bands.rings()[ring];
     require(points.size() >= 3 && is_simple(points), "rings are simple");
   }
 }
 
 double area_of(const Bands& bands) {
   double area = 0;
-  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
-    area += ring_area(part(bands.points, bands.ring_offsets, ring));
+  for (std::size_t ring = 0; ring < bands.rings().size(); ++ring) {
+    area += ring_area(bands.rings()[ring]);
   }
   return area;
 }
@@ -179,9 +192,7 @@ void test_any_order(std::vector<Point> sites, std::vector<double> values, const 
   const Triangulation t = delaunay(sites, options);
   if (!t.duplicates().empty()) return;  // which value counts depends on the order
   const Bands found = bands(t, values, levels);
-  require(found.points == expected.points && found.ring_offsets == expected.ring_offsets &&
-              found.polygon_offsets == expected.polygon_offsets,
-          "the order of the sites changes nothing");
+  require(found.bands.rows == expected.bands.rows, "the order of the sites changes nothing");
 }
 
 }  // namespace

@@ -28,19 +28,20 @@ std::vector<bool> vertices(const Triangulation& t) {
 }
 
 void test_cells(const Triangulation& t, const Cells& cells) {
-  require(cells.offsets.size() == t.num_sites() + 1 && cells.offsets[0] == 0 &&
-              cells.offsets.back() == cells.rings.size(),
+  require(cells.rings.offsets.size() == t.num_sites() + 1 && cells.rings.offsets[0] == 0 &&
+              cells.rings.offsets.back() == cells.rings.values.size(),
           "offsets frame the rings");
-  require(std::ranges::is_sorted(cells.offsets), "offsets increase");
+  require(std::ranges::is_sorted(cells.rings.offsets), "offsets increase");
   for (const Point& p : cells.points) require(is_unit(p), "points of a diagram are unit vectors");
   const std::vector<bool> is_vertex = vertices(t);
   for (std::size_t i = 0; i < t.num_sites(); ++i) {
-    const std::size_t length = cells.offsets[i + 1] - cells.offsets[i];
+    const std::span<const Index> ring = cells.rings[i];
+    const std::size_t length = ring.size();
     const bool has_ring = is_vertex[i] && t.num_vertices() > 1;
     require((length > 0) == has_ring, "exactly the vertices have rings");
     for (std::size_t k = 0; k < length; ++k) {
-      const Index here = cells.rings[cells.offsets[i] + k];
-      const Index there = cells.rings[cells.offsets[i] + (k + 1) % length];
+      const Index here = ring[k];
+      const Index there = ring[(k + 1) % length];
       require(here < cells.points.size() && there < cells.points.size(), "rings name points");
       require(dot(cells.points[here], cells.points[there]) > -0.5 - 1e-12,
               "no arc is longer than 120 degrees");
@@ -75,11 +76,11 @@ void test_edges(const Triangulation& t) {
 }
 
 void test_polygons(const Triangulation& t) {
-  const Polygons merged = merge_cocircular(t);
+  const CompressedRows<Index> merged = merge_cocircular(t);
   std::size_t num_triangles = 0;
   for (std::size_t i = 0; i + 1 < merged.offsets.size(); ++i) {
-    const auto begin = merged.corners.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i]);
-    const auto end = merged.corners.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i + 1]);
+    const auto begin = merged.values.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i]);
+    const auto end = merged.values.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i + 1]);
     require(end - begin >= 3, "a polygon has three corners or more");
     require(std::min_element(begin, end) == begin, "the lowest index is first");
     num_triangles += static_cast<std::size_t>(end - begin) - 2;
@@ -108,8 +109,7 @@ void test_diagram(const Triangulation& t) {
 void test_both_ways(const Triangulation& t) {
   const Cells cells_only = cells(t);
   const Diagram both = diagram(t);
-  require(both.cells.offsets == cells_only.offsets && both.cells.rings == cells_only.rings &&
-              both.cells.points == cells_only.points,
+  require(both.cells.rings == cells_only.rings && both.cells.points == cells_only.points,
           "cells are the same with areas");
 }
 

@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(test::array_of_page<Index>(page, "faces").size() == 3 * t.num_faces(),
                 "the faces are carried");
   fuzz::require(test::about_of(page)["columns"].size() == 1, "the column is carried");
-  fuzz::require(coast_lines().positions.size() == coast_lines().offsets.back(), "coasts end");
+  fuzz::require(coast_lines().values.size() == coast_lines().offsets.back(), "coasts end");
   const std::string path = folder.file("globe.html");
   write_globe(path, table, t, both, globe);
   fuzz::require(fuzz::content(path) == page, "the file is the page");

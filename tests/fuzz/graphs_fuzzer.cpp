@@ -71,16 +71,13 @@ void test_any_order(std::vector<Point> sites, const Options& options, const Tria
 }
 
 void test_outline(const Outline& outline) {
-  require(outline.polygon_offsets.back() == outline.ring_offsets.size() - 1 &&
-              outline.ring_offsets.back() == outline.sites.size(),
+  require(outline.offsets.back() == outline.rows.size() &&
+              outline.rows.offsets.back() == outline.rows.values.size(),
           "the arrays of an outline fit together");
-  for (std::size_t r = 0; r + 1 < outline.ring_offsets.size(); ++r) {
-    const std::set<Index> corners(
-        outline.sites.begin() + static_cast<long>(outline.ring_offsets[r]),
-        outline.sites.begin() + static_cast<long>(outline.ring_offsets[r + 1]));
-    require(corners.size() >= 3 &&
-                corners.size() == outline.ring_offsets[r + 1] - outline.ring_offsets[r],
-            "rings are simple");
+  for (std::size_t r = 0; r < outline.rows.size(); ++r) {
+    const std::span<const Index> ring = outline.rows[r];
+    const std::set<Index> corners(ring.begin(), ring.end());
+    require(corners.size() >= 3 && corners.size() == ring.size(), "rings are simple");
   }
 }
 
@@ -92,7 +89,7 @@ void test_files(const ScratchFolder& folder, const Triangulation& t) {
           "a feature an edge");
   const Outline hull = hull_polygon(t);
   write_outline(path, t, hull, 5);
-  require(nlohmann::json::parse(content(path)).at("features").size() == hull.num_polygons(),
+  require(nlohmann::json::parse(content(path)).at("features").size() == hull.size(),
           "a feature a polygon");
   const auto circles = largest_empty_circles(t, 5);
   write_circles(path, circles);

@@ -182,13 +182,18 @@ void test(const Question& q) {
   require(weights.num_rows() == q.targets.size(), "a row for each target");
   require(weights.num_columns == q.sites.size(), "a column for each site");
   const auto locations = Locator(triangulation).locate(q.targets);
+  Weights copy;
   for (std::size_t t = 0; t < q.targets.size(); ++t) {
     const std::uint64_t begin = weights.offsets[t];
     const std::uint64_t size = weights.offsets[t + 1] - begin;
+    const auto columns = std::span(weights.columns).subspan(begin, size);
+    copy.columns.insert(copy.columns.end(), columns.begin(), columns.end());
+    copy.end_row();
     if (q.how.shared_place == SharedPlace::mean && !triangulation.duplicates().empty()) continue;
-    test_row(q, std::span(weights.columns).subspan(begin, size),
-             std::span(weights.values).subspan(begin, size), q.targets[t], locations[t]);
+    test_row(q, columns, std::span(weights.values).subspan(begin, size), q.targets[t],
+             locations[t]);
   }
+  require(copy.offsets == weights.offsets, "rows end where they are ended");
   test_values(q, interpolator, weights);
   test_gradients(q, interpolator);
   test_order(q, interpolator, weights);

@@ -40,7 +40,7 @@ void use(const mesh::MeshArrays& arrays) {
   require(mesh::cell_quality(arrays).gradient.size() == arrays.num_cells(), "all cells");
   require(!mesh::quality_picture(arrays, quality, 2).empty(), "a picture");
   const mesh::TangentialWeights rows = mesh::tangential_weights(arrays, {.threads = 1});
-  require(rows.offsets.size() == arrays.num_edges() + 1, "a row an edge");
+  require(rows.edges.size() == arrays.num_edges(), "a row an edge");
   require(arrays.max_edges() >= 3 && mesh::spacing_of(1) > 1, "cells have three edges or more");
 }
 

@@ -29,9 +29,9 @@ double sum_of(std::span<const double> values) {
 }
 
 void test_arrays(const Remap& remap, const CellSet& source, const CellSet& target) {
-  require(remap.offsets.size() == target.num_cells() + 1 &&
-              remap.offsets.back() == remap.columns.size() &&
-              remap.areas.size() == remap.columns.size() &&
+  require(remap.pieces.offsets.size() == target.num_cells() + 1 &&
+              remap.pieces.offsets.back() == remap.pieces.values.size() &&
+              remap.areas.size() == remap.pieces.values.size() &&
               remap.weights.num_columns == source.num_cells() &&
               remap.weights.num_rows() == target.num_cells(),
           "the arrays fit together");
@@ -44,7 +44,7 @@ void test_arrays(const Remap& remap, const CellSet& source, const CellSet& targe
       sum += remap.weights.values[k];
       absolute += std::abs(remap.weights.values[k]);
     }
-    if (remap.offsets[j] == remap.offsets[j + 1]) {
+    if (remap.pieces.offsets[j] == remap.pieces.offsets[j + 1]) {
       require(sum == 0, "no piece, no weight");
     } else {
       require(std::abs(sum - 1) <= 1e-14 * absolute, "weights add up to 1");
@@ -78,8 +78,8 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   for (std::size_t j = 0; j < source.num_cells(); ++j) {
     if (!(source.areas()[j] > 1e-24)) continue;  // no wider than rounding
     double others = 0;  // where edges are as good as parallel, more than rounding of corners
-    for (auto k = same.offsets[j]; k < same.offsets[j + 1]; ++k) {
-      if (same.columns[k] != j) others += same.areas[k];
+    for (auto k = same.pieces.offsets[j]; k < same.pieces.offsets[j + 1]; ++k) {
+      if (same.pieces.values[k] != j) others += same.areas[k];
     }
     require(others < 1e-14, "cells onto themselves are the identity");
   }
@@ -125,7 +125,7 @@ void test_grid(const CellSet& cells, ByteSource& source) {
   };
   if (is_narrow(lines.lon_deg) || is_narrow(lines.lat_deg)) return;
   const Remap same = remap(grid, grid);
-  require(same.columns.size() == grid.num_cells(), "a grid onto itself is the identity");
+  require(same.pieces.values.size() == grid.num_cells(), "a grid onto itself is the identity");
 }
 
 // Every ring of a file is closed and on the map, and there is a feature for each piece.
@@ -137,9 +137,10 @@ void test_file(const RegionPieces& pieces) {
   require_region_writer(path);
   write_regions(path, pieces.rings, {}, 5);
   const LonLatRegions drawn = region_polygons(pieces.rings, 5);
-  require(drawn.rings.back() == drawn.positions.size(), "rings have all positions");
-  require(drawn.polygons.back() + 1 == drawn.rings.size(), "and polygons all rings");
-  require(drawn.owners.size() + 1 == drawn.polygons.size(), "each polygon has an owner");
+  require(drawn.polygons.rows.offsets.back() == drawn.polygons.rows.values.size(),
+          "rings have all positions");
+  require(drawn.polygons.offsets.back() == drawn.polygons.rows.size(), "and polygons all rings");
+  require(drawn.owners.size() == drawn.polygons.size(), "each polygon has an owner");
   const auto document = nlohmann::json::parse(content(path));
   require(document["features"].size() == pieces.num_pieces(), "a feature for each piece");
   require_valid(document, false);  // what is no wider than rounding is left out
@@ -264,13 +265,13 @@ void test_parts(const CellSet& cells, const CellSet& others, ByteSource& source)
   const Remap parts = remap(without_some(cells, first), target);
   std::vector<double> areas(cells.num_cells());
   for (std::size_t j = 0; j < others.num_cells(); ++j) {
-    for (auto k = parts.offsets[j]; k < parts.offsets[j + 1]; ++k) {
-      require(parts.columns[k] % first != 0 && j % second != 0, "gaps have no pieces");
-      areas[parts.columns[k]] += parts.areas[k];
+    for (auto k = parts.pieces.offsets[j]; k < parts.pieces.offsets[j + 1]; ++k) {
+      require(parts.pieces.values[k] % first != 0 && j % second != 0, "gaps have no pieces");
+      areas[parts.pieces.values[k]] += parts.areas[k];
     }
-    for (auto k = whole.offsets[j]; k < whole.offsets[j + 1]; ++k) {
-      if (whole.columns[k] % first != 0 && j % second != 0) {
-        areas[whole.columns[k]] -= whole.areas[k];
+    for (auto k = whole.pieces.offsets[j]; k < whole.pieces.offsets[j + 1]; ++k) {
+      if (whole.pieces.values[k] % first != 0 && j % second != 0) {
+        areas[whole.pieces.values[k]] -= whole.areas[k];
       }
     }
   }
@@ -282,8 +283,8 @@ void test_shares(const Remap& there, const CellSet& cells, const CellSet& cover)
   std::vector<double> shares(cells.num_cells());
   for (std::size_t j = 0; j < cover.num_cells(); ++j) {
     double sum = 0;
-    for (auto k = there.offsets[j]; k < there.offsets[j + 1]; ++k) {
-      shares[there.columns[k]] += there.areas[k];
+    for (auto k = there.pieces.offsets[j]; k < there.pieces.offsets[j + 1]; ++k) {
+      shares[there.pieces.values[k]] += there.areas[k];
       sum += there.areas[k];
     }
     require(sum < cover.areas()[j] + 1e-9, "no place counts twice");

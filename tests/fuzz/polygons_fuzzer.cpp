@@ -75,14 +75,15 @@ void test_overlaps(const std::string& path, PolygonOptions options) {
 }
 
 void test_features(const FeatureTable& table) {
-  require(table.polygons.num_cells() == table.lines.num_features(), "a cell for each feature");
-  require(table.lines.lines.back() == table.lines.points.size(), "offsets of lines fit");
+  require(table.polygons.num_cells() == table.lines.size(), "a cell for each feature");
+  require(table.lines.rows.offsets.back() == table.lines.rows.values.size(),
+          "offsets of lines fit");
   constexpr double tolerance = 0.3;
   try {
     const FeatureSites found = feature_sites(table.lines, tolerance);
     require(found.sites.size() == found.features.size(), "a feature for each site");
     const CellRings cells = feature_cells(table.lines, table.polygons, tolerance);
-    require(cells.num_cells() == table.lines.num_features(), "a cell for each feature");
+    require(cells.num_cells() == table.lines.size(), "a cell for each feature");
     const CellSet octants = CellSet::triangles(
         delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}));
     const RegionPieces pieces = feature_pieces(table.lines, table.polygons, tolerance, octants);

@@ -158,8 +158,8 @@ void test_ranges(const Locator& locator, const Scene& scene, double angle) {
   const auto locations = locator.locate(queries);
   const auto nearest = locator.nearest(queries);
   const auto three = locator.k_nearest(queries, 3);
-  const SiteLists within = locator.within(queries, angle);
-  require(within.offsets.size() == queries.size() + 1, "a list for each query");
+  const CompressedRows<Index> within = locator.within(queries, angle);
+  require(within.size() == queries.size(), "a list for each query");
   for (std::size_t i = 0; i < queries.size(); ++i) {
     require(locations[i] == locator.locate(queries[i]), "one or many are located in one place");
     require(nearest[i] == locator.nearest(queries[i]), "one or many have the same nearest");
@@ -167,8 +167,7 @@ void test_ranges(const Locator& locator, const Scene& scene, double angle) {
     expected.resize(3, no_index);
     require(std::ranges::equal(std::span(three).subspan(3 * i, 3), expected),
             "one or many have the same nearest ones");
-    const auto list = std::span(within.sites)
-                          .subspan(within.offsets[i], within.offsets[i + 1] - within.offsets[i]);
+    const auto list = within[i];
     require(std::ranges::equal(list, locator.within(queries[i], angle)),
             "one or many have the same within an angle");
   }

@@ -41,7 +41,7 @@ def public_names(text):
     names = set()
     scopes = []  # of the open braces: the class, "()" for a function's body, None for others
     statement = ""
-    for character in without_comments(text):
+    for character in re.sub(r"template <[^<>]*>", "", without_comments(text)):
         statement += character
         if character not in "{};":
             continue

@@ -78,12 +78,12 @@ inline std::set<Triple> face_set(const Triangulation& t, bool solid_only = false
 // The facets, which do not depend on how ties are broken, each from its lowest corner, reversed if
 // wanted.
 inline std::set<std::vector<Index>> facets(const Triangulation& t, bool is_reversed = false) {
-  const Polygons polygons = merge_cocircular(t);
+  const CompressedRows<Index> polygons = merge_cocircular(t);
   std::set<std::vector<Index>> result;
   for (std::size_t i = 0; i + 1 < polygons.offsets.size(); ++i) {
     std::vector<Index> ring(
-        polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i]),
-        polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i + 1]));
+        polygons.values.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i]),
+        polygons.values.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i + 1]));
     if (is_reversed) std::reverse(ring.begin() + 1, ring.end());
     result.insert(ring);
   }

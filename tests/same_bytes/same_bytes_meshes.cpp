@@ -160,8 +160,8 @@ void add_arrays(Hash& hash, const MeshArrays& arrays) {
   hash.add(arrays.cell_points);
   hash.add(arrays.cell_areas);
   hash.add(arrays.density);
-  hash.add(arrays.offsets);
-  hash.add(arrays.edges_on_cell);
+  hash.add(arrays.edges_on_cell.offsets);
+  hash.add(arrays.edges_on_cell.values);
   hash.add(arrays.cells_on_cell);
   hash.add(arrays.vertices_on_cell);
   hash.add(arrays.edge_points);
@@ -230,8 +230,8 @@ void add_meshes(Lines& lines) {
     const MeshArrays arrays = mesh::arrays(triangulation, options, execution);
     add_arrays(hash, arrays);
     const mesh::TangentialWeights rows = mesh::tangential_weights(arrays, execution);
-    hash.add(rows.offsets);
-    hash.add(rows.edges);
+    hash.add(rows.edges.offsets);
+    hash.add(rows.edges.values);
     hash.add(rows.weights);
   });
   const MeshArrays arrays = mesh::arrays(triangulation, options);

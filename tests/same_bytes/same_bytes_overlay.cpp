@@ -32,8 +32,8 @@ std::string hash_of_remap(const CellSet& source, const CellSet& target, unsigned
                           unsigned threads) {
   const Remap result = remap(source, target, {.order = order}, {.threads = threads});
   Hash hash;
-  hash.add(result.offsets);
-  hash.add(result.columns);
+  hash.add(result.pieces.offsets);
+  hash.add(result.pieces.values);
   hash.add(result.areas);
   for (const Point& moment : result.moments) {
     for (const double c : {moment.x, moment.y, moment.z}) hash.add(std::span(&c, 1));
@@ -60,11 +60,11 @@ std::string hash_of_rings(const CellRings& rings) {
 std::string hash_of_region_polygons(const CellRings& rings, unsigned threads) {
   const LonLatRegions found = region_polygons(rings, 0.5, {.threads = threads});
   Hash hash;
-  for (const LonLat& p : found.positions) {
+  for (const LonLat& p : found.polygons.rows.values) {
     for (const double c : {p.lon_deg, p.lat_deg}) hash.add(std::span(&c, 1));
   }
-  hash.add(found.rings);
-  hash.add(found.polygons);
+  hash.add(found.polygons.rows.offsets);
+  hash.add(found.polygons.offsets);
   hash.add(found.owners);
   return hash.text();
 }
@@ -75,10 +75,10 @@ std::string hash_of_map(const Triangulation& triangulation, unsigned threads) {
   Hash hash;
   for (const LonLatPolygons& found : {cell_polygons(triangulation, dual, 0.5, {.threads = threads}),
                                       face_polygons(triangulation, {.threads = threads})}) {
-    for (const LonLat& p : found.positions) {
+    for (const LonLat& p : found.rings.values) {
       for (const double c : {p.lon_deg, p.lat_deg}) hash.add(std::span(&c, 1));
     }
-    hash.add(found.offsets);
+    hash.add(found.rings.offsets);
     hash.add(found.owners);
   }
   return hash.text();

@@ -48,11 +48,11 @@ std::string hash_of_contours(const Triangulation& triangulation, const std::vect
   const Isolines lines = isolines(triangulation, field, levels, {.threads = threads});
   const Bands areas = bands(triangulation, field, levels, {.threads = threads});
   Hash hash;
-  hash.add(lines.line_offsets);
-  hash.add(lines.points);
-  hash.add(areas.polygon_offsets);
-  hash.add(areas.ring_offsets);
-  hash.add(areas.points);
+  hash.add(lines.lines.rows.offsets);
+  hash.add(lines.lines.rows.values);
+  hash.add(areas.bands.rows.offsets);
+  hash.add(areas.rings().offsets);
+  hash.add(areas.rings().values);
   return hash.text();
 }
 

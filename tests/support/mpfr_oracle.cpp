@@ -71,8 +71,8 @@ std::optional<RealVector> DualOracle::circumcenter(const Triple& face) const {
 
 std::vector<RealVector> DualOracle::ring(const Cells& cells, Index site) const {
   std::vector<RealVector> result;
-  for (auto j = cells.offsets[site]; j < cells.offsets[site + 1]; ++j) {
-    const Index position = cells.rings[j];
+  for (auto j = cells.rings.offsets[site]; j < cells.rings.offsets[site + 1]; ++j) {
+    const Index position = cells.rings.values[j];
     std::optional<RealVector> exact;
     if (position < triangulation_.num_faces()) {
       exact = circumcenter(triangulation_.faces()[position]);

@@ -10,4 +10,5 @@ rondel_add_test(kernel_test
   order/spatial_order_test.cpp
   system/parallel_test.cpp
   system/message_text_test.cpp
+  system/row_assembly_test.cpp
   LIBS rondel_test_support)

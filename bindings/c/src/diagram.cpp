@@ -84,11 +84,11 @@ rondel_status rondel_diagram_create(const rondel_triangulation* triangulation,
 void rondel_diagram_free(rondel_diagram* diagram) { delete diagram; }
 
 const uint64_t* rondel_cell_offsets(const rondel_diagram* diagram) {
-  return diagram->diagram.cells.offsets.data();
+  return diagram->diagram.cells.rings.offsets.data();
 }
 
 const uint32_t* rondel_cell_rings(const rondel_diagram* diagram) {
-  return diagram->diagram.cells.rings.data();
+  return diagram->diagram.cells.rings.values.data();
 }
 
 const double* rondel_cell_points(const rondel_diagram* diagram) {
@@ -106,20 +106,20 @@ const double* rondel_cell_areas(const rondel_diagram* diagram) {
 
 void rondel_lists_free(rondel_lists* lists) { delete lists; }
 
-size_t rondel_num_lists(const rondel_lists* lists) { return lists->offsets.size() - 1; }
+size_t rondel_num_lists(const rondel_lists* lists) { return lists->rows.size(); }
 
-const uint64_t* rondel_list_offsets(const rondel_lists* lists) { return lists->offsets.data(); }
+const uint64_t* rondel_list_offsets(const rondel_lists* lists) {
+  return lists->rows.offsets.data();
+}
 
-const uint32_t* rondel_list_items(const rondel_lists* lists) { return lists->items.data(); }
+const uint32_t* rondel_list_items(const rondel_lists* lists) { return lists->rows.values.data(); }
 
 rondel_status rondel_merge_cocircular(const rondel_triangulation* triangulation,
                                       const rondel_execution* execution, rondel_lists** facets) {
   return rc::make_handle(facets, [&] {
     rc::require(triangulation, "triangulation");
-    rondel::Polygons merged =
-        rondel::merge_cocircular(triangulation->triangulation, rc::execution_of(execution));
-    return std::make_unique<rondel_lists>(
-        rondel_lists{std::move(merged.offsets), std::move(merged.corners)});
+    return std::make_unique<rondel_lists>(rondel_lists{
+        rondel::merge_cocircular(triangulation->triangulation, rc::execution_of(execution))});
   });
 }
 

@@ -76,7 +76,7 @@ rondel_status rondel_dynamic_neighbors(const rondel_dynamic* dynamic, uint32_t i
   return rc::make_handle(ids, [&] {
     rc::require(dynamic, "dynamic");
     std::vector<rondel::Index> found = dynamic->dynamic->neighbors(id);
-    return std::make_unique<rondel_lists>(rondel_lists{{0, found.size()}, std::move(found)});
+    return std::make_unique<rondel_lists>(rondel_lists{{{0, found.size()}, std::move(found)}});
   });
 }
 

@@ -35,8 +35,7 @@ struct rondel_diagram {
 };
 
 struct rondel_lists {
-  std::vector<std::uint64_t> offsets;
-  std::vector<rondel::Index> items;
+  rondel::CompressedRows<rondel::Index> rows;
 };
 
 struct rondel_dynamic {

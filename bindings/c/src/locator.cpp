@@ -63,10 +63,8 @@ rondel_status rondel_within(const rondel_locator* locator, const double* points,
                             double angle, const rondel_execution* execution, rondel_lists** sites) {
   return rc::make_handle(sites, [&] {
     rc::require(locator, "locator");
-    rondel::SiteLists found = locator->locator.within(rc::copied_points(points, n, "points"), angle,
-                                                      rc::execution_of(execution));
-    return std::make_unique<rondel_lists>(
-        rondel_lists{std::move(found.offsets), std::move(found.sites)});
+    return std::make_unique<rondel_lists>(rondel_lists{locator->locator.within(
+        rc::copied_points(points, n, "points"), angle, rc::execution_of(execution))});
   });
 }
 

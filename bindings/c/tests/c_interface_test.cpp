@@ -184,8 +184,9 @@ TEST_P(CInterface, has_the_dual_of_cpp) {
   const rondel::Diagram expected = diagram(expected_);
   DiagramHandle cells;
   ASSERT_EQ(rondel_diagram_create(made, nullptr, &cells), RONDEL_OK);
-  EXPECT_EQ(listed(rondel_cell_offsets(cells), n + 1), expected.cells.offsets);
-  EXPECT_EQ(listed(rondel_cell_rings(cells), expected.cells.rings.size()), expected.cells.rings);
+  EXPECT_EQ(listed(rondel_cell_offsets(cells), n + 1), expected.cells.rings.offsets);
+  EXPECT_EQ(listed(rondel_cell_rings(cells), expected.cells.rings.values.size()),
+            expected.cells.rings.values);
   ASSERT_EQ(rondel_num_cell_points(cells), expected.cells.points.size());
   EXPECT_EQ(listed(rondel_cell_points(cells), 3 * expected.cells.points.size()),
             flat(expected.cells.points));
@@ -202,13 +203,13 @@ TEST_P(CInterface, has_the_dual_of_cpp) {
     EXPECT_EQ(found[2 * i + 1], expected_edges[i][1]);
   }
 
-  const rondel::Polygons expected_facets = merge_cocircular(expected_);
+  const rondel::CompressedRows<rondel::Index> expected_facets = merge_cocircular(expected_);
   ListsHandle facets;
   ASSERT_EQ(rondel_merge_cocircular(made, nullptr, &facets), RONDEL_OK);
   EXPECT_EQ(listed(rondel_list_offsets(facets), rondel_num_lists(facets) + 1),
             expected_facets.offsets);
-  EXPECT_EQ(listed(rondel_list_items(facets), expected_facets.corners.size()),
-            expected_facets.corners);
+  EXPECT_EQ(listed(rondel_list_items(facets), expected_facets.values.size()),
+            expected_facets.values);
 }
 
 TEST_P(CInterface, answers_as_cpp_does) {
@@ -229,12 +230,12 @@ TEST_P(CInterface, answers_as_cpp_does) {
   ASSERT_EQ(rondel_k_nearest(locator, doubles(queries), q, 4, nullptr, k_nearest.data()),
             RONDEL_OK);
   EXPECT_EQ(k_nearest, expected.k_nearest(queries, 4));
-  const rondel::SiteLists expected_lists = expected.within(queries, 0.5);
+  const rondel::CompressedRows<rondel::Index> expected_lists = expected.within(queries, 0.5);
   ListsHandle lists;
   ASSERT_EQ(rondel_within(locator, doubles(queries), q, 0.5, nullptr, &lists), RONDEL_OK);
   ASSERT_EQ(rondel_num_lists(lists), q);
   EXPECT_EQ(listed(rondel_list_offsets(lists), q + 1), expected_lists.offsets);
-  EXPECT_EQ(listed(rondel_list_items(lists), expected_lists.sites.size()), expected_lists.sites);
+  EXPECT_EQ(listed(rondel_list_items(lists), expected_lists.values.size()), expected_lists.values);
 
   std::vector<std::int32_t> where(q);
   std::vector<std::uint32_t> faces(q);

@@ -94,22 +94,32 @@ ArrayOut<const T> array_of(const nb::object& owner, std::span<const Row> rows) {
   return make_array<const T, Row>(rows.data(), rows.size(), owner);
 }
 
+// Returns a member of an object, or a member of it and so on.
+template <auto member, auto... inner, class Object>
+auto& part_of(Object& object) {
+  if constexpr (sizeof...(inner) == 0) {
+    return object.*member;
+  } else {
+    return part_of<inner...>(object.*member);
+  }
+}
+
 // Adds a vector of an object as an array that refers to it. An assignment copies an array into the
 // vector; it is for objects that nobody has seen yet, as they are made of what was pickled.
-template <class T, auto member, class Object>
+template <class T, auto... members, class Object>
 void add_array(nb::class_<Object>& type, const char* name) {
-  using Rows = std::remove_cvref_t<decltype(std::declval<Object&>().*member)>;
+  using Rows = std::remove_cvref_t<decltype(part_of<members...>(std::declval<Object&>()))>;
   using Row = typename Rows::value_type;
   using Given = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
   type.def_prop_rw(
       name,
       [](const nb::object& self) {
-        const Rows& rows = nb::cast<const Object&>(self).*member;
+        const Rows& rows = part_of<members...>(nb::cast<const Object&>(self));
         return array_of<T>(self, std::span<const Row>(rows));
       },
       [](Object& self, const Given& given) {
         const auto* const rows = reinterpret_cast<const Row*>(given.data());
-        (self.*member).assign(rows, rows + given.size() * sizeof(T) / sizeof(Row));
+        part_of<members...>(self).assign(rows, rows + given.size() * sizeof(T) / sizeof(Row));
       });
 }
 

@@ -21,11 +21,14 @@ Contours traced(const Triangulation& t, const NumbersIn& values, const NumbersIn
   });
 }
 
+std::size_t num_points(const Isolines& isolines) { return isolines.lines.rows.values.size(); }
+std::size_t num_points(const Bands& bands) { return bands.rings().values.size(); }
+
 template <class Contours, auto write>
 std::optional<nb::bytes> write_contours(const PathOut& path, const Contours& contours,
                                         double tolerance_deg) {
   return written(path, [&](const FileName& file) {
-    run_watched(contours.points.size(), 0, nb::none(), [&](const Execution& execution) {
+    run_watched(num_points(contours), 0, nb::none(), [&](const Execution& execution) {
       write(file, contours, tolerance_deg, execution);
     });
   });
@@ -37,17 +40,21 @@ void add_contours(nb::module_& module) {
   nb::class_<Isolines> lines(module, "Isolines");
   lines.def(nb::init<>());
   add_array<double, &Isolines::levels>(lines, "levels");
-  add_array<std::int64_t, &Isolines::level_offsets>(lines, "level_offsets");
-  add_array<std::int64_t, &Isolines::line_offsets>(lines, "line_offsets");
+  using Rows = CompressedRows<Point>;
+  using Groups = RowGroups<Rows>;
+  add_array<std::int64_t, &Isolines::lines, &Groups::offsets>(lines, "level_offsets");
+  add_array<std::int64_t, &Isolines::lines, &Groups::rows, &Rows::offsets>(lines, "line_offsets");
   add_array<std::uint8_t, &Isolines::is_closed>(lines, "is_closed");
-  add_array<double, &Isolines::points>(lines, "points");
+  add_array<double, &Isolines::lines, &Groups::rows, &Rows::values>(lines, "points");
   nb::class_<Bands> regions(module, "Bands");
   regions.def(nb::init<>());
   add_array<double, &Bands::levels>(regions, "levels");
-  add_array<std::int64_t, &Bands::band_offsets>(regions, "band_offsets");
-  add_array<std::int64_t, &Bands::polygon_offsets>(regions, "polygon_offsets");
-  add_array<std::int64_t, &Bands::ring_offsets>(regions, "ring_offsets");
-  add_array<double, &Bands::points>(regions, "points");
+  constexpr auto polygons = &RowGroups<Groups>::rows;
+  add_array<std::int64_t, &Bands::bands, &RowGroups<Groups>::offsets>(regions, "band_offsets");
+  add_array<std::int64_t, &Bands::bands, polygons, &Groups::offsets>(regions, "polygon_offsets");
+  add_array<std::int64_t, &Bands::bands, polygons, &Groups::rows, &Rows::offsets>(regions,
+                                                                                  "ring_offsets");
+  add_array<double, &Bands::bands, polygons, &Groups::rows, &Rows::values>(regions, "points");
   module.def("isolines", &traced<Isolines, isolines>, nb::arg("triangulation"),
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
   module.def("bands", &traced<Bands, bands>, nb::arg("triangulation"),

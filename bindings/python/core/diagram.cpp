@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -19,11 +18,7 @@
 namespace rondel::python {
 namespace {
 
-// Lists of indices in compressed rows.
-struct Lists {
-  std::vector<std::uint64_t> offsets;
-  std::vector<Index> items;
-};
+using Lists = CompressedRows<Index>;
 using ListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
 template <class Work>
@@ -35,52 +30,50 @@ auto watched_dual(const Triangulation& t, const Work& work) {
 Lists ring_neighbors(const Triangulation& t) {
   const auto ring = t.ring();
   const std::size_t count = ring.size();
-  Lists lists{std::vector<std::uint64_t>(t.num_sites() + 1, 0), {}};
-  const std::uint64_t degree = std::min<std::size_t>(count - std::min<std::size_t>(count, 1), 2);
-  for (const Index v : ring) lists.offsets[v + 1] = degree;
-  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
-  lists.items.resize(degree * count);
-  for (std::size_t j = 0; degree > 0 && j < count; ++j) {
-    const Index next = ring[(j + 1) % count];
-    const Index previous = ring[(j + count - 1) % count];
-    Index* out = &lists.items[lists.offsets[ring[j]]];
-    out[0] = std::min(previous, next);
-    if (degree > 1) out[1] = std::max(previous, next);
+  std::vector<std::size_t> place(t.num_sites(), count);
+  for (std::size_t j = 0; j < count; ++j) place[ring[j]] = j;
+  Lists lists;
+  for (const std::size_t j : place) {
+    if (j < count && count > 1) {
+      const auto [low, high] = std::minmax({ring[(j + 1) % count], ring[(j + count - 1) % count]});
+      lists.values.push_back(low);
+      if (count > 2) lists.values.push_back(high);
+    }
+    lists.end_row();
   }
   return lists;
 }
 
-// Writes the neighbors of a vertex, counterclockwise from the lowest index, by going around it
+// Appends the neighbors of a vertex, counterclockwise from the lowest index, by going around it
 // through its faces. Face f has corner i; the next face counterclockwise around that corner is
 // across the edge to the corner before it.
-void write_star(const Triangulation& t, Index first_face, Index site, Index* out) {
+void append_star(const Triangulation& t, Index first_face, Index site, std::vector<Index>& out) {
+  const auto size = static_cast<std::ptrdiff_t>(out.size());
   Index face = first_face;
-  Index* end = out;
   do {
     const Triple& corners = t.faces()[face];
     const auto i =
         static_cast<std::size_t>(std::find(corners.begin(), corners.end(), site) - corners.begin());
-    *end++ = corners[(i + 1) % 3];
+    out.push_back(corners[(i + 1) % 3]);
     face = t.neighbors()[face][(i + 1) % 3];
   } while (face != first_face);
-  std::rotate(out, std::min_element(out, end), end);
+  std::rotate(out.begin() + size, std::min_element(out.begin() + size, out.end()), out.end());
 }
 
 Lists neighbor_lists(const Triangulation& t) {
   if (t.dimension() < 2) return ring_neighbors(t);
-  Lists lists{std::vector<std::uint64_t>(t.num_sites() + 1, 0), {}};
   std::vector<Index> a_face(t.num_sites(), no_index);
   for (std::size_t f = 0; f < t.num_faces(); ++f) {
-    for (const Index v : t.faces()[f]) {
-      ++lists.offsets[v + 1];
-      a_face[v] = static_cast<Index>(f);
-    }
+    for (const Index v : t.faces()[f]) a_face[v] = static_cast<Index>(f);
   }
-  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
-  lists.items.resize(lists.offsets.back());
+  Lists lists;
+  lists.offsets.reserve(t.num_sites() + 1);
+  lists.values.reserve(3 * t.num_faces());
   for (std::size_t v = 0; v < t.num_sites(); ++v) {
-    if (a_face[v] == no_index) continue;
-    write_star(t, a_face[v], static_cast<Index>(v), &lists.items[lists.offsets[v]]);
+    if (a_face[v] != no_index) {
+      append_star(t, a_face[v], static_cast<Index>(v), lists.values);
+    }
+    lists.end_row();
   }
   return lists;
 }
@@ -102,7 +95,7 @@ double largest_discrepancy(const PointsIn& points, const std::array<double, 3>& 
 }
 
 ListsOut lists_out(Lists&& lists) {
-  return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.items))};
+  return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.values))};
 }
 
 // While it lives, Python's garbage collector is off, since it would visit all lists again and again
@@ -144,23 +137,12 @@ nb::list to_lists(const IndicesIn& items, const OffsetsIn& offsets) {
   return result;
 }
 
-template <class T, class Row>
-auto array_getter(const std::vector<Row> Cells::*member) {
-  return [member](const nb::object& self) {
-    const std::vector<Row>& rows = nb::cast<const Diagram&>(self).cells.*member;
-    return array_of<T>(self, std::span<const Row>(rows));
-  };
-}
-
 void add_diagram_class(nb::module_& module) {
-  nb::class_<Diagram>(module, "Diagram")
-      .def_prop_ro("offsets", array_getter<std::int64_t, std::uint64_t>(&Cells::offsets))
-      .def_prop_ro("rings", array_getter<std::int32_t, Index>(&Cells::rings))
-      .def_prop_ro("points", array_getter<double, Point>(&Cells::points))
-      .def_prop_ro("areas", [](const nb::object& self) {
-        return array_of<double>(self,
-                                std::span<const double>(nb::cast<const Diagram&>(self).areas));
-      });
+  nb::class_<Diagram> type(module, "Diagram");
+  add_array<std::int64_t, &Diagram::cells, &Cells::rings, &Lists::offsets>(type, "offsets");
+  add_array<std::int32_t, &Diagram::cells, &Cells::rings, &Lists::values>(type, "rings");
+  add_array<double, &Diagram::cells, &Cells::points>(type, "points");
+  add_array<double, &Diagram::areas>(type, "areas");
 }
 
 }  // namespace
@@ -191,8 +173,7 @@ void add_diagram(nb::module_& module) {
   module.def(
       "merge_cocircular",
       [](const Triangulation& t) -> ListsOut {
-        Polygons polygons = watched_dual(t, &merge_cocircular);
-        return {offsets_out(std::move(polygons.offsets)), indices_out(std::move(polygons.corners))};
+        return lists_out(watched_dual(t, &merge_cocircular));
       },
       nb::arg("triangulation"));
   module.def("largest_discrepancy", &largest_discrepancy, nb::arg("points").noconvert(),

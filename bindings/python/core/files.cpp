@@ -36,8 +36,8 @@ SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& column
 
 // Returns the positions (k, 2), the offsets of the rings and their owners.
 PolygonsOut polygons_out(LonLatPolygons&& polygons) {
-  return {to_array<double>(std::move(polygons.positions)), offsets_out(std::move(polygons.offsets)),
-          indices_out(std::move(polygons.owners))};
+  return {to_array<double>(std::move(polygons.rings.values)),
+          offsets_out(std::move(polygons.rings.offsets)), indices_out(std::move(polygons.owners))};
 }
 
 }  // namespace

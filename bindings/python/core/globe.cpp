@@ -72,8 +72,8 @@ void add_globe(nb::module_& module) {
       nb::arg("name"), nb::arg("title"), nb::arg("show").none(), nb::arg("sites"),
       nb::arg("circles"), nb::arg("view").none());
   module.def("coast_lines", [] {
-    CoastLines coast = coast_lines();
-    return std::tuple(to_array<double>(std::move(coast.positions)),
+    CompressedRows<LonLat> coast = coast_lines();
+    return std::tuple(to_array<double>(std::move(coast.values)),
                       offsets_out(std::move(coast.offsets)));
   });
   module.def("write_file", [](const std::string& path, const nb::bytes& content) {

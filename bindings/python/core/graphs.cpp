@@ -35,8 +35,8 @@ GraphOut graph(const Triangulation& t, nb::handle name) {
 }
 
 OutlineOut outline_out(Outline&& outline) {
-  return {offsets_out(std::move(outline.polygon_offsets)),
-          offsets_out(std::move(outline.ring_offsets)), indices_out(std::move(outline.sites))};
+  return {offsets_out(std::move(outline.offsets)), offsets_out(std::move(outline.rows.offsets)),
+          indices_out(std::move(outline.rows.values))};
 }
 
 OutlineOut hull_polygon_of(const Triangulation& t) {

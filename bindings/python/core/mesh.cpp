@@ -85,7 +85,7 @@ WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
   mesh::TangentialWeights found = watched_quietly(
       arrays.num_cells(), threads,
       [&](const Execution& execution) { return mesh::tangential_weights(arrays, execution); });
-  return {offsets_out(std::move(found.offsets)), indices_out(std::move(found.edges)),
+  return {offsets_out(std::move(found.edges.offsets)), indices_out(std::move(found.edges.values)),
           to_array<double>(std::move(found.weights))};
 }
 
@@ -98,8 +98,10 @@ void add_mesh(nb::module_& module) {
   add_array<double, &MeshArrays::cell_points>(type, "cell_points");
   add_array<double, &MeshArrays::cell_areas>(type, "cell_areas");
   add_array<double, &MeshArrays::density>(type, "density");
-  add_array<std::int64_t, &MeshArrays::offsets>(type, "offsets");
-  add_array<std::int32_t, &MeshArrays::edges_on_cell>(type, "edges_on_cell");
+  add_array<std::int64_t, &MeshArrays::edges_on_cell, &CompressedRows<Index>::offsets>(type,
+                                                                                       "offsets");
+  add_array<std::int32_t, &MeshArrays::edges_on_cell, &CompressedRows<Index>::values>(
+      type, "edges_on_cell");
   add_array<std::int32_t, &MeshArrays::cells_on_cell>(type, "cells_on_cell");
   add_array<std::int32_t, &MeshArrays::vertices_on_cell>(type, "vertices_on_cell");
   add_array<double, &MeshArrays::edge_points>(type, "edge_points");

@@ -81,12 +81,13 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
       p = {p.x / length, p.y / length, p.z / length};
     }
     rings.corners = arrays.vertices_on_cell;
-    rings.rings = arrays.offsets;
-    rings.cells.resize(arrays.offsets.size());
+    rings.rings = arrays.edges_on_cell.offsets;
+    rings.cells.resize(arrays.edges_on_cell.offsets.size());
     std::iota(rings.cells.begin(), rings.cells.end(), std::uint64_t{0});
     return region_polygons(rings, tolerance_deg, execution);
   });
-  return {to_array<double>(std::move(found.positions)), offsets_out(std::move(found.rings)),
+  CompressedRows<LonLat>& rings = found.polygons.rows;
+  return {to_array<double>(std::move(rings.values)), offsets_out(std::move(rings.offsets)),
           indices_out(std::move(found.owners))};
 }
 

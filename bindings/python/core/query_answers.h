@@ -26,8 +26,8 @@ LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
 std::vector<double> distances(const Locator& locator, std::span<const Point> queries,
                               std::span<const Index> sites);
 
-inline SiteListsOut site_lists_out(SiteLists&& lists) {
-  return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.sites))};
+inline SiteListsOut site_lists_out(CompressedRows<Index>&& lists) {
+  return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.values))};
 }
 
 }  // namespace rondel::python

@@ -33,8 +33,9 @@ RegionsOut polygons_of(const CellRings& rings, double tolerance_deg, unsigned th
   LonLatRegions found = watched_quietly(
       rings.corners.size(), threads,
       [&](const Execution& execution) { return region_polygons(rings, tolerance_deg, execution); });
-  return {to_array<double>(std::move(found.positions)), offsets_out(std::move(found.rings)),
-          offsets_out(std::move(found.polygons)), indices_out(std::move(found.owners))};
+  auto& [polygons, positions] = found.polygons;
+  return {to_array<double>(std::move(positions.values)), offsets_out(std::move(positions.offsets)),
+          offsets_out(std::move(polygons)), indices_out(std::move(found.owners))};
 }
 
 void add_region_functions(nb::module_& module) {

@@ -32,8 +32,8 @@ std::string hash_of(const Triangulation& t) {
 std::string hash_of_duals(const Triangulation& t) {
   const Diagram duals = diagram(t);
   Hash hash;
-  hash.add(duals.cells.offsets);
-  hash.add(duals.cells.rings);
+  hash.add(duals.cells.rings.offsets);
+  hash.add(duals.cells.rings.values);
   hash.add(duals.cells.points);
   hash.add(duals.areas);
   hash.add(centroids(t));

@@ -354,10 +354,10 @@ TEST(writers, refuse_what_does_not_belong_together) {
   wrong.areas.pop_back();
   refused(wrong);
   wrong = right;
-  wrong.cells.rings[5] = no_index;
+  wrong.cells.rings.values[5] = no_index;
   refused(wrong);
   wrong = right;
-  wrong.cells.offsets[3] = 1000;
+  wrong.cells.rings.offsets[3] = 1000;
   refused(wrong);
   wrong = right;
   wrong.cells.points.clear();

@@ -81,7 +81,7 @@ std::string bytes_of(const Triangulation& t) {
 }
 
 std::string bytes_of(const Cells& cells) {
-  return bytes_of(cells.offsets) + bytes_of(cells.rings) + bytes_of(cells.points);
+  return bytes_of(cells.rings.offsets) + bytes_of(cells.rings.values) + bytes_of(cells.points);
 }
 
 std::string bytes_of(const Location& l) {
@@ -138,7 +138,7 @@ std::string answers(const Subject& s) {
   const Locator locator(t);
   std::string all = bytes_of(locator.nearest(s.queries)) +
                     bytes_of(locator.k_nearest(s.queries, 3)) +
-                    bytes_of(locator.within(s.queries, 0.2).sites);
+                    bytes_of(locator.within(s.queries, 0.2).values);
   for (const Point& q : std::span(s.queries).first(20)) {
     all += bytes_of(locator.locate(q)) + bytes_of_one(locator.nearest(q)) +
            bytes_of(locator.k_nearest(q, 2)) + bytes_of(locator.within(q, 0.3)) +
@@ -223,7 +223,7 @@ const std::vector<Function> functions = {
        return bytes_of(c) + bytes_of(areas(t)) + bytes_of(centroids(t));
      }},
     {"merge_cocircular",
-     [](const auto& s) { return bytes_of(merge_cocircular(triangulation_of(s)).corners); }},
+     [](const auto& s) { return bytes_of(merge_cocircular(triangulation_of(s)).values); }},
     {"Locator", answers},
     {"DynamicTriangulation", changed},
     {"files", files},

@@ -252,12 +252,12 @@ std::size_t nearest(std::span<const Point> sites, const Point& u) {
 // The least det(a, b, u) over the edges (a, b) of the cell, relative to the edge's length: the sine
 // of the distance by which u is inside.
 double depth(const Cells& cells, std::size_t site, const Point& u) {
-  const auto first = cells.offsets[site];
-  const auto count = cells.offsets[site + 1] - first;
+  const std::span<const Index> ring = cells.rings[site];
+  const std::size_t count = ring.size();
   double least = count == 0 ? -1 : 1;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const Point& a = cells.points[cells.rings[first + i]];
-    const Point& b = cells.points[cells.rings[first + (i + 1) % count]];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point& a = cells.points[ring[i]];
+    const Point& b = cells.points[ring[(i + 1) % count]];
     const Point normal = cross_product(a, b - a);
     const double length = std::sqrt(product(normal, normal));
     // An edge shorter than the rounding of its ends tells nothing.
@@ -271,7 +271,7 @@ void expect_power_cells(std::span<const Point> sites, std::size_t num_directions
   const auto [cells, areas] = diagram(triangulation);
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0) / (4 * std::numbers::pi), 1, 1e-12);
   for (const Hidden& hidden : triangulation.hidden()) {
-    ASSERT_EQ(cells.offsets[hidden.site], cells.offsets[hidden.site + 1]);
+    ASSERT_EQ(cells.rings.offsets[hidden.site], cells.rings.offsets[hidden.site + 1]);
     ASSERT_EQ(areas[hidden.site], 0);
   }
   Random random(11);

@@ -17,8 +17,8 @@ TEST(cells, keep_the_contract_for_every_generator) {
   for_each_case(14, 3, [](const DualCase& c) {
     const Triangulation& t = c.triangulation;
     const Cells diagram = cells(t);
-    ASSERT_EQ(diagram.offsets.size(), c.sites.size() + 1);
-    ASSERT_EQ(diagram.offsets.back(), diagram.rings.size());
+    ASSERT_EQ(diagram.rings.size(), c.sites.size());
+    ASSERT_EQ(diagram.rings.offsets.back(), diagram.rings.values.size());
     std::set<Index> empty;
     for (const Duplicate& d : t.duplicates()) empty.insert(d.site);
     for (const Hidden& h : t.hidden()) empty.insert(h.site);
@@ -118,7 +118,7 @@ TEST(cells, have_arc_points_on_the_bisector_between_antipodal_circumcenters) {
 TEST(cells, are_hemispheres_for_two_sites) {
   const std::vector<Point> sites = {{0, 0, 1}, {0, 0, -3}, {0, 0, 5}};
   const Cells diagram = cells(triangulated(sites));
-  EXPECT_EQ(diagram.offsets, (std::vector<std::uint64_t>{0, 4, 8, 8}));
+  EXPECT_EQ(diagram.rings.offsets, (std::vector<std::uint64_t>{0, 4, 8, 8}));
   for (const Point& p : diagram.points) EXPECT_EQ(p.z, 0);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto ring = ring_of(diagram, i);
@@ -143,10 +143,10 @@ TEST(cells, are_lunes_on_a_great_circle) {
 }
 
 TEST(cells, of_one_site_and_of_none_are_empty) {
-  EXPECT_EQ(cells(Triangulation{}, {}).offsets, std::vector<std::uint64_t>{0});
+  EXPECT_EQ(cells(Triangulation{}, {}).rings.offsets, std::vector<std::uint64_t>{0});
   const std::vector<Point> sites = {{1, 2, 3}, {2, 4, 6}};
   const Cells diagram = cells(triangulated(sites));
-  EXPECT_EQ(diagram.offsets, (std::vector<std::uint64_t>{0, 0, 0}));
+  EXPECT_EQ(diagram.rings.offsets, (std::vector<std::uint64_t>{0, 0, 0}));
   EXPECT_TRUE(diagram.points.empty());
 }
 
@@ -155,12 +155,10 @@ TEST(cells, of_one_site_and_of_none_are_empty) {
 using Polygon = std::vector<Index>;
 
 std::vector<Polygon> polygons_of(std::span<const Point> sites, Model model = Model::projected) {
-  const Polygons facets = merge_cocircular(triangulated(sites, model));
+  const CompressedRows<Index> facets = merge_cocircular(triangulated(sites, model));
   std::vector<Polygon> result;
-  for (std::size_t k = 0; k + 1 < facets.offsets.size(); ++k) {
-    const auto begin = facets.corners.begin();
-    result.emplace_back(begin + static_cast<std::ptrdiff_t>(facets.offsets[k]),
-                        begin + static_cast<std::ptrdiff_t>(facets.offsets[k + 1]));
+  for (std::size_t k = 0; k < facets.size(); ++k) {
+    result.emplace_back(facets[k].begin(), facets[k].end());
   }
   return result;
 }
@@ -241,17 +239,17 @@ TEST(merge_cocircular, leaves_no_corner_inside_a_facet) {
 
 TEST(merge_cocircular, gives_a_closed_surface_for_every_generator) {
   for_each_case(20, 2, [](const DualCase& c) {
-    const Polygons facets = merge_cocircular(c.triangulation);
+    const CompressedRows<Index> facets = merge_cocircular(c.triangulation);
     if (c.triangulation.dimension() < 2) {
       EXPECT_EQ(facets.offsets, std::vector<std::uint64_t>{0});
       return;
     }
     std::set<std::array<Index, 2>> borders;
-    std::set<Index> corners(facets.corners.begin(), facets.corners.end());
+    std::set<Index> corners(facets.values.begin(), facets.values.end());
     for (std::size_t k = 0; k + 1 < facets.offsets.size(); ++k) {
       for (auto j = facets.offsets[k]; j < facets.offsets[k + 1]; ++j) {
         const auto next = j + 1 == facets.offsets[k + 1] ? facets.offsets[k] : j + 1;
-        EXPECT_TRUE(borders.insert({facets.corners[j], facets.corners[next]}).second) << c.name;
+        EXPECT_TRUE(borders.insert({facets.values[j], facets.values[next]}).second) << c.name;
       }
     }
     for (const auto& [a, b] : borders) EXPECT_TRUE(borders.contains({b, a})) << c.name;

@@ -53,7 +53,7 @@ inline Triangulation triangulated(std::span<const Point> sites, Model model = Mo
 }
 
 inline std::span<const Index> ring_of(const Cells& cells, std::size_t site) {
-  return {cells.rings.data() + cells.offsets[site], cells.rings.data() + cells.offsets[site + 1]};
+  return cells.rings[site];
 }
 
 inline double dot_product(const Point& a, const Point& b) {

@@ -39,7 +39,7 @@ class Comparison {
     const auto within = direct_.within(queries, 0.5);
     const auto expected = copy_.within(queries, 0.5);
     ASSERT_EQ(within.offsets, expected.offsets);
-    ASSERT_EQ(within.sites, named(expected.sites));
+    ASSERT_EQ(within.values, named(expected.values));
     for (const Point& p : queries) {
       ASSERT_EQ(direct_.nearest(p), name(copy_.nearest(p)));
       compare_places(p);

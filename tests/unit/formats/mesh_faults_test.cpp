@@ -71,8 +71,7 @@ RingsOfFile rings_of_sites(std::size_t n, std::uint64_t seed) {
   RingsOfFile mesh;
   mesh.nodes = lonlats(all.points);
   for (std::size_t i = 0; i < n; ++i) {
-    mesh.rings.emplace_back(all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
-                            all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1]));
+    mesh.rings.emplace_back(all.rings[i].begin(), all.rings[i].end());
     const Point& site = sites.sites()[i];
     mesh.centers.push_back(lonlats({&site, 1}).front());
   }

@@ -45,8 +45,7 @@ struct MeshOfDiagram {
     for (std::size_t i = 0; i < num_sites; ++i) {
       const Point& site = triangulation.sites()[i];
       sites.push_back(lonlats({&site, 1}).front());
-      rings.emplace_back(all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
-                         all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1]));
+      rings.emplace_back(all.rings[i].begin(), all.rings[i].end());
       most = std::max(most, rings.back().size());
     }
     const CellSet cell_set = CellSet::voronoi(triangulation);

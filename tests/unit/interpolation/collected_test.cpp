@@ -31,9 +31,7 @@ void append(const Ground& ground, const CollectedRows& rows, Index target,
             const std::vector<std::pair<Index, double>>& weights, RowList& list) {
   interpolation::Row row;
   for (const auto& [site, weight] : weights) row.push_back({ground.vertex_of(site), weight});
-  list.targets.push_back(target);
-  rows.append(row, list);
-  list.ends.push_back(list.columns.size());
+  rows.append(target, row, list);
 }
 
 TEST(collected_rows, are_in_the_order_of_targets) {

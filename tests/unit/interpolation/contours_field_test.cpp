@@ -128,7 +128,7 @@ TEST(isolines, have_their_level_everywhere) {
   const Isolines lines = isolines(t, values, levels);
   ASSERT_GT(lines.num_lines(), 3U);
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    for (auto line = lines.level_offsets[k]; line < lines.level_offsets[k + 1]; ++line) {
+    for (auto line = lines.lines.offsets[k]; line < lines.lines.offsets[k + 1]; ++line) {
       const auto points = line_points(lines, line);
       for (std::size_t i = 0; i + 1 < points.size(); ++i) {
         for (const double share : {0.0, 0.3, 0.5}) {
@@ -214,8 +214,8 @@ TEST(contours, take_the_first_value_of_each_place) {
     moved[i] = none;
   }
   const Triangulation together = delaunay(repeated);
-  EXPECT_EQ(isolines(together, moved, levels).points, isolines(apart, values, levels).points);
-  EXPECT_EQ(bands(together, moved, levels).points, bands(apart, values, levels).points);
+  EXPECT_EQ(isolines(together, moved, levels).lines, isolines(apart, values, levels).lines);
+  EXPECT_EQ(bands(together, moved, levels).bands, bands(apart, values, levels).bands);
   const std::vector<double> first = first_values(together, moved);
   EXPECT_TRUE(std::equal(values.begin(), values.end(), first.begin()));
   EXPECT_THROW((void)first_values(together, values), InvalidInput);

@@ -123,14 +123,14 @@ TEST(contour_pieces, are_not_where_a_value_is_missing) {
 
 // Expects one closed line through points at these angles around the z axis, with this height, to the east or to the west.
 void expect_ring(const TracedLines& lines, double height, bool leads_east) {
-  ASSERT_EQ(lines.ends.size(), 1U);
+  ASSERT_EQ(lines.lines.size(), 1U);
   EXPECT_EQ(lines.is_closed[0], 1);
-  ASSERT_EQ(lines.points.size(), 4U);
+  ASSERT_EQ(lines.lines.values.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(lines.points[k].z, height, 1e-15);
-    EXPECT_NEAR(norm(lines.points[k]), 1, 1e-15);
-    const Point& next = lines.points[(k + 1) % 4];
-    const double turn = cross(lines.points[k], next).z;
+    EXPECT_NEAR(lines.lines.values[k].z, height, 1e-15);
+    EXPECT_NEAR(norm(lines.lines.values[k]), 1, 1e-15);
+    const Point& next = lines.lines.values[(k + 1) % 4];
+    const double turn = cross(lines.lines.values[k], next).z;
     EXPECT_NEAR(turn, (leads_east ? 1 : -1) * (1 - height * height), 1e-15);
   }
 }
@@ -173,7 +173,7 @@ TEST(contour_tracer, numbers_the_parts_of_bands) {
   EXPECT_EQ(bands.num_regions(), 3U);
   EXPECT_EQ(bands.region_without_border(), 1U);
   const TracedLines middle = bands.rings(1);
-  ASSERT_EQ(middle.ends.size(), 2U);
+  ASSERT_EQ(middle.lines.size(), 2U);
   EXPECT_EQ(middle.component[0], middle.component[1]);
   expect_ring(bands.rings(0), -std::sqrt(0.5), false);
   expect_ring(bands.rings(2), std::sqrt(0.5), true);
@@ -183,11 +183,11 @@ TEST(contour_tracer, numbers_the_parts_of_bands) {
   const std::vector<double> one = {0.5};
   ContourTracer both(triangulation, poles, one, RegionKind::band, {});
   const TracedLines caps = both.rings(1);
-  ASSERT_EQ(caps.ends.size(), 2U);
+  ASSERT_EQ(caps.lines.size(), 2U);
   EXPECT_NE(caps.component[0], caps.component[1]);
   ContourTracer all(triangulation, heights, std::vector<double>{}, RegionKind::band, {});
   EXPECT_EQ(all.region_without_border(), 0U);
-  EXPECT_TRUE(all.rings(0).points.empty());
+  EXPECT_TRUE(all.rings(0).lines.values.empty());
 }
 
 // Without a value at x, a line ends at the border of the surface, and the ring of the band goes along that.
@@ -198,17 +198,17 @@ TEST(contour_tracer, ends_lines_at_the_border_of_the_surface) {
   const std::vector<double> levels = {0.5};
   ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, {});
   const TracedLines line = tracer.lines(1);
-  ASSERT_EQ(line.ends.size(), 1U);
+  ASSERT_EQ(line.lines.size(), 1U);
   EXPECT_EQ(line.is_closed[0], 0);
-  ASSERT_EQ(line.points.size(), 3U);
-  EXPECT_NEAR(line.points[0].y, std::sqrt(0.5), 1e-15);   // from the edge of y
-  EXPECT_NEAR(line.points[1].x, -std::sqrt(0.5), 1e-15);  // by that of -x
-  EXPECT_NEAR(line.points[2].y, -std::sqrt(0.5), 1e-15);  // to that of -y
+  ASSERT_EQ(line.lines.values.size(), 3U);
+  EXPECT_NEAR(line.lines.values[0].y, std::sqrt(0.5), 1e-15);   // from the edge of y
+  EXPECT_NEAR(line.lines.values[1].x, -std::sqrt(0.5), 1e-15);  // by that of -x
+  EXPECT_NEAR(line.lines.values[2].y, -std::sqrt(0.5), 1e-15);  // to that of -y
   ContourTracer bands(triangulation, values, levels, RegionKind::band, {});
   EXPECT_EQ(bands.region_without_border(), 2U);
   const TracedLines ring = bands.rings(1);
-  ASSERT_EQ(ring.ends.size(), 1U);
-  EXPECT_EQ(ring.points.size(), 4U);  // and z
+  ASSERT_EQ(ring.lines.size(), 1U);
+  EXPECT_EQ(ring.lines.values.size(), 4U);  // and z
 }
 
 Point numbered(int number) { return {static_cast<double>(number), 0, 0}; }
@@ -221,10 +221,9 @@ std::vector<std::vector<int>> simple_lines(const std::vector<int>& line, bool is
   TracedLines out;
   interpolation::append_simple_lines(points, is_closed, out);
   std::vector<std::vector<int>> lines;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < out.ends.size(); ++i) {
+  for (std::size_t i = 0; i < out.lines.size(); ++i) {
     std::vector<int>& one = lines.emplace_back();
-    for (; begin < out.ends[i]; ++begin) one.push_back(static_cast<int>(out.points[begin].x));
+    for (const Point& p : out.lines[i]) one.push_back(static_cast<int>(p.x));
   }
   EXPECT_EQ(std::vector<bool>(out.is_closed.begin(), out.is_closed.end()), expected_closed);
   return lines;

@@ -51,20 +51,18 @@ inline double signed_ring_area(std::span<const Point> ring) {
 }
 
 inline std::span<const Point> ring_points(const Bands& bands, std::uint64_t ring) {
-  return std::span(bands.points)
-      .subspan(bands.ring_offsets[ring], bands.ring_offsets[ring + 1] - bands.ring_offsets[ring]);
+  return bands.rings()[ring];
 }
 
 inline std::span<const Point> line_points(const Isolines& lines, std::uint64_t line) {
-  return std::span(lines.points)
-      .subspan(lines.line_offsets[line], lines.line_offsets[line + 1] - lines.line_offsets[line]);
+  return lines.lines.rows[line];
 }
 
 // The rings of band k.
 inline std::vector<std::span<const Point>> rings_of_band(const Bands& bands, std::size_t k) {
   std::vector<std::span<const Point>> rings;
-  for (auto ring = bands.polygon_offsets[bands.band_offsets[k]];
-       ring < bands.polygon_offsets[bands.band_offsets[k + 1]]; ++ring) {
+  for (auto ring = bands.bands.rows.offsets[bands.bands.offsets[k]];
+       ring < bands.bands.rows.offsets[bands.bands.offsets[k + 1]]; ++ring) {
     rings.push_back(ring_points(bands, ring));
   }
   return rings;
@@ -73,12 +71,12 @@ inline std::vector<std::span<const Point>> rings_of_band(const Bands& bands, std
 inline double polygon_area(const Bands& bands, std::uint64_t polygon) {
   constexpr double sphere = 4 * std::numbers::pi;
   double area = 0;
-  for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
+  for (auto ring = bands.bands.rows.offsets[polygon]; ring < bands.bands.rows.offsets[polygon + 1];
        ++ring) {
     area += signed_ring_area(ring_points(bands, ring));
   }
   area = std::fmod(area, sphere);
-  if (bands.polygon_offsets[polygon] == bands.polygon_offsets[polygon + 1]) return sphere;
+  if (bands.bands.rows.offsets[polygon] == bands.bands.rows.offsets[polygon + 1]) return sphere;
   return area < 0 ? area + sphere : area;
 }
 

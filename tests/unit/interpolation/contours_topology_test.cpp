@@ -90,7 +90,7 @@ void for_each_stepped_case(const Visit& visit) {
 TEST(contours, are_simple_lines_and_rings_for_every_generator) {
   for_each_stepped_case([](const Case& c) {
     const Bands found = bands(c.triangulation, c.values, stepped_levels);
-    for (std::size_t ring = 0; ring + 1 < found.ring_offsets.size(); ++ring) {
+    for (std::size_t ring = 0; ring < found.rings().size(); ++ring) {
       EXPECT_GE(ring_points(found, ring).size(), 3U);
       expect_simple(ring_points(found, ring), c.name);
     }
@@ -181,7 +181,7 @@ TEST(bands, of_generic_values_have_the_euler_characteristic_of_the_sphere) {
     std::vector<double> values(200);
     for (double& value : values) value = random.unit();
     const Bands found = bands(t, values, std::vector<double>{0.3, 0.4, 0.7});
-    const auto rings = static_cast<int>(found.ring_offsets.size() - 1);
+    const auto rings = static_cast<int>(found.rings().size());
     EXPECT_EQ(2 * static_cast<int>(found.num_polygons()) - rings, 2);
     const Isolines lines = isolines(t, values, std::vector<double>{0.3, 0.4, 0.7});
     EXPECT_EQ(2 * static_cast<int>(lines.num_lines()), rings);
@@ -205,14 +205,14 @@ TEST(contours, have_the_same_bytes_for_any_order_of_the_sites_and_threads) {
     const Triangulation other = delaunay(sites, {.sphere = c.triangulation.sphere()});
     const Bands a = bands(c.triangulation, c.values, stepped_levels, {.threads = 1});
     const Bands b = bands(other, values, stepped_levels, {.threads = 4});
-    EXPECT_EQ(a.points, b.points) << c.name;
-    EXPECT_EQ(a.ring_offsets, b.ring_offsets) << c.name;
-    EXPECT_EQ(a.polygon_offsets, b.polygon_offsets) << c.name;
-    EXPECT_EQ(a.band_offsets, b.band_offsets) << c.name;
+    EXPECT_EQ(a.rings().values, b.rings().values) << c.name;
+    EXPECT_EQ(a.rings().offsets, b.rings().offsets) << c.name;
+    EXPECT_EQ(a.bands.rows.offsets, b.bands.rows.offsets) << c.name;
+    EXPECT_EQ(a.bands.offsets, b.bands.offsets) << c.name;
     const Isolines d = isolines(c.triangulation, c.values, stepped_levels, {.threads = 1});
     const Isolines e = isolines(other, values, stepped_levels, {.threads = 4});
-    EXPECT_EQ(d.points, e.points) << c.name;
-    EXPECT_EQ(d.line_offsets, e.line_offsets) << c.name;
+    EXPECT_EQ(d.lines.rows.values, e.lines.rows.values) << c.name;
+    EXPECT_EQ(d.lines.rows.offsets, e.lines.rows.offsets) << c.name;
     EXPECT_EQ(d.is_closed, e.is_closed) << c.name;
   });
 }
@@ -226,14 +226,14 @@ TEST(contours, take_the_place_of_a_duplicate_from_no_order) {
   std::ranges::reverse(sites);
   std::ranges::reverse(values);
   const Bands b = bands(delaunay(sites), values, std::vector<double>{0.5, 1});
-  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.rings().values, b.rings().values);
 }
 
 TEST(bands, of_one_value_are_the_whole_surface) {
   const Triangulation globe = projected(generator("uniform").make(30, 1));
   const Bands all = bands(globe, std::vector<double>(30, 1.0), std::vector<double>{0, 1, 2});
-  EXPECT_EQ(all.band_offsets, (std::vector<std::uint64_t>{0, 0, 0, 1, 1}));
-  EXPECT_EQ(all.polygon_offsets, (std::vector<std::uint64_t>{0, 0}));
+  EXPECT_EQ(all.bands.offsets, (std::vector<std::uint64_t>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(all.bands.rows.offsets, (std::vector<std::uint64_t>{0, 0}));
   const Bands none = bands(globe, std::vector<double>(30, missing), std::vector<double>{0});
   EXPECT_EQ(none.num_polygons(), 0U);
   EXPECT_EQ(bands(globe, std::vector<double>(30, 1.0), {}).num_polygons(), 1U);
@@ -260,11 +260,11 @@ TEST(contours, of_a_saddle_at_a_level) {
   const Triangulation t = delaunay(sites);
   const std::vector<double> values{1, 2, 0, 2, 0, 0};
   const Bands found = bands(t, values, std::vector<double>{1});
-  EXPECT_EQ(found.band_offsets, (std::vector<std::uint64_t>{0, 1, 3}));
+  EXPECT_EQ(found.bands.offsets, (std::vector<std::uint64_t>{0, 1, 3}));
   EXPECT_EQ(isolines(t, values, std::vector<double>{1}).num_lines(), 2U);
   const std::vector<double> peak{1, 0, 0, 0, 0, 0};
   EXPECT_EQ(isolines(t, peak, std::vector<double>{1}).num_lines(), 0U);
-  EXPECT_EQ(bands(t, peak, std::vector<double>{1}).band_offsets,
+  EXPECT_EQ(bands(t, peak, std::vector<double>{1}).bands.offsets,
             (std::vector<std::uint64_t>{0, 1, 1}));
 }
 

@@ -39,17 +39,15 @@ std::vector<map::LonLatPolygon> polygons_of(const LonLatPolygons& all, Index own
   std::vector<map::LonLatPolygon> found;
   for (std::size_t k = 0; k < all.owners.size(); ++k) {
     if (all.owners[k] != owner) continue;
-    const auto first = all.positions.begin();
-    found.push_back({{first + static_cast<std::ptrdiff_t>(all.offsets[k]),
-                      first + static_cast<std::ptrdiff_t>(all.offsets[k + 1])}});
+    found.push_back({{all.rings[k].begin(), all.rings[k].end()}});
   }
   return found;
 }
 
 void expect_arrays(const LonLatPolygons& all) {
-  ASSERT_EQ(all.offsets.size(), all.owners.size() + 1);
-  EXPECT_EQ(all.offsets.front(), 0U);
-  EXPECT_EQ(all.offsets.back(), all.positions.size());
+  ASSERT_EQ(all.rings.size(), all.owners.size());
+  EXPECT_EQ(all.rings.offsets.front(), 0U);
+  EXPECT_EQ(all.rings.offsets.back(), all.rings.values.size());
   EXPECT_TRUE(std::is_sorted(all.owners.begin(), all.owners.end()));
 }
 
@@ -104,7 +102,7 @@ TEST(cells, arrays_want_a_tolerance) {
   }
   if (is_shortened()) return;  // millions of points
   const LonLatPolygons finest = cell_polygons(t, dual, least_tolerance_deg);
-  EXPECT_EQ(cell_polygons(t, dual, 1e-300).positions, finest.positions);
+  EXPECT_EQ(cell_polygons(t, dual, 1e-300).rings.values, finest.rings.values);
 }
 
 TEST(cells, arrays_want_the_diagram_of_the_triangulation) {

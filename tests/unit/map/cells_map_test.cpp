@@ -214,14 +214,14 @@ std::vector<map::LonLatPolygon> drawn_cell(const Triangulation& triangulation, c
   };
   std::vector<Point> ring;
   std::vector<map::ArcTolerance> tolerances;
-  for (std::uint64_t i = cells.offsets[site]; i < cells.offsets[site + 1]; ++i) {
-    const Triple& face = triangulation.faces()[cells.rings[i]];
+  for (const Index corner_of_cell : cells.rings[site]) {
+    const Triple& face = triangulation.faces()[corner_of_cell];
     const auto corner = static_cast<std::size_t>(std::ranges::find(face, site) - face.begin());
     const Point own = direction(site);
     const Point other = direction(face[(corner + 2) % 3]);
     const double least = std::clamp(norm(own - other) / 8, map::merge_distance, most);
     tolerances.push_back({least, most, (own + other) / norm(own + other)});
-    ring.push_back(map::snapped(cells.points[cells.rings[i]]));
+    ring.push_back(map::snapped(cells.points[corner_of_cell]));
   }
   map::Trace trace;
   map::draw(ring, tolerances, trace);

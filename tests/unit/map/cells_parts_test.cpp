@@ -120,17 +120,16 @@ using Positions = std::set<LonLat, map::InPlane>;
 Positions positions_of_points_apart(const Cells& cells) {
   constexpr double apart = 0x1p-29;
   std::set<Index> near;
-  for (std::size_t site = 0; site + 1 < cells.offsets.size(); ++site) {
-    const std::size_t first = cells.offsets[site];
-    const std::size_t size = cells.offsets[site + 1] - first;
-    for (std::size_t k = 0; k < size; ++k) {
-      const Index p = cells.rings[first + k];
-      const Index q = cells.rings[first + (k + 1) % size];
+  for (std::size_t site = 0; site < cells.rings.size(); ++site) {
+    const std::span<const Index> ring = cells.rings[site];
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Index p = ring[k];
+      const Index q = ring[(k + 1) % ring.size()];
       if (map::distance(cells.points[p], cells.points[q]) < apart) near.insert({p, q});
     }
   }
   Positions positions;
-  for (const Index i : cells.rings) {
+  for (const Index i : cells.rings.values) {
     const Point p = map::snapped(cells.points[i]);
     if (!near.contains(i) && !map::is_pole(p) && !(p.y == 0 && p.x < 0))
       positions.insert(map::map_point(p).position);

@@ -70,13 +70,18 @@ TEST(mesh_arrays, lists_run_counterclockwise_and_fit_together) {
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 2)));
   for (Index cell = 0; cell < arrays.num_cells(); ++cell) {
     const LongPoint z = to_long(arrays.cell_points[cell]);
-    for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
-      const std::uint64_t next = at + 1 < arrays.offsets[cell + 1] ? at + 1 : arrays.offsets[cell];
-      const std::uint64_t before = (at > arrays.offsets[cell] ? at : arrays.offsets[cell + 1]) - 1;
-      const auto& ends = arrays.cells_on_edge[arrays.edges_on_cell[at]];
+    for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
+         at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
+      const std::uint64_t next = at + 1 < arrays.edges_on_cell.offsets[cell + 1]
+                                     ? at + 1
+                                     : arrays.edges_on_cell.offsets[cell];
+      const std::uint64_t before =
+          (at > arrays.edges_on_cell.offsets[cell] ? at : arrays.edges_on_cell.offsets[cell + 1]) -
+          1;
+      const auto& ends = arrays.cells_on_edge[arrays.edges_on_cell.values[at]];
       EXPECT_EQ((std::set<Index>{ends[0], ends[1]}),
                 (std::set<Index>{cell, arrays.cells_on_cell[at]}));
-      const auto& corners = arrays.vertices_on_edge[arrays.edges_on_cell[at]];
+      const auto& corners = arrays.vertices_on_edge[arrays.edges_on_cell.values[at]];
       EXPECT_EQ((std::set<Index>{corners[0], corners[1]}),
                 (std::set<Index>{arrays.vertices_on_cell[before], arrays.vertices_on_cell[at]}));
       const LongPoint v = to_long(arrays.vertex_points[arrays.vertices_on_cell[at]]);
@@ -162,8 +167,8 @@ TEST(mesh_arrays, weights_do_no_work_and_turn_a_rotation) {
   const mesh::TangentialWeights rows = mesh::tangential_weights(arrays);
   std::map<std::pair<Index, Index>, double> weights;
   for (Index e = 0; e < arrays.num_edges(); ++e) {
-    for (std::uint64_t k = rows.offsets[e]; k < rows.offsets[e + 1]; ++k) {
-      const Index other = rows.edges[k];
+    for (std::uint64_t k = rows.edges.offsets[e]; k < rows.edges.offsets[e + 1]; ++k) {
+      const Index other = rows.edges.values[k];
       weights[{e, other}] =
           rows.weights[k] * arrays.cell_distances[e] / arrays.vertex_distances[other];
     }
@@ -181,8 +186,8 @@ TEST(mesh_arrays, weights_do_no_work_and_turn_a_rotation) {
   const auto flow = [&](Index e) { return outer(axis, to_long(arrays.edge_points[e])); };
   for (Index e = 0; e < arrays.num_edges(); ++e) {
     long double along = 0;
-    for (std::uint64_t k = rows.offsets[e]; k < rows.offsets[e + 1]; ++k) {
-      along += rows.weights[k] * inner(flow(rows.edges[k]), normal_of(rows.edges[k]));
+    for (std::uint64_t k = rows.edges.offsets[e]; k < rows.edges.offsets[e + 1]; ++k) {
+      along += rows.weights[k] * inner(flow(rows.edges.values[k]), normal_of(rows.edges.values[k]));
     }
     const LongPoint tangent = outer(to_long(arrays.edge_points[e]), normal_of(e));
     worst = std::max(worst, std::abs(along - inner(flow(e), tangent)));

@@ -39,12 +39,12 @@ class SameMesh {
   SameMesh(const MeshArrays& found, const MeshArrays& wanted) : found_(found), wanted_(wanted) {}
 
   void expect() {
-    ASSERT_EQ(found_.offsets, wanted_.offsets);
+    ASSERT_EQ(found_.edges_on_cell.offsets, wanted_.edges_on_cell.offsets);
     EXPECT_EQ(found_.cells_on_cell, wanted_.cells_on_cell);
     ASSERT_EQ(found_.num_edges(), wanted_.num_edges());
     ASSERT_EQ(found_.num_vertices(), wanted_.num_vertices());
     match(found_.vertices_on_cell, wanted_.vertices_on_cell, vertices_);
-    match(found_.edges_on_cell, wanted_.edges_on_cell, edges_);
+    match(found_.edges_on_cell.values, wanted_.edges_on_cell.values, edges_);
     for (std::size_t i = 0; i < found_.num_cells(); ++i) expect_cell(i);
     for (std::size_t e = 0; e < found_.num_edges(); ++e) expect_edge(e);
     for (std::size_t v = 0; v < found_.num_vertices(); ++v) expect_vertex(v);
@@ -196,9 +196,10 @@ MeshArrays cap_of(const MeshArrays& arrays, double cosine) {
 std::vector<std::vector<Index>> rings_of(const MeshArrays& arrays) {
   std::vector<std::vector<Index>> rings;
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
-    rings.emplace_back(
-        arrays.vertices_on_cell.begin() + static_cast<std::ptrdiff_t>(arrays.offsets[i]),
-        arrays.vertices_on_cell.begin() + static_cast<std::ptrdiff_t>(arrays.offsets[i + 1]));
+    rings.emplace_back(arrays.vertices_on_cell.begin() +
+                           static_cast<std::ptrdiff_t>(arrays.edges_on_cell.offsets[i]),
+                       arrays.vertices_on_cell.begin() +
+                           static_cast<std::ptrdiff_t>(arrays.edges_on_cell.offsets[i + 1]));
   }
   return rings;
 }

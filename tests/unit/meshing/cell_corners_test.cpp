@@ -24,7 +24,7 @@ using Corners = std::vector<Index>;
 mesh::MeshArrays one_cell(const Corners& ring, const std::vector<double>& lengths) {
   mesh::MeshArrays arrays;
   arrays.vertex_points.resize(8);
-  arrays.offsets = {0, ring.size()};
+  arrays.edges_on_cell.offsets = {0, ring.size()};
   arrays.vertices_on_cell.assign(ring.begin(), ring.end());
   arrays.vertex_distances.assign(lengths.begin(), lengths.end());
   for (std::size_t i = 0; i < ring.size(); ++i)
@@ -66,7 +66,7 @@ TEST(cell_corners, group_cells_into_blocks) {
   mesh::MeshArrays arrays;
   arrays.vertex_points.resize(8);
   arrays.cell_points.resize(4);
-  arrays.offsets = {0, 4, 7, 11, 14};
+  arrays.edges_on_cell.offsets = {0, 4, 7, 11, 14};
   arrays.vertices_on_cell = {0, 1, 2, 3, 0, 1, 4, 4, 5, 6, 7, 5, 6, 2};
   arrays.vertices_on_edge = {{0, 1}, {5, 4}};
   arrays.vertex_distances = {1, 0};

@@ -92,13 +92,13 @@ class CullingOracle {
     EXPECT_EQ(culled.cells[old], i);
     EXPECT_EQ(found.cell_points[i], arrays_.cell_points[old]);
     EXPECT_EQ(found.cell_areas[i], arrays_.cell_areas[old]);
-    const std::uint64_t size = found.offsets[i + 1] - found.offsets[i];
-    ASSERT_EQ(size, arrays_.offsets[old + 1] - arrays_.offsets[old]);
+    const std::uint64_t size = found.edges_on_cell.offsets[i + 1] - found.edges_on_cell.offsets[i];
+    ASSERT_EQ(size, arrays_.edges_on_cell.offsets[old + 1] - arrays_.edges_on_cell.offsets[old]);
     for (std::uint64_t j = 0; j < size; ++j) {
-      const std::uint64_t at = found.offsets[i] + j;
-      const std::uint64_t old_at = arrays_.offsets[old] + j;
+      const std::uint64_t at = found.edges_on_cell.offsets[i] + j;
+      const std::uint64_t old_at = arrays_.edges_on_cell.offsets[old] + j;
       EXPECT_EQ(before(cells_, found.cells_on_cell[at]), left(arrays_.cells_on_cell[old_at]));
-      EXPECT_EQ(edges_[found.edges_on_cell[at]], arrays_.edges_on_cell[old_at]);
+      EXPECT_EQ(edges_[found.edges_on_cell.values[at]], arrays_.edges_on_cell.values[old_at]);
       EXPECT_EQ(vertices_[found.vertices_on_cell[at]], arrays_.vertices_on_cell[old_at]);
     }
   }
@@ -317,20 +317,22 @@ TEST(mesh_cull, weights_between_kept_cells_are_the_same) {
   for (Index e = 0; e < arrays.num_edges(); ++e) {
     const Index number = culled.edges[e];
     if (number == no_index) continue;
-    const auto size = now.offsets[number + 1] - now.offsets[number];
+    const auto size = now.edges.offsets[number + 1] - now.edges.offsets[number];
     if (culled.arrays.cells_on_edge[number][1] == no_index) {
       const Index cell = culled.arrays.cells_on_edge[number][0];
-      EXPECT_EQ(size, culled.arrays.offsets[cell + 1] - culled.arrays.offsets[cell] - 1);
+      EXPECT_EQ(size, culled.arrays.edges_on_cell.offsets[cell + 1] -
+                          culled.arrays.edges_on_cell.offsets[cell] - 1);
       continue;
     }
-    ASSERT_EQ(size, before.offsets[e + 1] - before.offsets[e]);
+    ASSERT_EQ(size, before.edges.offsets[e + 1] - before.edges.offsets[e]);
     for (std::uint64_t k = 0; k < size; ++k) {
-      const Index old = before.edges[before.offsets[e] + k];
-      EXPECT_EQ(now.edges[now.offsets[number] + k], culled.edges[old]);
+      const Index old = before.edges.values[before.edges.offsets[e] + k];
+      EXPECT_EQ(now.edges.values[now.edges.offsets[number] + k], culled.edges[old]);
       // An edge that was turned around has its velocity the other way.
       const Index first = arrays.cells_on_edge[old][0];
       const double sign = culled.cells[first] == no_index ? -1 : 1;
-      EXPECT_EQ(now.weights[now.offsets[number] + k], sign * before.weights[before.offsets[e] + k]);
+      EXPECT_EQ(now.weights[now.edges.offsets[number] + k],
+                sign * before.weights[before.edges.offsets[e] + k]);
     }
   }
 }

@@ -146,7 +146,7 @@ TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
       EXPECT_NEAR(total / (4 * std::numbers::pi), 1, 1e-13);
     }
     const MeshArrays found = mesh::read_mesh(path("m.nc"));
-    EXPECT_EQ(found.offsets, arrays.offsets);
+    EXPECT_EQ(found.edges_on_cell.offsets, arrays.edges_on_cell.offsets);
     for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
       EXPECT_NEAR(found.cell_areas[i] / arrays.cell_areas[i], 1, 1e-12);
     }
@@ -171,7 +171,8 @@ TEST_F(MeshFiles, numbers_of_mpas_are_those_of_its_specification) {
   // Rows end with 0 where a cell has five edges.
   const auto rings = integers("verticesOnCell");
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
-    const auto sides = static_cast<std::size_t>(arrays.offsets[i + 1] - arrays.offsets[i]);
+    const auto sides = static_cast<std::size_t>(arrays.edges_on_cell.offsets[i + 1] -
+                                                arrays.edges_on_cell.offsets[i]);
     for (std::size_t j = 0; j < room; ++j) {
       EXPECT_EQ(rings[i * room + j] == 0, j >= sides);
     }
@@ -195,8 +196,9 @@ TEST_F(MeshFiles, qualities_of_mpas_are_those_of_distances_and_angles) {
   const auto spacings = numbers("gridSpacing");
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
     std::vector<double> distances;
-    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
-      distances.push_back(arrays.cell_distances[arrays.edges_on_cell[at]]);
+    for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
+         at < arrays.edges_on_cell.offsets[i + 1]; ++at) {
+      distances.push_back(arrays.cell_distances[arrays.edges_on_cell.values[at]]);
     }
     const auto [least, most] = std::ranges::minmax(distances);
     EXPECT_EQ(of_cells[i], least / most);
@@ -236,7 +238,7 @@ TEST_F(MeshFiles, edges_of_ugrid_run_around_their_faces) {
   for (std::size_t face = 0; face < arrays.num_cells(); ++face) {
     std::size_t count = 0;
     while (count < room && nodes[face * room + count] != -1) ++count;
-    ASSERT_EQ(count, arrays.offsets[face + 1] - arrays.offsets[face]);
+    ASSERT_EQ(count, arrays.edges_on_cell.offsets[face + 1] - arrays.edges_on_cell.offsets[face]);
     for (std::size_t j = 0; j < room; ++j) {
       const std::int64_t edge = edges[face * room + j];
       EXPECT_EQ(edge == -1, j >= count);
@@ -298,10 +300,10 @@ TEST_F(MeshFiles, arrays_that_do_not_fit_are_refused) {
   bad.kite_areas.pop_back();
   EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
   bad = arrays;
-  bad.edges_on_cell[3] = 10000;
+  bad.edges_on_cell.values[3] = 10000;
   EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
   bad = arrays;
-  std::swap(bad.edges_on_cell[0], bad.edges_on_cell.back());
+  std::swap(bad.edges_on_cell.values[0], bad.edges_on_cell.values.back());
   EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
   bad = arrays;
   bad.vertex_points[7] = {std::nan(""), 0, 1};

@@ -300,7 +300,6 @@ TEST(graph_laplacian, solution_solves) {
   for (std::size_t i = 0; i + 1 < n; ++i) tie(i, i + 1, 1 + static_cast<double>(i % 7));
   for (std::size_t i = 0; i + 70 < n; ++i) tie(i, i + 70, 0.5 + static_cast<double>(i % 3));
   WeightedGraph graph;
-  graph.offsets.push_back(0);
   for (const auto& row : rows) {
     double sum = 0;
     for (const auto& [j, weight] : row) {
@@ -309,7 +308,7 @@ TEST(graph_laplacian, solution_solves) {
       sum += weight;
     }
     graph.diagonal.push_back(sum);
-    graph.offsets.push_back(graph.neighbors.size());
+    graph.end_row();
   }
   std::vector<double> wanted(n);
   for (std::size_t i = 0; i < n; ++i) wanted[i] = static_cast<double>(i * i % 101) - 50;

@@ -161,8 +161,9 @@ TEST(mesh_spacing_files, cells_of_meshes) {
   const std::uint64_t room = made.max_edges();
   std::vector<double> nodes(n * room, -1);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::uint64_t k = made.offsets[i]; k < made.offsets[i + 1]; ++k) {
-      nodes[i * room + k - made.offsets[i]] = made.vertices_on_cell[k];
+    for (std::uint64_t k = made.edges_on_cell.offsets[i]; k < made.edges_on_cell.offsets[i + 1];
+         ++k) {
+      nodes[i * room + k - made.edges_on_cell.offsets[i]] = made.vertices_on_cell[k];
     }
   }
   file.add_whole("mesh", {}, {0},

@@ -35,7 +35,7 @@ double worst_piece(const Triangulation& sites, const LonLatGrid& grid) {
     sources.push_back(ring);
   }
   double worst = 0;
-  for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
+  for (std::size_t j = 0; j + 1 < remap.pieces.offsets.size(); ++j) {
     for (std::size_t i = 0; i < sites.num_sites(); ++i) {
       const long double expected = area_in(sources[i], box_of(grid, j));
       worst = std::max(worst, std::abs(piece_of(remap, i, j) - static_cast<double>(expected)));
@@ -108,8 +108,8 @@ TEST(overlay_grid, sides_may_be_exchanged) {
   const Remap back = remap(grid, cells);
   ASSERT_EQ(there.areas.size(), back.areas.size());
   for (std::size_t j = 0; j < grid.num_cells(); ++j) {
-    for (auto k = there.offsets[j]; k < there.offsets[j + 1]; ++k) {
-      EXPECT_EQ(there.areas[k], piece_of(back, j, there.columns[k]));
+    for (auto k = there.pieces.offsets[j]; k < there.pieces.offsets[j + 1]; ++k) {
+      EXPECT_EQ(there.areas[k], piece_of(back, j, there.pieces.values[k]));
     }
   }
 }
@@ -347,7 +347,7 @@ TEST(overlay_grid, meshes_with_the_corners_of_the_grid) {
         }
       }
       // What is beyond a meridian by rounding alone is no piece.
-      EXPECT_EQ(remap.columns.size(), num_pieces);
+      EXPECT_EQ(remap.pieces.values.size(), num_pieces);
     }
   }
 }

@@ -123,8 +123,8 @@ TEST(overlay_parts, regions_onto_regions) {
   const Remap of_cells = remap(CellSet::polygons(first), CellSet::polygons(second));
   std::vector<double> expected(49);
   for (std::size_t j = 0; j < 300; ++j) {
-    for (auto k = of_cells.offsets[j]; k < of_cells.offsets[j + 1]; ++k) {
-      const Index from = first_groups[of_cells.columns[k]];
+    for (auto k = of_cells.pieces.offsets[j]; k < of_cells.pieces.offsets[j + 1]; ++k) {
+      const Index from = first_groups[of_cells.pieces.values[k]];
       const Index to = second_groups[j];
       if (from != no_index && to != no_index) expected[7 * to + from] += of_cells.areas[k];
     }
@@ -149,11 +149,11 @@ TEST(overlay_parts, patches_of_one_diagram_are_the_identity) {
     const Remap result = remap(source, target);
     for (std::size_t j = 0; j < all.num_cells(); ++j) {
       if (target.areas()[j] == 0 || source.areas()[j] == 0) {
-        EXPECT_EQ(result.offsets[j], result.offsets[j + 1]) << kind << ' ' << j;
+        EXPECT_EQ(result.pieces.offsets[j], result.pieces.offsets[j + 1]) << kind << ' ' << j;
       } else {
-        ASSERT_EQ(result.offsets[j + 1] - result.offsets[j], 1U) << kind << ' ' << j;
-        EXPECT_EQ(result.columns[result.offsets[j]], j);
-        EXPECT_EQ(result.weights.values[result.offsets[j]], 1);
+        ASSERT_EQ(result.pieces.offsets[j + 1] - result.pieces.offsets[j], 1U) << kind << ' ' << j;
+        EXPECT_EQ(result.pieces.values[result.pieces.offsets[j]], j);
+        EXPECT_EQ(result.weights.values[result.pieces.offsets[j]], 1);
       }
     }
   }
@@ -378,8 +378,8 @@ TEST(overlay_parts, a_large_cell_within_one_cell) {
   const Remap back = remap(cover, ring);
   EXPECT_NEAR(piece_of(there, 0, 0), ring.areas()[0], 1e-13);
   EXPECT_NEAR(piece_of(back, 0, 0), ring.areas()[0], 1e-13);
-  EXPECT_EQ(there.columns.size(), 1U);
-  EXPECT_EQ(back.columns.size(), 1U);
+  EXPECT_EQ(there.pieces.values.size(), 1U);
+  EXPECT_EQ(back.pieces.values.size(), 1U);
 }
 
 // Each of two equal cells has half of every piece, and half of its moment around the mean that both have.
@@ -390,10 +390,10 @@ TEST(overlay_parts, equal_cells_share_moments) {
   const CellSet cover = CellSet::voronoi(triangulation_of("uniform", 500, 9));
   const Remap whole = remap(once, cover, {.order = 2});
   const Remap halves = remap(twice, cover, {.order = 2, .overlap = CellOverlap::share});
-  ASSERT_EQ(halves.columns.size(), 2 * whole.columns.size());
-  ASSERT_GT(whole.columns.size(), 4U);
-  for (std::size_t k = 0; k < halves.columns.size(); ++k) {
-    EXPECT_EQ(halves.columns[k], k % 2);
+  ASSERT_EQ(halves.pieces.values.size(), 2 * whole.pieces.values.size());
+  ASSERT_GT(whole.pieces.values.size(), 4U);
+  for (std::size_t k = 0; k < halves.pieces.values.size(); ++k) {
+    EXPECT_EQ(halves.pieces.values[k], k % 2);
     EXPECT_NEAR(halves.areas[k], whole.areas[k / 2] / 2, 1e-15);
     const Point difference = halves.moments[k] - 0.5 * whole.moments[k / 2];
     EXPECT_LT(norm(difference), 1e-15) << k;
@@ -486,7 +486,7 @@ TEST(overlay_parts, sides_that_bound_nothing) {
       {inwards}, {outwards}, {{{{0, 0}, {20, 0}, {20, 20}}}, {{{0, 0}, {20, 20}, {0, 20}}}}};
   for (const auto& rings : cells) {
     const Remap result = remap(CellSet::polygons(cells_of_parts({rings})), other);
-    ASSERT_EQ(result.columns, expected.columns);
+    ASSERT_EQ(result.pieces.values, expected.pieces.values);
     for (std::size_t k = 0; k < result.areas.size(); ++k) {
       EXPECT_NEAR(result.areas[k], expected.areas[k], 1e-15) << k;
     }

@@ -80,7 +80,8 @@ TEST(overlay_remap, sums_of_rows_and_columns) {
   for (std::size_t j = 0; j < target.num_cells(); ++j) {
     if (!(target.areas()[j] > 0)) continue;  // a duplicate
     double sum = 0;
-    for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) areas[j] += remap.areas[k];
+    for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k)
+      areas[j] += remap.areas[k];
     for (auto k = remap.weights.offsets[j]; k < remap.weights.offsets[j + 1]; ++k) {
       sum += remap.weights.values[k];
       columns[remap.weights.columns[k]] += remap.weights.values[k] * areas[j];
@@ -103,8 +104,8 @@ TEST(overlay_remap, areas_of_cells_of_many_pieces) {
   std::vector<long double> sums(source.num_cells());
   std::vector<std::size_t> counts(source.num_cells());
   for (std::size_t k = 0; k < remap.areas.size(); ++k) {
-    sums[remap.columns[k]] += remap.areas[k];
-    ++counts[remap.columns[k]];
+    sums[remap.pieces.values[k]] += remap.areas[k];
+    ++counts[remap.pieces.values[k]];
   }
   for (std::size_t i = 0; i < source.num_cells(); ++i) {
     EXPECT_GT(counts[i], 3000U);
@@ -128,7 +129,8 @@ TEST(overlay_remap, sums_of_rows_of_tiny_cells) {
     const Remap remap = rondel::remap(source, target);
     for (std::size_t j = 0; j < target.num_cells(); ++j) {
       double sum = 0;
-      for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) sum += remap.weights.values[k];
+      for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k)
+        sum += remap.weights.values[k];
       EXPECT_NEAR(sum, 1, 8 * ulp) << width << ' ' << j;
     }
   }
@@ -165,13 +167,14 @@ TEST(overlay_remap, keeps_integrals_of_any_field) {
     double integral = 0;
     double absolute = 0;
     for (std::size_t k = 0; k < remap.areas.size(); ++k) {
-      integral += remap.areas[k] * field[remap.columns[k]];
-      absolute += remap.areas[k] * std::abs(field[remap.columns[k]]);
+      integral += remap.areas[k] * field[remap.pieces.values[k]];
+      absolute += remap.areas[k] * std::abs(field[remap.pieces.values[k]]);
     }
     double kept = 0;
     for (std::size_t j = 0; j < target.num_cells(); ++j) {
       double area = 0;
-      for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) area += remap.areas[k];
+      for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k)
+        area += remap.areas[k];
       kept += area * values[j];
     }
     EXPECT_NEAR(kept, integral, 1e-15 * absolute) << order;
@@ -243,8 +246,8 @@ TEST(overlay_remap, threads_and_order_of_sites_change_nothing) {
   const Remap other = rondel::remap(CellSet::voronoi(delaunay(shuffled)), target);
   const Remap same = rondel::remap(CellSet::voronoi(delaunay(set.sites)), target);
   for (std::size_t j = 0; j < target.num_cells(); ++j) {
-    for (auto k = other.offsets[j]; k < other.offsets[j + 1]; ++k) {
-      EXPECT_EQ(other.areas[k], piece_of(same, order[other.columns[k]], j));
+    for (auto k = other.pieces.offsets[j]; k < other.pieces.offsets[j + 1]; ++k) {
+      EXPECT_EQ(other.areas[k], piece_of(same, order[other.pieces.values[k]], j));
     }
   }
 }

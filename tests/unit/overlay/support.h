@@ -79,9 +79,7 @@ inline long double area_of(const LongRing& ring) {
 
 inline LongRing ring_of(const Cells& cells, std::size_t i) {
   LongRing ring;
-  for (std::uint64_t k = cells.offsets[i]; k < cells.offsets[i + 1]; ++k) {
-    ring.push_back(long_vector(cells.points[cells.rings[k]]));
-  }
+  for (const Index k : cells.rings[i]) ring.push_back(long_vector(cells.points[k]));
   return ring;
 }
 
@@ -127,8 +125,8 @@ inline Triangulation triangulation_of(std::string_view kind, std::size_t n, std:
 
 // The area of piece (source i, target j).
 inline double piece_of(const Remap& remap, std::size_t i, std::size_t j) {
-  for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-    if (remap.columns[k] == i) return remap.areas[k];
+  for (std::uint64_t k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+    if (remap.pieces.values[k] == i) return remap.areas[k];
   }
   return 0;
 }

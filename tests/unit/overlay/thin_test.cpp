@@ -119,8 +119,9 @@ void expect_parts(const RingInPlane& ring, const LonLatGrid& grid) {
   const double area = areas(cells)[0];
   const Remap remap = rondel::remap(CellSet::polygons(cells), CellSet::lonlat_grid(grid));
   std::vector<double> found(grid.lon_deg.size() * grid.lat_deg.size());
-  for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
-    for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) found[j] += remap.areas[k];
+  for (std::size_t j = 0; j + 1 < remap.pieces.offsets.size(); ++j) {
+    for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k)
+      found[j] += remap.areas[k];
   }
   // Rounding of corners along the border: 16 u times its length, which is taken up to sqrt(3) times longer.
   const double rounding = 28 * 0x1p-53 * planar_length(ring);

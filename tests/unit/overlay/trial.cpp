@@ -164,9 +164,9 @@ Trial::Laid Trial::laid_over(const Cover& cover, std::uint64_t way) const {
                                 : rondel::remap(cover.cells, cell, {.order = 2}, one_thread);
   Laid laid;
   laid.pieces.resize(cover.cells.num_cells());
-  for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
-    for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-      laid.pieces[is_source ? j : remap.columns[k]] += remap.areas[k];
+  for (std::size_t j = 0; j + 1 < remap.pieces.offsets.size(); ++j) {
+    for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+      laid.pieces[is_source ? j : remap.pieces.values[k]] += remap.areas[k];
     }
   }
   if (cover.boxes.empty() && way % 3 == 0) {

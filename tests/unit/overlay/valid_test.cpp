@@ -35,10 +35,9 @@ std::vector<PlanarRegion> regions_of(const LonLatRegions& drawn, std::size_t num
   std::vector<PlanarRegion> regions(num_cells);
   for (std::size_t p = 0; p < drawn.owners.size(); ++p) {
     PlanarPolygon& polygon = regions[drawn.owners[p]].emplace_back();
-    for (std::uint64_t r = drawn.polygons[p]; r < drawn.polygons[p + 1]; ++r) {
-      polygon.emplace_back(
-          drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.rings[r]),
-          drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.rings[r + 1]));
+    const auto& [ends, rings] = drawn.polygons;
+    for (std::uint64_t r = ends[p]; r < ends[p + 1]; ++r) {
+      polygon.emplace_back(rings[r].begin(), rings[r].end());
     }
   }
   return regions;
@@ -143,7 +142,7 @@ TEST(overlay_valid, the_whole_sphere_is_the_box) {
   const LonLatRegions drawn = region_polygons(cells);
   ASSERT_EQ(drawn.owners, std::vector<Index>{1});
   const std::vector<LonLat> box = {{-180, -90}, {180, -90}, {180, 90}, {-180, 90}, {-180, -90}};
-  EXPECT_EQ(drawn.positions, box);
+  EXPECT_EQ(drawn.polygons.rows.values, box);
   const std::string path = temporary_path("whole.geojson");
   write_regions(path, cells);
   const auto document = read_json(path);
@@ -216,9 +215,7 @@ TEST(overlay_valid, cells_of_every_generator) {
     const LonLatPolygons drawn = cell_polygons(t, diagram(t), 0.5);
     std::vector<PlanarRegion> regions(t.num_sites());
     for (std::size_t k = 0; k < drawn.owners.size(); ++k) {
-      regions[drawn.owners[k]].push_back(
-          {{drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.offsets[k]),
-            drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.offsets[k + 1])}});
+      regions[drawn.owners[k]].push_back({{drawn.rings[k].begin(), drawn.rings[k].end()}});
     }
     expect_valid(regions, true, name);
   });

@@ -46,7 +46,7 @@ TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
   const CellRings joined = dissolve(cells.rings(), random_groups(300, 3, 9), 3);
   write_regions(path, joined);
   const LonLatRegions drawn = region_polygons(joined);
-  ASSERT_EQ(drawn.owners.size() + 1, drawn.polygons.size());
+  ASSERT_EQ(drawn.owners.size() + 1, drawn.polygons.offsets.size());
   EXPECT_TRUE(std::ranges::is_sorted(drawn.owners));
   std::size_t polygon = 0;
   std::size_t num_holes = 0;
@@ -60,14 +60,14 @@ TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
     for (const auto& part : parts) {
       ASSERT_LT(polygon, drawn.owners.size());
       EXPECT_EQ(drawn.owners[polygon], i);
-      ASSERT_EQ(part.size(), drawn.polygons[polygon + 1] - drawn.polygons[polygon]);
+      ASSERT_EQ(part.size(), drawn.polygons.offsets[polygon + 1] - drawn.polygons.offsets[polygon]);
       for (std::size_t r = 0; r < part.size(); ++r) {
-        const std::uint64_t ring = drawn.polygons[polygon] + r;
-        const std::uint64_t begin = drawn.rings[ring];
-        ASSERT_EQ(part[r].size(), drawn.rings[ring + 1] - begin);
+        const std::uint64_t ring = drawn.polygons.offsets[polygon] + r;
+        const std::uint64_t begin = drawn.polygons.rows.offsets[ring];
+        ASSERT_EQ(part[r].size(), drawn.polygons.rows.offsets[ring + 1] - begin);
         for (std::size_t k = 0; k < part[r].size(); ++k) {
-          EXPECT_EQ(part[r][k][0].get<double>(), drawn.positions[begin + k].lon_deg);
-          EXPECT_EQ(part[r][k][1].get<double>(), drawn.positions[begin + k].lat_deg);
+          EXPECT_EQ(part[r][k][0].get<double>(), drawn.polygons.rows.values[begin + k].lon_deg);
+          EXPECT_EQ(part[r][k][1].get<double>(), drawn.polygons.rows.values[begin + k].lat_deg);
         }
       }
       num_holes += part.size() - 1;

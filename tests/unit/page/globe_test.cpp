@@ -134,15 +134,16 @@ TEST(globe_page, of_degenerate_sites_says_what_is_there) {
 TEST(globe_page, closes_isolines) {
   GlobeOptions options;
   Isolines lines;
-  lines.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
-  lines.line_offsets = {0, 3, 5};
+  std::vector<Point>& points = lines.lines.rows.values;
+  points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  lines.lines.rows.offsets = {0, 3, 5};
   lines.is_closed = {1, 0};
   options.isolines = &lines;
   const std::string page = page_of(made(random_sites(9)), options);
-  lines.points.insert(lines.points.begin() + 3, lines.points.front());
+  points.insert(points.begin() + 3, points.front());
   const std::vector<double> numbers = array_of_page<double>(page, "isolines");
-  ASSERT_EQ(numbers.size(), 3 * lines.points.size());
-  EXPECT_EQ(std::memcmp(numbers.data(), lines.points.data(), 8 * numbers.size()), 0);
+  ASSERT_EQ(numbers.size(), 3 * points.size());
+  EXPECT_EQ(std::memcmp(numbers.data(), points.data(), 8 * numbers.size()), 0);
   EXPECT_EQ(array_of_page<Index>(page, "isolineEnds"), (std::vector<Index>{4, 6}));
 }
 

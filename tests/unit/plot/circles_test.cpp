@@ -142,8 +142,8 @@ TEST(triangulation_arcs, span_a_half_circle_of_sites_but_not_its_gap) {
 TEST(cell_arcs, has_each_edge_once_and_none_of_length_zero) {
   Cells cells;
   cells.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
-  cells.rings = {0, 1, 2, 3, 3, 2, 1, 0};
-  cells.offsets = {0, 4, 4, 8};
+  cells.rings.values = {0, 1, 2, 3, 3, 2, 1, 0};
+  cells.rings.offsets = {0, 4, 4, 8};
   const auto arcs = cell_arcs(cells);
   const std::set<std::set<Index>> expected{{0, 1}, {1, 2}, {0, 3}};
   EXPECT_EQ(arcs.size(), 3U);

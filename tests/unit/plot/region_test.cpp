@@ -102,11 +102,9 @@ TEST(trace_region, tiles_the_disc_with_voronoi_cells_of_any_form) {
   }
   const Cells all = cells(delaunay(sites));
   std::vector<Region> regions;
-  for (std::size_t c = 0; c + 1 < all.offsets.size(); ++c) {
+  for (std::size_t c = 0; c < all.rings.size(); ++c) {
     Region& region = regions.emplace_back();
-    for (auto k = all.offsets[c]; k < all.offsets[c + 1]; ++k) {
-      region.push_back(all.points[all.rings[k]]);
-    }
+    for (const Index k : all.rings[c]) region.push_back(all.points[k]);
   }
   for (int i = 0; i < 300; ++i) {
     const Point center = random.next();

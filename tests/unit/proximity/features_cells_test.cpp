@@ -49,12 +49,12 @@ double distance_to_arc(const Point& q, const Point& a, const Point& b) {
 
 double distance_to_feature(const Point& q, const FeatureLines& lines, std::size_t feature) {
   double least = std::numeric_limits<double>::infinity();
-  for (auto l = lines.features[feature]; l < lines.features[feature + 1]; ++l) {
-    const auto first = lines.lines[l];
-    const auto last = lines.lines[l + 1] - 1;
-    if (first == last) least = std::min(least, angle(q, lines.points[first]));
+  for (auto l = lines.offsets[feature]; l < lines.offsets[feature + 1]; ++l) {
+    const auto first = lines.rows.offsets[l];
+    const auto last = lines.rows.offsets[l + 1] - 1;
+    if (first == last) least = std::min(least, angle(q, lines.rows.values[first]));
     for (auto k = first; k < last; ++k) {
-      least = std::min(least, distance_to_arc(q, lines.points[k], lines.points[k + 1]));
+      least = std::min(least, distance_to_arc(q, lines.rows.values[k], lines.rows.values[k + 1]));
     }
   }
   return least;
@@ -90,11 +90,11 @@ FeatureLines random_lines(unsigned seed, int count, int length, double step) {
     Point at = start;
     const int steps = f % 5 == 4 ? 0 : length;
     for (int k = 0; k <= steps; ++k) {
-      lines.points.push_back(at);
+      lines.rows.values.push_back(at);
       at = random.near(at, step);
     }
-    lines.lines.push_back(lines.points.size());
-    lines.features.push_back(lines.lines.size() - 1);
+    lines.rows.end_row();
+    lines.end_group();
   }
   return lines;
 }
@@ -110,7 +110,7 @@ double largest_excess(const FeatureLines& lines, const FeatureSites& found, int 
     const Point q = i % 2 == 0 ? random.next() : random.near(site, 0.02);
     const std::size_t given = found.features[locator.nearest(q)];
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < lines.num_features(); ++f) {
+    for (std::size_t f = 0; f < lines.size(); ++f) {
       least = std::min(least, distance_to_feature(q, lines, f));
     }
     largest = std::max(largest, distance_to_feature(q, lines, given) - least);
@@ -131,7 +131,7 @@ TEST(feature_sites, no_feature_is_farther_than_the_nearest_by_more_than_the_tole
     }
     // What the corners alone would do.
     const FeatureSites corners = feature_sites(lines, 10);
-    EXPECT_EQ(corners.sites.size(), lines.points.size());
+    EXPECT_EQ(corners.sites.size(), lines.rows.values.size());
     EXPECT_GT(largest_excess(lines, corners, 3'000), 0.004);
   }
 }
@@ -141,39 +141,39 @@ TEST(feature_sites, nearest_features_are_found_behind_many_points_of_ones_own) {
   FeatureLines lines;
   for (int k = 0; k <= 600; ++k) {
     const double a = 2 * pi * k / 600;
-    lines.points.push_back({std::cos(a), std::sin(a), 0});
+    lines.rows.values.push_back({std::cos(a), std::sin(a), 0});
   }
-  lines.lines.push_back(lines.points.size());
-  lines.features.push_back(1);
+  lines.rows.end_row();
+  lines.offsets.push_back(1);
   for (const double height : {1.0, -1.0}) {
-    lines.points.push_back({0, 0, height});
-    lines.lines.push_back(lines.points.size());
-    lines.features.push_back(lines.lines.size() - 1);
+    lines.rows.values.push_back({0, 0, height});
+    lines.rows.end_row();
+    lines.end_group();
   }
   const FeatureSites found = feature_sites(lines, 1e-4);
   EXPECT_LE(largest_excess(lines, found, 2'000), 1e-4);
-  EXPECT_EQ(found.sites.size(), lines.points.size());  // half a degree is close enough
+  EXPECT_EQ(found.sites.size(), lines.rows.values.size());  // half a degree is close enough
 }
 
 // The island is the first site, and no point of the border has it among its nearest sites.
 TEST(feature_sites, are_close_where_an_island_is_behind_points_of_ones_own) {
   FeatureLines lines;
-  lines.points.push_back(unit_vector({0.3, 5}));
-  lines.lines.push_back(1);
-  lines.features.push_back(1);
-  for (int k = 0; k <= 600; ++k) lines.points.push_back(unit_vector({0.6 * k - 180, 0}));
-  lines.lines.push_back(lines.points.size());
-  lines.features.push_back(2);
+  lines.rows.values.push_back(unit_vector({0.3, 5}));
+  lines.rows.offsets.push_back(1);
+  lines.offsets.push_back(1);
+  for (int k = 0; k <= 600; ++k) lines.rows.values.push_back(unit_vector({0.6 * k - 180, 0}));
+  lines.rows.end_row();
+  lines.offsets.push_back(2);
   const FeatureSites found = feature_sites(lines, 1e-4);
-  EXPECT_GT(found.sites.size(), lines.points.size() + 10);
+  EXPECT_GT(found.sites.size(), lines.rows.values.size() + 10);
   EXPECT_LE(largest_excess(lines, found, 2'000), 1e-4);
 }
 
 TEST(feature_sites, are_far_apart_where_nothing_is_near) {
   FeatureLines lines;
-  lines.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // a quarter of the equator, and the pole
-  lines.lines = {0, 2, 3};
-  lines.features = {0, 1, 2};
+  lines.rows.values = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // a quarter of the equator, and the pole
+  lines.rows.offsets = {0, 2, 3};
+  lines.offsets = {0, 1, 2};
   const double tolerance = 1e-4;
   const FeatureSites found = feature_sites(lines, tolerance);
   const double spacing = 2 * std::sqrt(tolerance * pi / 2);
@@ -233,7 +233,7 @@ TEST(feature_cells, have_their_polygons_exactly) {
   add_square(squares, 0, 10);  // shares a side with the first
   add_square(squares, 90, 30);
   FeatureLines none;
-  none.features = {0, 0, 0, 0};
+  none.offsets = {0, 0, 0, 0};
   const CellRings cells = feature_cells(none, squares, 0.005);
   EXPECT_NEAR(sum(areas(cells)), 4 * pi, 1e-11);
   RandomPlaces random(3);
@@ -264,9 +264,9 @@ TEST(feature_cells, may_be_clipped) {
   add_square(around, 90, 5);
   const CellSet regions = CellSet::polygons(around);
   FeatureLines lines;
-  lines.points = {unit_vector({35, 20})};
-  lines.lines = {0, 1};
-  lines.features = {0, 0, 0, 0, 1};
+  lines.rows.values = {unit_vector({35, 20})};
+  lines.rows.offsets = {0, 1};
+  lines.offsets = {0, 0, 0, 0, 1};
   squares.cells.push_back(squares.cells.back());  // the fourth is the point
   const CellRings whole = feature_cells(lines, squares, 0.005);
   const std::vector<double> found = areas(clipped_feature_cells(lines, squares, 0.005, regions));
@@ -284,17 +284,17 @@ TEST(feature_cells, may_be_clipped) {
   for (std::size_t k = 0; k < of_parts.size(); ++k) EXPECT_NEAR(of_parts[k], of_pieces[k], 1e-13);
 
   FeatureLines none;
-  none.features = {0, 0};
+  none.offsets = {0, 0};
   CellRings one;
   add_square(one, 0, 10);
   EXPECT_NEAR(areas(clipped_feature_cells(none, one, 0.01, regions))[0], sum(found), 1e-13);
-  lines.features = {0, 1};
+  lines.offsets = {0, 1};
   EXPECT_NEAR(areas(clipped_feature_cells(lines, {}, 0.01, regions))[0], sum(found), 1e-13);
 }
 
 TEST(feature_cells, of_polygons_that_overlap_are_refused) {
   FeatureLines none;
-  none.features = {0, 0, 0};
+  none.offsets = {0, 0, 0};
   for (const double lon : {5.0, 0.0}) {  // they cross, or one lies in the other
     CellRings squares;
     add_square(squares, 0, 10);
@@ -431,54 +431,54 @@ TEST(crossing_cells, of_a_diagram_are_none) {
 
 TEST(feature_cells, of_one_feature_have_no_border) {
   FeatureLines one;
-  one.points = {{1, 0, 0}, {0, 1, 0}};
-  one.lines = {0, 2};
-  one.features = {0, 1};
+  one.rows.values = {{1, 0, 0}, {0, 1, 0}};
+  one.rows.offsets = {0, 2};
+  one.offsets = {0, 1};
   EXPECT_EQ(feature_cells(one, {}, 1e-3).cells, (std::vector<std::uint64_t>{0, 0}));
   EXPECT_EQ(feature_cells({}, {}, 1e-3).num_cells(), 0U);
 }
 
 TEST(feature_sites, what_is_wrong_is_refused) {
   FeatureLines lines;
-  lines.points = {{1, 0, 0}, {-1, 0, 0}};
-  lines.lines = {0, 2};
-  lines.features = {0, 1};
+  lines.rows.values = {{1, 0, 0}, {-1, 0, 0}};
+  lines.rows.offsets = {0, 2};
+  lines.offsets = {0, 1};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);  // antipodes
-  lines.points[1] = {0, 2, 0};
+  lines.rows.values[1] = {0, 2, 0};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
-  lines.points[1] = {0, 1, 0};
+  lines.rows.values[1] = {0, 1, 0};
   EXPECT_THROW(feature_sites(lines, 0), InvalidInput);
   EXPECT_THROW(feature_sites(lines, std::nan("")), InvalidInput);
-  lines.lines = {0, 3};
+  lines.rows.offsets = {0, 3};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
-  lines.lines = {0, 2};
-  lines.features = {0, 2};
+  lines.rows.offsets = {0, 2};
+  lines.offsets = {0, 2};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
   using Offsets = std::vector<std::uint64_t>;
   for (const Offsets& offsets : {Offsets{}, {1, 1}, {0, 0}, {0, 2, 1}}) {
-    lines.features = offsets;
+    lines.offsets = offsets;
     EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
   }
-  lines.features = {0, 1};
+  lines.offsets = {0, 1};
   for (const Offsets& offsets : {Offsets{}, {1, 2}, {0, 1}}) {
-    lines.lines = offsets;
+    lines.rows.offsets = offsets;
     EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
   }
-  lines.features = {0, 2};
-  lines.lines = {0, 3, 2};
+  lines.offsets = {0, 2};
+  lines.rows.offsets = {0, 3, 2};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
-  lines.lines = {0, 2};
-  lines.features = {0, 1};
+  lines.rows.offsets = {0, 2};
+  lines.offsets = {0, 1};
   for (const double excess : {-0.9e-9, 0.9e-9}) {
-    lines.points[1] = {0, std::sqrt(1 + excess), 0};
+    lines.rows.values[1] = {0, std::sqrt(1 + excess), 0};
     EXPECT_NO_THROW(feature_sites(lines, 1e-3));
-    lines.points[1] = {0, std::sqrt(1 + 1.2 * excess), 0};
+    lines.rows.values[1] = {0, std::sqrt(1 + 1.2 * excess), 0};
     EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
   }
-  lines.points[1] = {0, 1, 0};
+  lines.rows.values[1] = {0, 1, 0};
   CellRings squares;
   add_square(squares, 0, 1);
-  lines.features = {0, 1, 1};
+  lines.offsets = {0, 1, 1};
   EXPECT_THROW(feature_cells(lines, squares, 1e-3), InvalidInput);
 }
 

@@ -59,9 +59,9 @@ TEST(write_graph, names_the_first_edge_that_is_wrong) {
 TEST(write_outline, counts_the_sites_of_each_polygon) {
   const Triangulation t = delaunay(generator("uniform").make(12, 1).sites);
   Outline outline;
-  outline.sites = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
-  outline.ring_offsets = {0, 3, 7, 11};
-  outline.polygon_offsets = {0, 1, 3};
+  outline.rows.values = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+  outline.rows.offsets = {0, 3, 7, 11};
+  outline.offsets = {0, 1, 3};
   const std::string path = temporary_path("outline.geojson");
   write_outline(path, t, outline);
   const std::string text = bytes_of(path);
@@ -74,7 +74,7 @@ TEST(write_outline, refuses_arrays_that_do_not_fit) {
   const auto is_refused = [&](const std::vector<std::uint64_t>& polygons,
                               const std::vector<std::uint64_t>& rings) {
     try {
-      write_outline(temporary_path("bad.geojson"), t, {polygons, rings, {0, 1, 2, 3, 4, 5}});
+      write_outline(temporary_path("bad.geojson"), t, {polygons, {rings, {0, 1, 2, 3, 4, 5}}});
     } catch (const InvalidInput&) {
       return true;
     }

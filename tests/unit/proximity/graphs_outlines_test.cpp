@@ -55,15 +55,15 @@ std::multiset<Side> border_of(const Triangulation& t, const IsIn& is_in) {
 
 std::multiset<Side> sides_of(const Outline& outline) {
   std::multiset<Side> sides;
-  for (std::size_t r = 0; r + 1 < outline.ring_offsets.size(); ++r) {
-    const auto begin = outline.ring_offsets[r];
-    const auto size = outline.ring_offsets[r + 1] - begin;
+  for (std::size_t r = 0; r < outline.rows.size(); ++r) {
+    const std::span<const Index> ring = outline.rows[r];
+    const std::size_t size = ring.size();
     EXPECT_GE(size, 3U);
     std::set<Index> corners;
     for (std::size_t i = 0; i < size; ++i) {
-      const Index a = outline.sites[begin + i];
+      const Index a = ring[i];
       EXPECT_TRUE(corners.insert(a).second);
-      sides.insert({a, outline.sites[begin + (i + 1) % size]});
+      sides.insert({a, ring[(i + 1) % size]});
     }
   }
   return sides;
@@ -95,7 +95,7 @@ std::size_t num_parts(const Triangulation& t, const IsIn& is_in) {
 TEST(hull_polygon, is_the_border_of_the_solid_faces) {
   for_each_case([](const Triangulation& t) {
     const Outline hull = hull_polygon(t);
-    EXPECT_EQ(hull.num_polygons(), t.dimension() == 2 ? 1U : 0U);
+    EXPECT_EQ(hull.size(), t.dimension() == 2 ? 1U : 0U);
     EXPECT_EQ(sides_of(hull), border_of(t, [&](Index f) { return !t.is_ghost(f); }));
     // To the left of each side, or on its great circle, are all sites: it is convex.
     for (const Side& side : sides_of(hull)) {
@@ -110,8 +110,8 @@ TEST(hull_polygon, is_the_border_of_the_solid_faces) {
 TEST(hull_polygon, is_the_sphere_around_the_center) {
   const SiteSet set = generator("uniform").make(100, 1);
   const Outline hull = hull_polygon(delaunay(set.sites));
-  EXPECT_EQ(hull.polygon_offsets, (std::vector<std::uint64_t>{0, 0}));
-  EXPECT_TRUE(hull.sites.empty());
+  EXPECT_EQ(hull.offsets, (std::vector<std::uint64_t>{0, 0}));
+  EXPECT_TRUE(hull.rows.values.empty());
 }
 
 TEST(alpha_shape, is_the_border_of_the_faces_with_small_circles) {
@@ -141,11 +141,12 @@ TEST(alpha_shape, is_the_border_of_the_faces_with_small_circles) {
       };
       const Outline shape = alpha_shape(t, radius);
       EXPECT_EQ(sides_of(shape), border_of(t, is_in));
-      EXPECT_EQ(shape.num_polygons(), num_parts(t, is_in));
+      EXPECT_EQ(shape.size(), num_parts(t, is_in));
     }
     const Outline hull = hull_polygon(t);
-    EXPECT_EQ(alpha_shape(t, pi).sites, hull.sites);
-    EXPECT_EQ(alpha_shape(t, std::numeric_limits<double>::infinity()).sites, hull.sites);
+    EXPECT_EQ(alpha_shape(t, pi).rows.values, hull.rows.values);
+    EXPECT_EQ(alpha_shape(t, std::numeric_limits<double>::infinity()).rows.values,
+              hull.rows.values);
   });
 }
 
@@ -157,14 +158,14 @@ TEST(alpha_shape, has_a_hole_and_meets_itself_in_sites) {
     sites.push_back(unit_vector_deg(30 * i + 15, 62));
   }
   const Outline ring = alpha_shape(delaunay(sites), 0.18);
-  EXPECT_EQ(ring.num_polygons(), 1U);
-  EXPECT_EQ(ring.ring_offsets.size(), 3U);
+  EXPECT_EQ(ring.size(), 1U);
+  EXPECT_EQ(ring.rows.size(), 2U);
   const std::vector<Point> bow_tie = {unit_vector_deg(0, 0), unit_vector_deg(3, 1),
                                       unit_vector_deg(3, -1), unit_vector_deg(-3, 1),
                                       unit_vector_deg(-3, -1)};
   const Outline two = alpha_shape(delaunay(bow_tie), 0.03);
-  EXPECT_EQ(two.num_polygons(), 2U);
-  EXPECT_EQ(two.sites.size(), 6U);
+  EXPECT_EQ(two.size(), 2U);
+  EXPECT_EQ(two.rows.values.size(), 6U);
 }
 
 TEST(alpha_shape, refuses_radii_that_are_none_and_weights) {

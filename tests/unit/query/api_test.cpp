@@ -216,7 +216,7 @@ struct Answers {
   std::vector<Location> places;
   std::vector<Index> nearest;
   std::vector<Index> k_nearest;
-  SiteLists within;
+  CompressedRows<Index> within;
 };
 
 Answers answer(const Locator& locator, std::span<const Point> queries, unsigned threads) {
@@ -230,7 +230,7 @@ void expect_equal(const Answers& a, const Answers& b) {
   EXPECT_EQ(a.nearest, b.nearest);
   EXPECT_EQ(a.k_nearest, b.k_nearest);
   EXPECT_EQ(a.within.offsets, b.within.offsets);
-  EXPECT_EQ(a.within.sites, b.within.sites);
+  EXPECT_EQ(a.within.values, b.within.values);
 }
 
 std::vector<Point> many_queries() {
@@ -254,9 +254,7 @@ TEST(query_batch, equals_single_queries) {
       ASSERT_EQ(answers.nearest[i], s.locator.nearest(queries[i]));
       const auto row = std::span(answers.k_nearest).subspan(3 * i, 3);
       ASSERT_TRUE(std::ranges::equal(row, s.locator.k_nearest(queries[i], 3)));
-      const std::uint64_t begin = answers.within.offsets[i];
-      const auto list =
-          std::span(answers.within.sites).subspan(begin, answers.within.offsets[i + 1] - begin);
+      const auto list = answers.within[i];
       ASSERT_TRUE(std::ranges::equal(list, s.locator.within(queries[i], 0.2)));
     }
   }
