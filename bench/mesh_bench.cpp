@@ -15,7 +15,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/mesh.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 
 namespace {
@@ -52,12 +52,13 @@ void run(int bisections, const char* file, unsigned threads) {
   const rondel::Execution execution{.threads = threads};
   const std::vector<Point> sites = icosahedral_sites(bisections, execution);
   rondel::Triangulation triangulation;
-  rondel::mesh::MeshArrays arrays;
-  rondel::mesh::MeshArrays again;
+  rondel::mesh::VoronoiMesh arrays;
+  rondel::mesh::VoronoiMesh again;
   const double of_delaunay =
       seconds_of([&] { triangulation = rondel::delaunay(sites, {}, execution); });
-  const double of_arrays = seconds_of(
-      [&] { arrays = rondel::mesh::arrays(triangulation, {.allow_zero_edges = true}, execution); });
+  const double of_arrays = seconds_of([&] {
+    arrays = rondel::mesh::make_mesh(triangulation, {.allow_zero_edges = true}, execution);
+  });
   triangulation = {};
   double ratio = 0;
   const double of_quality =

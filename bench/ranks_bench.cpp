@@ -70,10 +70,10 @@ OnRanks build_on_ranks(rondel::test::SimulatedRanks& ranks, std::size_t num_rank
 // the others.
 struct Phase {
   double first_seconds = 0;
-  double most_seconds = 0;
+  double max_seconds = 0;
   double all_seconds = 0;
   std::uint64_t first_bytes = 0;
-  std::uint64_t most_bytes = 0;
+  std::uint64_t max_bytes = 0;
   std::uint64_t all_bytes = 0;
   std::uint64_t num_calls = 0;
 };
@@ -91,8 +91,8 @@ Phase sum_up(const rondel::test::SimulatedRanks& ranks, const char* name) {
       phase.first_seconds = cost.cpu_seconds;
       phase.first_bytes = cost.bytes_sent;
     } else {
-      phase.most_seconds = std::max(phase.most_seconds, cost.cpu_seconds);
-      phase.most_bytes = std::max(phase.most_bytes, cost.bytes_sent);
+      phase.max_seconds = std::max(phase.max_seconds, cost.cpu_seconds);
+      phase.max_bytes = std::max(phase.max_bytes, cost.bytes_sent);
     }
   }
   return phase;
@@ -106,14 +106,14 @@ void print(std::size_t num_sites, const OnRanks& on_ranks, const InMemory& in_me
       num_sites, ranks.costs().size(), number(on_ranks.num_open_sites), in_memory.seconds);
   std::printf(" \"phases\": [");
   const char* separator = "\n";
-  for (const char* name : {"count", "deal", "triangulate", "join", "number", "finish"}) {
+  for (const char* name : {"count", "scatter", "triangulate", "join", "number", "finish"}) {
     const Phase phase = sum_up(ranks, name);
     std::printf(
-        "%s  {\"phase\": \"%s\", \"first_seconds\": %.4g, \"most_seconds\": %.4g, "
-        "\"all_seconds\": %.4g,\n   \"first_bytes\": %llu, \"most_bytes\": %llu, "
+        "%s  {\"phase\": \"%s\", \"first_seconds\": %.4g, \"max_seconds\": %.4g, "
+        "\"all_seconds\": %.4g,\n   \"first_bytes\": %llu, \"max_bytes\": %llu, "
         "\"all_bytes\": %llu, \"calls\": %llu}",
-        separator, name, phase.first_seconds, phase.most_seconds, phase.all_seconds,
-        number(phase.first_bytes), number(phase.most_bytes), number(phase.all_bytes),
+        separator, name, phase.first_seconds, phase.max_seconds, phase.all_seconds,
+        number(phase.first_bytes), number(phase.max_bytes), number(phase.all_bytes),
         number(phase.num_calls));
     separator = ",\n";
   }

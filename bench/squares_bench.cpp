@@ -97,7 +97,7 @@ class SquareSource {
     // The density of directions is greatest where the square is closest to the middle of the face.
     const double u = closest_to_zero(u_);
     const double v = closest_to_zero(v_);
-    most_density_ = density(u, v);
+    max_density_ = density(u, v);
   }
 
   [[nodiscard]] const bulk::Square& square() const { return square_; }
@@ -131,7 +131,7 @@ class SquareSource {
     for (;;) {
       const double u = u_ + random.unit() * width_;
       const double v = v_ + random.unit() * width_;
-      if (random.unit() * most_density_ > density(u, v)) continue;
+      if (random.unit() * max_density_ > density(u, v)) continue;
       return {axes_.out.x + u * axes_.u.x + v * axes_.v.x,
               axes_.out.y + u * axes_.u.y + v * axes_.v.y,
               axes_.out.z + u * axes_.u.z + v * axes_.v.z};
@@ -143,7 +143,7 @@ class SquareSource {
   double u_;
   double v_;
   double width_;
-  double most_density_;
+  double max_density_;
 };
 
 void add_sources(const bulk::Square& square, int depth, std::vector<SquareSource>& sources) {

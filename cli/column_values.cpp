@@ -14,7 +14,7 @@
 #include "command.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 
 namespace rondel::cli {
 namespace {

@@ -63,7 +63,7 @@ Command add_mesh_command(CLI::App& tool);
 Command add_mesh_scvt_command(CLI::App& mesh);
 Command add_mesh_icosahedral_command(CLI::App& mesh);
 Command add_mesh_points_command(CLI::App& mesh);
-Command add_mesh_partition_command(CLI::App& mesh);
+Command add_mesh_equal_area_command(CLI::App& mesh);
 Command add_mesh_convert_command(CLI::App& mesh);
 Command add_mesh_cull_command(CLI::App& mesh);
 Command add_mesh_quality_command(CLI::App& mesh);

@@ -24,9 +24,9 @@ bool is_file_name(const std::string& path) {
 
 // Follows the links of a path, also where no file is there yet.
 fs::path resolved(fs::path path) {
-  constexpr int most_links = 40;  // as many as Linux follows
+  constexpr int max_links = 40;  // as many as Linux follows
   std::error_code error;
-  for (int k = 0; k < most_links && fs::is_symlink(path, error); ++k) {
+  for (int k = 0; k < max_links && fs::is_symlink(path, error); ++k) {
     path = path.parent_path() / fs::read_symlink(path, error);
   }
   const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);

@@ -16,7 +16,7 @@
 #include "rondel/contours.h"
 #include "rondel/delaunay.h"
 #include "rondel/hull.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 
 namespace rondel::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "options.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/triangulation.h"
 
 namespace rondel::cli {

@@ -26,7 +26,7 @@ std::optional<mesh::MeshFormat> mesh_format_of(const std::string& format) {
 std::string radius_error(const std::string& text) {
   std::string error = positive_error(text);
   if (!error.empty()) return error;
-  return range_error(text, mesh::least_radius, mesh::largest_radius);
+  return range_error(text, mesh::min_radius, mesh::largest_radius);
 }
 
 // True if OUTPUT is a mesh, and not sites.
@@ -40,7 +40,7 @@ mesh::MeshFormat mesh_format(const CommonOptions& common) {
 }
 
 // Writes graph and report if they are wanted, and OUTPUT if it is a mesh.
-void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job) {
+void write_mesh_files(const MeshOutput& output, const mesh::VoronoiMesh& arrays, Job& job) {
   const CommonOptions& common = output.common;
   job.time(Stage::write, [&] {
     if (!output.report.empty()) {
@@ -75,11 +75,11 @@ std::string indented(const std::string& json) {
 
 // Returns the mesh of sites that were made. The message of an error names the output, as no file
 // has the sites.
-mesh::MeshArrays arrays_of_made(const Triangulation& triangulation,
-                                const mesh::MeshOptions& options, const CommonOptions& common,
-                                const Job& job) {
+mesh::VoronoiMesh arrays_of_made(const Triangulation& triangulation,
+                                 const mesh::MeshOptions& options, const CommonOptions& common,
+                                 const Job& job) {
   try {
-    return mesh::arrays(triangulation, options, job.execution());
+    return mesh::make_mesh(triangulation, options, job.execution());
   } catch (const InvalidInput& error) {
     throw FileError(common.output + ": the mesh that was made: " + error.what());
   }
@@ -88,11 +88,11 @@ mesh::MeshArrays arrays_of_made(const Triangulation& triangulation,
 }  // namespace
 
 // Sites get the mesh of their Voronoi cells; a mesh is scaled if a radius is given.
-mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
-                                    std::optional<double> radius, bool allow_zero_edges) {
+mesh::VoronoiMesh read_mesh_or_sites(Job& job, const CommonOptions& common,
+                                     std::optional<double> radius, bool allow_zero_edges) {
   const mesh::MeshOptions options{.radius = radius.value_or(1),
                                   .allow_zero_edges = allow_zero_edges};
-  mesh::MeshArrays arrays;
+  mesh::VoronoiMesh arrays;
   if (is_netcdf_file(common.source())) {
     std::vector<std::string> remarks;
     job.time(Stage::dual, [&] {
@@ -105,8 +105,8 @@ mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   job.time(Stage::dual, [&] {
-    arrays =
-        with_places(table, [&] { return mesh::arrays(triangulation, options, job.execution()); });
+    arrays = with_places(table,
+                         [&] { return mesh::make_mesh(triangulation, options, job.execution()); });
   });
   return arrays;
 }
@@ -126,7 +126,7 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
   }
 }
 
-void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
+void write_mesh_report(const std::string& path, const mesh::VoronoiMesh& arrays,
                        const mesh::Quality& quality, const Execution& execution) {
   if (path.ends_with(".svg")) {
     write_file(path, mesh::quality_picture(arrays, quality, 100, execution));
@@ -137,7 +137,7 @@ void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
   }
 }
 
-void write_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job) {
+void write_mesh(const MeshOutput& output, const mesh::VoronoiMesh& arrays, Job& job) {
   write_mesh_files(output, arrays, job);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {{"cells", arrays.num_cells()},
@@ -172,7 +172,7 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
     const mesh::MeshOptions options{
         .radius = output.radius.value_or(1), .density = density, .allow_zero_edges = !is_for_model};
     const Triangulation triangulation = delaunay(Sites::view(sites), {}, job.execution());
-    const mesh::MeshArrays made = arrays_of_made(triangulation, options, common, job);
+    const mesh::VoronoiMesh made = arrays_of_made(triangulation, options, common, job);
     quality = indented(mesh::quality_json(mesh::quality(made, job.execution())));
     write_mesh_files(output, made, job);
   }

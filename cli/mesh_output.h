@@ -16,7 +16,7 @@
 
 #include "job.h"
 #include "rondel/mesh.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/mesh_size.h"
 
@@ -41,8 +41,8 @@ struct MeshOutput {
 /// \param radius  the radius of the sphere, in metres for most models; not given: 1, or that of the
 /// mesh that is read
 /// \param allow_zero_edges  accepts edges of length 0, between cells that meet in one point only
-mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
-                                    std::optional<double> radius, bool allow_zero_edges);
+mesh::VoronoiMesh read_mesh_or_sites(Job& job, const CommonOptions& common,
+                                     std::optional<double> radius, bool allow_zero_edges);
 
 /// The kinds of files that OUTPUT may be.
 enum class MeshOutputKind { mesh, mesh_or_sites };
@@ -61,7 +61,7 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
                          const std::vector<NamedFile>& outputs = {});
 
 /// Writes OUTPUT, and graph and report if they are wanted, and prints what was written.
-void write_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
+void write_mesh(const MeshOutput& output, const mesh::VoronoiMesh& arrays, Job& job);
 
 /// Does the same for sites that were made, from which a mesh is computed where one is wanted.
 /// \param size  gives the densities of the mesh; null: 1 everywhere
@@ -73,7 +73,7 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
 
 /// Writes the report of 'rondel mesh quality' in the format of the path's ending: .svg is a
 /// picture, .txt the printed text, anything else JSON.
-void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
+void write_mesh_report(const std::string& path, const mesh::VoronoiMesh& arrays,
                        const mesh::Quality& quality, const Execution& execution);
 /// Adds the option for the file of the report, which has the given names.
 void add_mesh_report_option(CLI::App& parser, std::string& report,

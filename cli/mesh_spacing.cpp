@@ -28,13 +28,13 @@ constexpr double usual_slope = 0.05;
 constexpr std::size_t fewest_cells = 12;
 
 // Half of the circumference, which is the largest distance of two places.
-constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
+constexpr double max_kilometers = std::numbers::pi * kilometers_per_radian;
 
 // Returns the number of kilometers, or nothing if the text is the name of a file.
 std::optional<double> as_kilometers(const std::string& option, const std::string& text) {
   if (text.empty() || is_file_of_spacings(text)) return std::nullopt;
   const double kilometers = std::strtod(text.c_str(), nullptr);
-  if (kilometers > 0 && kilometers < most_kilometers) return kilometers;
+  if (kilometers > 0 && kilometers < max_kilometers) return kilometers;
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "validate.h"
 
 namespace rondel::cli {

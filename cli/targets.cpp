@@ -8,14 +8,14 @@
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/interpolate.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "validate.h"
 
 namespace rondel::cli {
 namespace {
 
 // A grid has at most this many cells along a meridian, and twice as many along a parallel.
-constexpr std::uint64_t most_parallels = 1'000'000;
+constexpr std::uint64_t max_parallels = 1'000'000;
 
 // Throws UsageError with what a grid is.
 [[noreturn]] void refuse(const std::string& text) {
@@ -60,8 +60,8 @@ GlobalGrid grid_of(const std::string& text) {
   if (cross != std::string::npos) {
     const std::string lon = numbers.substr(0, cross);
     const std::string lat = numbers.substr(cross + 1);
-    if (!whole_error(lon, 1, 2 * most_parallels).empty() ||
-        !whole_error(lat, 1, most_parallels).empty()) {
+    if (!whole_error(lon, 1, 2 * max_parallels).empty() ||
+        !whole_error(lat, 1, max_parallels).empty()) {
       refuse(text);
     }
     return {std::stoull(lon), std::stoull(lat)};
@@ -72,7 +72,7 @@ GlobalGrid grid_of(const std::string& text) {
   // The quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the
   // division.
   if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
-      whole > static_cast<double>(most_parallels)) {
+      whole > static_cast<double>(max_parallels)) {
     refuse(text);
   }
   const auto num_lat = static_cast<std::uint64_t>(whole);

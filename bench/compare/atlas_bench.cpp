@@ -29,7 +29,7 @@
 
 #include "measure.h"
 #include "rondel/cell_set.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/remap.h"
 
 namespace {
@@ -45,7 +45,7 @@ AtlasCells cells_of(const atlas::Mesh& mesh) {
   const auto lonlat = atlas::array::make_view<double, 2>(mesh.nodes().lonlat());
   const auto halo = atlas::array::make_view<int, 1>(mesh.cells().halo());
   const auto& nodes = mesh.cells().node_connectivity();
-  constexpr atlas::idx_t of_each = 4;
+  constexpr atlas::idx_t corners_per_cell = 4;
   std::vector<rondel::LonLat> corners;
   const auto place_of = [&](atlas::idx_t cell) {
     double lon = 0;
@@ -62,12 +62,12 @@ AtlasCells cells_of(const atlas::Mesh& mesh) {
   for (atlas::idx_t i = 0; i < mesh.cells().size(); ++i) {
     if (halo(i) > 0) continue;
     known.try_emplace(place_of(i), known.size());
-    for (atlas::idx_t k = 0; k < of_each; ++k) {
+    for (atlas::idx_t k = 0; k < corners_per_cell; ++k) {
       const atlas::idx_t node = nodes(i, std::min(k, nodes.cols(i) - 1));
       corners.push_back({lonlat(node, 0), lonlat(node, 1)});
     }
   }
-  AtlasCells cells{rondel::cells_of_corners(corners, of_each), {}};
+  AtlasCells cells{rondel::cells_of_corners(corners, corners_per_cell), {}};
   for (atlas::idx_t i = 0; i < mesh.cells().size(); ++i)
     cells.names.push_back(known.at(place_of(i)));
   return cells;

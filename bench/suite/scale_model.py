@@ -35,12 +35,12 @@ TERMS = {
     "P": lambda n, ranks: ranks,
 }
 WORK = {
-    "count": {"first": ("N", "P"), "most": ("N", "P")},
-    "deal": {"first": ("N",), "most": ("N",)},
-    "triangulate": {"first": ("N", "sqrt N"), "most": ("N", "sqrt N")},
-    "join": {"first": ("sqrt nP", "P"), "most": ("sqrt N", "P")},
-    "number": {"first": ("sqrt nP", "sqrt N"), "most": ("sqrt N", "P")},
-    "finish": {"first": ("N", "P"), "most": ("N", "P")},
+    "count": {"first": ("N", "P"), "max": ("N", "P")},
+    "scatter": {"first": ("N",), "max": ("N",)},
+    "triangulate": {"first": ("N", "sqrt N"), "max": ("N", "sqrt N")},
+    "join": {"first": ("sqrt nP", "P"), "max": ("sqrt N", "P")},
+    "number": {"first": ("sqrt nP", "sqrt N"), "max": ("sqrt N", "P")},
+    "finish": {"first": ("N", "P"), "max": ("N", "P")},
 }
 
 
@@ -102,12 +102,12 @@ class RanksModel:
     @staticmethod
     def _fit_bytes(name, of):
         """What goes through the busiest link: out of a rank, or all of the others into rank 0."""
-        terms = ("N",) if name == "deal" else ("sqrt nP", "P")
+        terms = ("N",) if name == "scatter" else ("sqrt nP", "P")
         rows = []
         for n, p, phase in of:
             if p == 1:
                 continue
-            busiest = max(phase["first_bytes"], phase["most_bytes"],
+            busiest = max(phase["first_bytes"], phase["max_bytes"],
                           phase["all_bytes"] - phase["first_bytes"] if name == "join" else 0)
             rows.append(([TERMS[t](n, p) * (1 - 1 / p) for t in terms], busiest))
         return terms, fit(rows, terms)
@@ -139,7 +139,7 @@ class RanksModel:
     def worst_error(self):
         """The largest relative error of the fits, of the sum of phases of a run."""
         def measured(run):
-            return sum(max(p["first_seconds"], p["most_seconds"]) for p in run["phases"])
+            return sum(max(p["first_seconds"], p["max_seconds"]) for p in run["phases"])
 
         def modelled(run):
             return sum(self.seconds(name, run["sites"], run["ranks"]) for name in WORK)

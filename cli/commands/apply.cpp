@@ -43,16 +43,16 @@ struct ApplyCommandOptions {
 
 // How far a place may be from its source: longitudes of floats are off by up to 8e-6 degrees,
 // tables have few digits.
-constexpr double most_apart_deg = 1e-4;
+constexpr double max_apart_deg = 1e-4;
 // This is the bound in radians; for such small angles it is also the length of a chord.
-constexpr double most_apart = most_apart_deg * std::numbers::pi / 180;
+constexpr double max_apart = max_apart_deg * std::numbers::pi / 180;
 
 // Compares unit vectors by the square of their chord.
 bool is_near(const Point& a, const Point& b) {
   const double x = a.x - b.x;
   const double y = a.y - b.y;
   const double z = a.z - b.z;
-  return x * x + y * y + z * z <= most_apart * most_apart;
+  return x * x + y * y + z * z <= max_apart * max_apart;
 }
 
 // Files of weights have NaN, or numbers that are no degrees, for places that they do not know.
@@ -125,7 +125,7 @@ std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const
                                        options.common.read, file.source.shape, places);
   };
   try {
-    return open({places_of_sources(file), most_apart_deg});
+    return open({places_of_sources(file), max_apart_deg});
   } catch (const FileError&) {
     if (values_file.path == "-") throw;  // cannot be read again
     const auto elsewhere = open({});
@@ -199,7 +199,7 @@ ValuesAtSources read_standard_table(const ApplyCommandOptions& options, const We
 }
 
 // A slice has 32 MiB; larger ones are not faster.
-constexpr std::size_t most_values = std::size_t{1} << 22U;
+constexpr std::size_t max_values = std::size_t{1} << 22U;
 
 // The numbers of the report: fields that were written, and values at targets that are missing.
 struct AppliedCounts {
@@ -213,7 +213,7 @@ template <typename Function>
 void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
                     const ValuesAtSources& in, Function take) {
   const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
-  const std::size_t of_slice = std::max<std::size_t>(most_values / largest, 1);
+  const std::size_t of_slice = std::max<std::size_t>(max_values / largest, 1);
   ApplyOptions unfilled = options.apply;
   unfilled.fill = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
@@ -355,7 +355,7 @@ Command add_apply_command(CLI::App& tool) {
       ->check(fill_error)
       ->type_name("VALUE");
   parser
-      ->add_option("--most-missing", options->apply.most_missing,
+      ->add_option("--most-missing", options->apply.max_missing,
                    "The largest share of a target's weights whose values may be missing,\n"
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)

@@ -47,8 +47,8 @@ std::string summary_of(const WeightFile& file, const WeightReport& report) {
            : report.sums_are_fractions ? "the fractions"
                                        : "1") +
           " to " + short_number(report.worst_row) +
-          (report.sums_are_at_most_1 && report.least_row
-               ? ", the least " + short_number(*report.least_row) +
+          (report.sums_are_at_most_1 && report.min_row
+               ? ", the least " + short_number(*report.min_row) +
                      " (the fractions of the targets are not known)"
                : "") +
           '\n';
@@ -92,7 +92,7 @@ nlohmann::ordered_json json_of(const WeightFile& file, const WeightReport& repor
           {"least", report.least},
           {"greatest", report.greatest},
           {"row_sums", report.worst_row},
-          {"least_row_sum", maybe(report.least_row)},
+          {"min_row_sum", maybe(report.min_row)},
           {"column_sums", maybe(report.worst_column)},
           {"direction", maybe(report.worst_direction)},
           {"method", file.method},

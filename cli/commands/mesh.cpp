@@ -15,7 +15,7 @@ Command add_mesh_command(CLI::App& tool) {
   parser->require_subcommand(1);
   const std::vector<Command> commands = {
       add_mesh_scvt_command(*parser),    add_mesh_icosahedral_command(*parser),
-      add_mesh_points_command(*parser),  add_mesh_partition_command(*parser),
+      add_mesh_points_command(*parser),  add_mesh_equal_area_command(*parser),
       add_mesh_convert_command(*parser), add_mesh_cull_command(*parser),
       add_mesh_quality_command(*parser)};
   parser->footer("'rondel mesh COMMAND --help' explains a command.");

@@ -20,7 +20,7 @@ ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   const MeshOutput& written = options.written;
   require_mesh_output(written, MeshOutputKind::mesh);
   Job job(written.common);
-  const mesh::MeshArrays arrays =
+  const mesh::VoronoiMesh arrays =
       read_mesh_or_sites(job, written.common, written.radius, options.allow_zero_edges);
   write_mesh(written, arrays, job);
   return done;
@@ -43,7 +43,8 @@ Command add_mesh_convert_command(CLI::App& mesh) {
   parser->footer(
       "INPUT may be a mesh as well, netCDF: MPAS, or UGRID, SCRIP and ESMF, whose mesh is\n"
       "computed again from the centers of the cells, and at a border from their corners. Cells\n"
-      "that the file masks are left out. Sites have to surround the center of the sphere, each in a place\n"
+      "that the file masks are left out. Sites have to surround the center of the sphere, each in "
+      "a place\n"
       "of its own.\n\n"
       "Examples:\n"
       "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"

@@ -94,7 +94,7 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
 
 // Marks the cells whose sites lie in the polygons, or do not lie in them.
 void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool is_inside,
-                      const mesh::MeshArrays& arrays, const Execution& execution,
+                      const mesh::VoronoiMesh& arrays, const Execution& execution,
                       std::vector<std::uint8_t>& is_removed) {
   if (file.empty()) return;
   const CellTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
@@ -131,7 +131,7 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options) {
     throw UsageError("--inside, --outside or --mask says which cells are removed");
   }
   Job job(common);
-  const mesh::MeshArrays arrays = read_mesh_or_sites(job, common, options.written.radius, true);
+  const mesh::VoronoiMesh arrays = read_mesh_or_sites(job, common, options.written.radius, true);
   std::vector<std::uint8_t> is_removed(arrays.num_cells(), 0);
   if (!options.mask.empty()) is_removed = mask_of_file(options.mask, arrays.num_cells());
   mark_by_polygons(options.inside, options.polygon_edges, true, arrays, job.execution(),

@@ -64,7 +64,7 @@ std::string unmet(const MeshQualityOptions& options, const mesh::Quality& qualit
 ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
   require_separate_files({{"INPUT", options.common.input}}, {{"--report", options.report}});
   Job job(options.common);
-  const mesh::MeshArrays arrays = read_mesh_or_sites(job, options.common, {}, true);
+  const mesh::VoronoiMesh arrays = read_mesh_or_sites(job, options.common, {}, true);
   const mesh::Quality quality = mesh::quality(arrays, job.execution());
   if (!options.report.empty()) {
     write_mesh_report(options.report, arrays, quality, job.execution());

@@ -38,7 +38,7 @@ nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
   return {{"odd_cells", defects.odd_cells},
           {"short_edges", defects.short_edges},
           {"obtuse_triangles", defects.obtuse_triangles},
-          {"least_edge_ratio", defects.least_edge_ratio}};
+          {"min_edge_ratio", defects.min_edge_ratio}};
 }
 
 // Shows a step of the relaxation on the progress line.
@@ -78,9 +78,9 @@ ScvtTask scvt_task(const ScvtCommandOptions& options, Job& job, const Execution&
 mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
   mesh::ScvtOptions scvt = task.scvt;
   scvt.fixed = task.fixed.sites;
-  scvt.seen = [&](const mesh::ScvtStep& step) { show(step, execution); };
+  scvt.on_step = [&](const mesh::ScvtStep& step) { show(step, execution); };
   if (task.start.sites.empty()) return mesh::scvt(scvt, execution);
-  return with_places(task.start, [&] { return mesh::relaxed(task.start.sites, scvt, execution); });
+  return with_places(task.start, [&] { return mesh::relax(task.start.sites, scvt, execution); });
 }
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {

@@ -13,7 +13,7 @@
 
 #include "column_values.h"
 #include "query_job.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "validate.h"
 
 namespace rondel::cli {

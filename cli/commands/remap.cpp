@@ -20,7 +20,7 @@
 #include "report.h"
 #include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/weight_files.h"
 #include "targets.h"
 

@@ -42,7 +42,7 @@ const Color& front_diagram_color(const Figure& figure) {
 
 // One stroke of very many arcs is slow, and so is a stroke for each arc.
 constexpr std::size_t arcs_in_a_stroke = 200;
-constexpr std::size_t least_strokes = 64;
+constexpr std::size_t min_strokes = 64;
 
 // The widths of a figure's lines, in pixels.
 struct Widths {
@@ -64,7 +64,7 @@ Widths widths(const Figure& figure, double radius) {
 // up, and a fan of thin arcs would become a blot; strokes laid over each other keep its shades.
 void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& color, double width) {
   const double tolerance = 0.02 / canvas.radius();
-  const std::size_t num_strokes = std::max(least_strokes, layer.arcs.size() / arcs_in_a_stroke);
+  const std::size_t num_strokes = std::max(min_strokes, layer.arcs.size() / arcs_in_a_stroke);
   for (std::size_t stroke = 0; stroke < num_strokes; ++stroke) {
     for (std::size_t i = stroke; i < layer.arcs.size(); i += num_strokes) {
       const auto& [from, to] = layer.arcs[i];
@@ -78,7 +78,7 @@ void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& co
 // first, paler.
 void draw_circles(Canvas& canvas, std::span<const Circle> circles, Side side, double paleness,
                   double width) {
-  const std::size_t num_strokes = std::max(least_strokes, circles.size() / arcs_in_a_stroke);
+  const std::size_t num_strokes = std::max(min_strokes, circles.size() / arcs_in_a_stroke);
   for (const bool is_hidden : {true, false}) {
     const Color& color = is_hidden ? hidden_circle_color : circle_color;
     for (std::size_t stroke = 0; stroke < num_strokes; ++stroke) {

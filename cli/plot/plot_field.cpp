@@ -198,9 +198,9 @@ std::vector<double> round_values(double least, double most) {
 }
 
 std::vector<std::string> texts_within(std::span<const double> values, double range, int digits) {
-  constexpr int most_digits = 12;  // as many as there is room for beside the bar
+  constexpr int max_digits = 12;  // as many as there is room for beside the bar
   std::vector<std::string> texts;
-  for (; digits <= most_digits; ++digits) {
+  for (; digits <= max_digits; ++digits) {
     texts.clear();
     bool are_close = true;
     for (const double value : values) {

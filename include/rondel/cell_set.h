@@ -118,7 +118,7 @@ class RONDEL_API CellSet {
   /// True if the cells cover the sphere, each with one ring that is convex or nearly so, and share
   /// their edges; or if they are a grid of parallels that covers the sphere. An overlay in which
   /// one side is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).
-  [[nodiscard]] bool is_cover() const;
+  [[nodiscard]] bool covers_sphere() const;
 
   /// Returns what is known of the cells.
   [[nodiscard]] const CellFacts& facts() const { return *facts_; }

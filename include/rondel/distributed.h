@@ -64,7 +64,7 @@ class RONDEL_API Communicator {
   virtual std::vector<Bytes> exchange(std::vector<Bytes> messages) = 0;
 
   /// Is called by the library before the work that leads to the next call, with its phase: "count",
-  /// "deal", "triangulate", "join", "number", "finish"; "areas". It is meant for measurements; the
+  /// "scatter", "triangulate", "join", "number", "finish"; "areas". It is meant for measurements; the
   /// default does nothing. An exception ends the work of all ranks.
   virtual void begin(std::string_view phase);
 };
@@ -99,9 +99,9 @@ struct GlobalDuplicate {
 struct DistributedOptions {
   /// The number of sites that are triangulated at once at most, unless a square of 2^-28 of a face
   /// of the cube has more; a rank may have several squares.
-  std::uint64_t most_bucket_sites = std::uint64_t{1} << 28;
+  std::uint64_t max_bucket_sites = std::uint64_t{1} << 28;
   /// The number of sites that each rank sends at once at most.
-  std::uint64_t most_dealt_sites = std::uint64_t{1} << 21;
+  std::uint64_t max_scattered_sites = std::uint64_t{1} << 21;
   /// Whether each rank keeps the points of the sites in its squares and around them, 24 bytes each,
   /// for areas() and visit_circumcenters().
   bool keep_points = false;

@@ -101,7 +101,7 @@ RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::strin
 struct WantedPlaces {
   /// A place for each point; NaN fits any place. If empty, the places are not known.
   std::span<const LonLat> positions;
-  double most_apart_deg = 1e-4;  ///< how far the coordinates of the file may be from them
+  double max_apart_deg = 1e-4;  ///< how far the coordinates of the file may be from them
 };
 
 /// A file of fields whose values are read in slices, so that it may be larger than the memory if it

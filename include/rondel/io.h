@@ -185,12 +185,12 @@ RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
                                 const Execution& execution = {});
 
 /// The least tolerance in degrees: a tenth of a millimetre on the earth.
-inline constexpr double least_tolerance_deg = 1e-9;
+inline constexpr double min_tolerance_deg = 1e-9;
 
 /// Writes the cells. GeoJSON follows RFC 7946 with one feature for each cell.
 /// \param tolerance_deg  positive, degrees: arcs are densified until the straight lines in
 ///        longitude and latitude are within this distance of the arc (closer between sites that are
-///        close). Less than least_tolerance_deg counts as that.
+///        close). Less than min_tolerance_deg counts as that.
 RONDEL_API void write_cells(const FileName& file, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
                             double tolerance_deg = 0.01, const Execution& execution = {});

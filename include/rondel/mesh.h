@@ -39,7 +39,7 @@ namespace rondel::mesh {
 /// 7. A mesh of a part of the sphere (mesh_cull.h) has a border, where no_index stands for missing
 ///    elements: the second cell of an edge, cells across edges, cells and edges around vertices,
 ///    whose kites are then 0. At a vertex on the border triangle_areas has the sum of the kites.
-struct MeshArrays {
+struct VoronoiMesh {
   double radius = 1;
 
   std::vector<Point> cell_points;  ///< the sites
@@ -70,16 +70,16 @@ struct MeshArrays {
   [[nodiscard]] std::size_t num_vertices() const { return vertex_points.size(); }
   /// Returns the largest number of edges of a cell.
   [[nodiscard]] RONDEL_API std::size_t max_edges() const;
-  friend bool operator==(const MeshArrays&, const MeshArrays&) = default;
+  friend bool operator==(const VoronoiMesh&, const VoronoiMesh&) = default;
 };
 
 /// The bounds of a mesh's radius: between them squares of lengths neither overflow nor vanish.
-inline constexpr double least_radius = 1e-30;
+inline constexpr double min_radius = 1e-30;
 inline constexpr double largest_radius = 1e30;
 
-/// The options of arrays().
+/// The options of make_mesh().
 struct MeshOptions {
-  double radius = 1;  ///< from least_radius to largest_radius
+  double radius = 1;  ///< from min_radius to largest_radius
   /// The density of each cell, if the mesh was made for one, as MPAS defines it: (least spacing /
   /// spacing)^4.
   std::span<const double> density{};
@@ -96,13 +96,13 @@ struct MeshOptions {
 ///         cells), the hull does not surround the center of the sphere, two sites are in one place,
 ///         or four on one circle (see MeshOptions), with the site; for a radius that is out of
 ///         range, or a density that is not positive.
-RONDEL_API MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options = {},
-                             const Execution& execution = {});
+RONDEL_API VoronoiMesh make_mesh(const Triangulation& triangulation,
+                                 const MeshOptions& options = {}, const Execution& execution = {});
 
 /// Changes the radius of a mesh: points and lengths are multiplied by the quotient of the radii,
 /// areas by its square.
-/// \throws InvalidInput if one of the two radii is not from least_radius to largest_radius.
-RONDEL_API void rescale(MeshArrays& arrays, double radius);
+/// \throws InvalidInput if one of the two radii is not from min_radius to largest_radius.
+RONDEL_API void rescale(VoronoiMesh& mesh, double radius);
 
 /// The weights that reconstruct the tangential velocity (TRiSK: Thuburn, Ringler, Skamarock, Klemp
 /// 2009, eq. 33): over the entries k of row e, the sum of weights[k] u[edges.values[k]] for normal
@@ -116,7 +116,7 @@ struct TangentialWeights {
   CompressedRows<Index> edges;  ///< a row for each edge
   std::vector<double> weights;
 };
-RONDEL_API TangentialWeights tangential_weights(const MeshArrays& arrays,
+RONDEL_API TangentialWeights tangential_weights(const VoronoiMesh& mesh,
                                                 const Execution& execution = {});
 
 /// Returns the distance of neighbors in a grid of regular hexagons of this area: sqrt(2 area / sqrt

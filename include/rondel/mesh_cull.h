@@ -19,7 +19,7 @@ namespace rondel::mesh {
 /// A mesh of which cells were removed. `cells`, `edges` and `vertices` have for each element of the
 /// mesh before its index in the new mesh, or no_index if it was removed.
 struct Culled {
-  MeshArrays arrays;
+  VoronoiMesh arrays;
   std::vector<Index> cells;
   std::vector<Index> edges;
   std::vector<Index> vertices;
@@ -30,14 +30,14 @@ struct Culled {
 /// 1. An edge or vertex stays if one of its cells does. What stays keeps its order, place, lengths
 ///    and areas bit by bit; so the cell distance of an edge on the border is that to the removed
 ///    cell.
-/// 2. At the border no_index stands for cells and edges that were removed (MeshArrays, rule 7).
+/// 2. At the border no_index stands for cells and edges that were removed (VoronoiMesh, rule 7).
 /// 3. An edge that lost its first cell is reversed.
 /// 4. Kites of removed cells are 0, and the areas of triangles are the sums of their kites.
 /// 5. A mesh with a border may be culled again; two steps give the same mesh as one.
 /// \param is_removed  one for each cell: 0 if it stays
 /// \throws InvalidInput if there is not one number for each cell, no cell is left, or the arrays do
 ///         not fit together.
-RONDEL_API Culled cull(const MeshArrays& arrays, std::span<const std::uint8_t> is_removed,
+RONDEL_API Culled cull(const VoronoiMesh& mesh, std::span<const std::uint8_t> is_removed,
                        const Execution& execution = {});
 
 /// Returns 1 for each point that lies in one of the regions or on a border of one, else 0; exact.

@@ -21,7 +21,7 @@ namespace rondel::mesh {
 
 /// The worst value of a quantity, and the index of the cell, edge or vertex that has it; the first
 /// one of several.
-struct Worst {
+struct Extremum {
   double value = 0;
   Index where = no_index;
 };
@@ -51,24 +51,24 @@ struct Quality {
   /// the center is that of a density that is linear between sites and corners, and a corner has the
   /// density of the mean spacing of its cells.
   double mean_centroid_offset = 0;
-  Worst max_centroid_offset;  ///< index: cell
+  Extremum max_centroid_offset;  ///< index: cell
 
   /// Angles of the triangles of sites, in the planes of their corners; index: vertex.
-  Worst min_angle_deg;
-  Worst max_angle_deg;  ///< index: vertex
+  Extremum min_angle_deg;
+  Extremum max_angle_deg;  ///< index: vertex
   /// The number of triangles whose circumcenter, a vertex of the mesh, lies outside of them.
   std::uint64_t num_obtuse = 0;
   /// The share of all angles of triangles that are from 40 to 80 degrees.
   double share_40_to_80_deg = 0;
 
-  Worst min_edge_ratio;      ///< vertex_distance / cell_distance (dv/dc); index: edge
-  Worst min_side_ratio;      ///< the shortest edge of a cell over its longest; index: cell
-  Worst max_distance_ratio;  ///< the farthest neighbor of a cell over the nearest; index: cell
+  Extremum min_edge_ratio;      ///< vertex_distance / cell_distance (dv/dc); index: edge
+  Extremum min_side_ratio;      ///< the shortest edge of a cell over its longest; index: cell
+  Extremum max_distance_ratio;  ///< the farthest neighbor of a cell over the nearest; index: cell
   /// The difference of the spacings of two neighbors over their mean; index: edge.
-  Worst max_gradient;
+  Extremum max_gradient;
   /// The distance from the middle of an edge to its edge_points, over its cell_distance; index:
   /// edge.
-  Worst max_staggering;
+  Extremum max_staggering;
   double mean_staggering = 0;
 
   double min_spacing = 0;  ///< in units of the radius
@@ -88,7 +88,7 @@ struct Quality {
   Histogram spacings;     ///< spacings over their median (see spacing_range), 0 to 2
 };
 
-RONDEL_API Quality quality(const MeshArrays& arrays, const Execution& execution = {});
+RONDEL_API Quality quality(const VoronoiMesh& mesh, const Execution& execution = {});
 
 /// The ratios of Quality for each cell; for the ratios of edges, the worst of the cell's edges.
 struct CellQuality {
@@ -98,11 +98,11 @@ struct CellQuality {
   std::vector<double> distance_ratio;
   std::vector<double> gradient;
 };
-RONDEL_API CellQuality cell_quality(const MeshArrays& arrays, const Execution& execution = {});
+RONDEL_API CellQuality cell_quality(const VoronoiMesh& mesh, const Execution& execution = {});
 
 /// Returns a report of a few lines for people to read.
 RONDEL_API std::string quality_text(const Quality& quality);
-/// Returns one JSON object with the members of Quality as keys. A Worst is {"value", "where"}; a
+/// Returns one JSON object with the members of Quality as keys. A Extremum is {"value", "where"}; a
 /// number that is not finite is null.
 RONDEL_API std::string quality_json(const Quality& quality);
 /// Returns the member with this name, with - instead of _ as on a command line: "min-edge-ratio";
@@ -112,7 +112,7 @@ RONDEL_API double quality_value(const Quality& quality, std::string_view name);
 /// Returns a picture in SVG: three histograms, and a map in longitude and latitude of the
 /// `num_worst` cells with the largest centroid_offset, the smallest edge_ratio and the largest
 /// gradient.
-RONDEL_API std::string quality_picture(const MeshArrays& arrays, const Quality& quality,
+RONDEL_API std::string quality_picture(const VoronoiMesh& mesh, const Quality& quality,
                                        std::size_t num_worst = 100,
                                        const Execution& execution = {});
 

@@ -45,9 +45,9 @@ namespace rondel {
 ///         MPI_Finalize().
 class MpiCommunicator final : public Communicator {
  public:
-  /// Sends or receives at most `most_bytes` in one piece; tests set it.
-  explicit MpiCommunicator(MPI_Comm ranks, std::size_t most_bytes = std::size_t{1} << 30)
-      : most_bytes_(most_bytes) {
+  /// Sends or receives at most `max_bytes` in one piece; tests set it.
+  explicit MpiCommunicator(MPI_Comm ranks, std::size_t max_bytes = std::size_t{1} << 30)
+      : max_bytes_(max_bytes) {
     MPI_Comm_dup(ranks, &ranks_);
     MPI_Comm_set_errhandler(ranks_, MPI_ERRORS_ARE_FATAL);
     MPI_Comm_rank(ranks_, &rank_);
@@ -78,7 +78,7 @@ class MpiCommunicator final : public Communicator {
     const std::uint64_t longest = *std::max_element(sizes.begin(), sizes.end());
     if (longest == 0) return received;
     // The pieces of all ranks are received into one array.
-    const std::uint64_t most = std::max<std::uint64_t>(most_bytes_ / num_ranks, 1);
+    const std::uint64_t most = std::max<std::uint64_t>(max_bytes_ / num_ranks, 1);
     agree([&] {
       for (std::size_t r = 0; r < num_ranks; ++r) received[r].resize(sizes[r]);
       pieces.resize(std::accumulate(
@@ -118,7 +118,7 @@ class MpiCommunicator final : public Communicator {
     MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes.data() + num_ranks, 1, MPI_UINT64_T, ranks_);
     agree([&] {
       std::uint64_t num_pieces = 0;
-      for (const std::uint64_t size : sizes) num_pieces += (size + most_bytes_ - 1) / most_bytes_;
+      for (const std::uint64_t size : sizes) num_pieces += (size + max_bytes_ - 1) / max_bytes_;
       requests.reserve(num_pieces);
       for (std::size_t r = 0; r < num_ranks; ++r) received[r].resize(sizes[num_ranks + r]);
     });
@@ -157,14 +157,14 @@ class MpiCommunicator final : public Communicator {
 
   template <class Visit>
   void for_pieces(Bytes& bytes, Visit visit) const {
-    for (std::size_t begin = 0; begin < bytes.size(); begin += most_bytes_)
-      visit(&bytes[begin], static_cast<int>(std::min(most_bytes_, bytes.size() - begin)));
+    for (std::size_t begin = 0; begin < bytes.size(); begin += max_bytes_)
+      visit(&bytes[begin], static_cast<int>(std::min(max_bytes_, bytes.size() - begin)));
   }
 
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
 };
 
 }  // namespace rondel

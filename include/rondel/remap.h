@@ -96,7 +96,7 @@ struct Remap {
 ///
 /// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
 /// the sum of a row is 1, up to a few ulp, where the other side covers it. If neither
-/// side is_cover() and neither is a grid of parallels, the one with fewer sides (the source if
+/// side covers_sphere() and neither is a grid of parallels, the one with fewer sides (the source if
 /// both have as many) is completed by triangles, whose sides leave no trace in the pieces; if its
 /// cells overlap each other, the other one is. That takes longer.
 /// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its side,

@@ -55,7 +55,7 @@ enum class ScvtMethod : std::uint8_t {
 RONDEL_API std::string_view name_of(ScvtMethod method) noexcept;
 
 /// A function that is called at the start of a level and after every step.
-using ScvtSeen = std::function<void(const ScvtStep&)>;
+using ScvtCallback = std::function<void(const ScvtStep&)>;
 
 struct ScvtOptions {
   std::size_t count = 0;               ///< the number of sites; 0: size->count(), rounded
@@ -73,7 +73,7 @@ struct ScvtOptions {
   /// Each takes the nearest site that no place before has taken when the last level begins. They
   /// never move, and count among the sites; offsets are those of the other sites.
   std::span<const Point> fixed{};
-  ScvtSeen seen{};
+  ScvtCallback on_step{};
 };
 
 /// Defects that stop a model, or make it inaccurate.
@@ -81,7 +81,7 @@ struct ScvtDefects {
   std::size_t odd_cells = 0;    ///< cells that do not have 5, 6 or 7 sides
   std::size_t short_edges = 0;  ///< edges shorter than 0.0505 times the distance of their cells
   std::size_t obtuse_triangles = 0;
-  double least_edge_ratio = 0;  ///< the smallest length of an edge over the distance of its cells
+  double min_edge_ratio = 0;  ///< the smallest length of an edge over the distance of its cells
 };
 
 /// The repair of defects where rows of cells end: sites are moved off their centroids by as little
@@ -121,8 +121,8 @@ RONDEL_API Scvt scvt(const ScvtOptions& options, const Execution& execution = {}
 /// stays.
 /// \throws InvalidInput (first bad index) if a site is not finite or is the center; if there are
 ///         duplicates, or the sites do not surround the center.
-RONDEL_API Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options = {},
-                        const Execution& execution = {});
+RONDEL_API Scvt relax(std::span<const Point> sites, const ScvtOptions& options = {},
+                      const Execution& execution = {});
 
 /// Returns the energy of n sites of constant density divided by that of as many regular hexagons of
 /// the plane, 5 (4 pi)^2 / (18 sqrt(3) n), which it never reaches.

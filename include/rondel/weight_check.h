@@ -38,7 +38,7 @@ struct WeightReport {
       false;  ///< true if the rows should add up to the fractions of the targets instead of 1
   /// True if the fractions of the targets are not known, so that a sum may be anything up to 1.
   bool sums_are_at_most_1 = false;
-  std::optional<double> least_row;   ///< the least sum of a row with entries
+  std::optional<double> min_row;     ///< the least sum of a row with entries
   bool sums_are_of_columns = false;  ///< true if the columns should add up to 1 instead of the rows
 
   /// Returns how often a kind occurs.

@@ -48,7 +48,7 @@ struct ApplyOptions {
   /// The share of the sum of a row's absolute weights that missing values may have. The sum of the
   /// other values is divided by their share of the row's sum. With 0 one missing value is too many,
   /// with 1 one value is enough.
-  double most_missing = 0;
+  double max_missing = 0;
 };
 
 /// Multiplies fields by the matrix: out[f * num_rows() + r] becomes the sum of values[k] * in[f *
@@ -57,7 +57,7 @@ struct ApplyOptions {
 /// \param in  shape (num_fields, num_columns)
 /// \param out  shape (num_fields, num_rows())
 /// \throws InvalidInput if a length is not as described, the weights are not in compressed rows
-///         or not finite (first bad position), or `most_missing` is not in [0, 1].
+///         or not finite (first bad position), or `max_missing` is not in [0, 1].
 RONDEL_API void apply(const Weights& weights, std::span<const double> in, std::span<double> out,
                       std::size_t num_fields = 1, const ApplyOptions& options = {},
                       const Execution& execution = {});

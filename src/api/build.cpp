@@ -113,7 +113,7 @@ Triangulation build(Sites all_sites, const system::Job& options, const hidden::I
   const auto rest_points = system::gather(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
   // The copies have as much memory as the faces, which are written over them later.
-  LargeVector<Triple> copies(inserted.size() < bulk::least_copied_sites ? 0 : 2 * inserted.size());
+  LargeVector<Triple> copies(inserted.size() < bulk::min_copied_sites ? 0 : 2 * inserted.size());
   auto order = order_valid(inserted, options, system::SiteCopies(std::span(copies)));
   if (order.order.size() < inserted.size() / 2) copies = {};  // too much for the faces
   report.order_seconds = seconds_since(start);

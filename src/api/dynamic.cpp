@@ -76,9 +76,9 @@ void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
   dynamic::Build build = dynamic::make_build(triangulation, execution.threads);
   std::vector<Index> place_of_id(places().site_limit(), no_index);
   for (std::size_t i = 0; i < ids.size(); ++i) place_of_id[ids[i]] = build.place_of_site[i];
-  for (Index& speaker : build.speakers) speaker = ids[speaker];
+  for (Index& representative : build.representatives) representative = ids[representative];
   visit([&](auto& e) {
-    e.assign(place_of_id, build.speakers);
+    e.assign(place_of_id, build.representatives);
     if (triangulation.dimension() == 2) {
       e.adopt(std::move(build.mesh), build.hidden);
     } else {

@@ -27,8 +27,8 @@ void AllSites::add(std::span<const Point> sites) {
   options.model = model_;
   options.sphere.center = center_;
   const Extent extent = make_input(sites, {}, options).extent;
-  extent_.least_size = std::min(extent_.least_size, extent.least_size);
-  extent_.most_size = std::max(extent_.most_size, extent.most_size);
+  extent_.min_size = std::min(extent_.min_size, extent.min_size);
+  extent_.max_size = std::max(extent_.max_size, extent.max_size);
 }
 
 void AllSites::take_larger(const Point& p) {
@@ -57,8 +57,8 @@ void AllSites::add(const AllSites& others) {
   take_larger(others.largest_);
   for (std::size_t i = 0; i < others.num_spanning_; ++i) take_spanning(others.spanning_[i]);
   octants_ |= others.octants_;
-  extent_.least_size = std::min(extent_.least_size, others.extent_.least_size);
-  extent_.most_size = std::max(extent_.most_size, others.extent_.most_size);
+  extent_.min_size = std::min(extent_.min_size, others.extent_.min_size);
+  extent_.max_size = std::max(extent_.max_size, others.extent_.max_size);
 }
 
 bool AllSites::surround_center() const { return octants_ == all_octants; }

@@ -34,10 +34,10 @@ using Edge = PlaneGraph::Edge;
 template <models::SphereModel T>
 class BlockBuilder {
  public:
-  explicit BlockBuilder(std::size_t most_sites) {
-    piece_.reserve(most_sites);
-    emission_.owned.reserve(most_sites);
-    emission_.owners.reserve(most_sites);
+  explicit BlockBuilder(std::size_t max_num_sites) {
+    piece_.reserve(max_num_sites);
+    emission_.owned.reserve(max_num_sites);
+    emission_.owners.reserve(max_num_sites);
   }
 
   BlockResult build(const Input& input, const Block& block, const FaceStore& store) {
@@ -76,10 +76,10 @@ template <models::SphereModel T>
 std::vector<BlockResult> build_blocks(const Input& input, const std::vector<Block>& blocks,
                                       const FaceStore& store) {
   std::vector<BlockResult> results(blocks.size());
-  Index most_sites = 0;
-  for (const Block& b : blocks) most_sites = std::max(most_sites, b.end - b.begin);
+  Index max_num_sites = 0;
+  for (const Block& b : blocks) max_num_sites = std::max(max_num_sites, b.end - b.begin);
   BuilderPool<BlockBuilder<T>> pool;
-  const auto make = [&] { return std::make_unique<BlockBuilder<T>>(most_sites); };
+  const auto make = [&] { return std::make_unique<BlockBuilder<T>>(max_num_sites); };
   // The seam is one more step.
   system::StageProgress progress(input.options.progress, "triangulate", blocks.size() + 1);
   system::parallel_for(input.options.threads, blocks.size(), 1,

@@ -104,7 +104,7 @@ Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, co
                           const SeamRule& rule) {
   Bucket bucket;
   TriangulationArrays arrays;
-  if (sites.size() >= least_copied_sites) arrays.faces.resize(2 * sites.size());
+  if (sites.size() >= min_copied_sites) arrays.faces.resize(2 * sites.size());
   const system::SiteCopies copies{std::span(arrays.faces)};
   bucket.order = order::spatial_order(sites, options.model, options.sphere.center, options.threads,
                                       {}, copies);

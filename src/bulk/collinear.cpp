@@ -19,12 +19,12 @@ using Vector = exact::Vector3<double>;
 // all four; the rest is for roundings of the lengths.
 Sign certain_sign(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
   constexpr double bound = 32 * predicates::unit_roundoff;
-  constexpr double least_scale = 1e-150;  // below it, bits may be lost to underflow
+  constexpr double min_scale = 1e-150;  // below it, bits may be lost to underflow
   const double value = dot(cross(a, b), cross(c, d));
   const double first = std::sqrt(dot(a, a)) * std::sqrt(dot(b, b));
   const double second = std::sqrt(dot(c, c)) * std::sqrt(dot(d, d));
   const bool is_certain =
-      first > least_scale && second > least_scale && std::abs(value) > bound * (first * second);
+      first > min_scale && second > min_scale && std::abs(value) > bound * (first * second);
   return is_certain ? exact::sign_of(value) : Sign::zero;
 }
 

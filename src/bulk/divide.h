@@ -86,7 +86,7 @@ class Divide {
   Part solve(Index begin, Index end, unsigned state, int bit) {
     Part part;
     if (solve_few(begin, end, bit, part)) return part;
-    if (bit < least_bit || is_misplaced(begin, end, bit)) return sewing_.fail();
+    if (bit < min_bit || is_misplaced(begin, end, bit)) return sewing_.fail();
     const Index middle = split(begin, end, state & 1U, bit, 1 - turn_of(state));
     const Part before = solve_half(begin, middle, state, bit, 0);
     const Part after = solve_half(middle, end, state, bit, 1);

@@ -64,8 +64,8 @@ class GivenSites {
     if constexpr (model == Model::weighted) return Sign::zero;
     constexpr double bound = predicates::direction_orientation_bound;
     const double value = dot(l, normal);
-    if (value > bound * most_distance) return Sign::positive;
-    if (value < -bound * most_distance) return Sign::negative;
+    if (value > bound * max_distance) return Sign::positive;
+    if (value < -bound * max_distance) return Sign::negative;
     return predicates::unless_unsure(
         value, value * value > bound * bound * std::max(dot(to_r, to_r), dot(to_x, to_x)));
   }
@@ -73,7 +73,7 @@ class GivenSites {
                                                              const Vector& to_r, const Vector& to_x,
                                                              const Vector& to_y) {
     if constexpr (model == Model::projected) {
-      constexpr double most = predicates::circle_plane_bound * (most_distance * most_distance);
+      constexpr double most = predicates::circle_plane_bound * (max_distance * max_distance);
       if (value > most) return Sign::positive;
       if (value < -most) return Sign::negative;
     }
@@ -104,7 +104,7 @@ class GivenSites {
 
  private:
   // The bound for the distance of two stored directions.
-  static constexpr double most_distance = 2.001;
+  static constexpr double max_distance = 2.001;
 
   std::span<const Point> sites_;
   std::span<const Index> order_;

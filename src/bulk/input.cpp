@@ -24,10 +24,10 @@ void find_sizes(Input& input) {
     most = std::max(most, size2);
   }
   // Where squares lose bits no bound is finite, and the exact rungs decide.
-  constexpr double least_square = 1e-280;
+  constexpr double min_square = 1e-280;
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  input.extent.least_size = least > least_square ? std::sqrt(least) * (1 - 0x1p-48) : 0;
-  input.extent.most_size = most > least_square ? std::sqrt(most) * (1 + 0x1p-48) : infinity;
+  input.extent.min_size = least > min_square ? std::sqrt(least) * (1 - 0x1p-48) : 0;
+  input.extent.max_size = most > min_square ? std::sqrt(most) * (1 + 0x1p-48) : infinity;
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ namespace rondel::bulk {
 // Distances of all sites from the center, at least and at most, of weighted sites; of projected
 // ones, whose lengths do not count, 1.
 struct Extent {
-  double least_size = 1;
-  double most_size = 1;
+  double min_size = 1;
+  double max_size = 1;
 };
 
 struct Input {

@@ -169,9 +169,9 @@ class Piece {
     if (p.face != q.face || q.face != square.corner.face) return false;
     if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
     sites_.set_position(i, {p.u, p.v});
-    const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> least_bit;
+    const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> min_bit;
     if (difference != 0) {
-      misplaced_.push_back({i, least_bit + static_cast<int>(std::bit_width(difference)) - 1});
+      misplaced_.push_back({i, min_bit + static_cast<int>(std::bit_width(difference)) - 1});
     }
     return true;
   }

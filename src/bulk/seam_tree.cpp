@@ -290,7 +290,7 @@ bool fill_seam_at_once(const Input& input, std::span<const BlockResult> results,
 bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
                std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
                Tally& tally) {
-  if (seam.sites().size() < rule.least_sites) {
+  if (seam.sites().size() < rule.min_sites) {
     return fill_seam_at_once(input, results, seam, tally);
   }
   double num_all = 0;

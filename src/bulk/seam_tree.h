@@ -37,7 +37,7 @@ struct SeamLedger {
 // Which squares triangulate a seam. The result does not depend on it.
 struct SeamRule {
   // With fewer seam sites none does: their mesh over the whole sphere fits into the second cache.
-  std::size_t least_sites = std::size_t{1} << 16;
+  std::size_t min_sites = std::size_t{1} << 16;
   // Or those alone that are likely to leave little of what comes in.
   bool is_every_square = false;
   SeamLedger* ledger = nullptr;

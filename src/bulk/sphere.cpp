@@ -30,7 +30,7 @@ constexpr std::size_t parts_of_lune = 3;
 constexpr std::size_t num_parts = num_lunes * parts_of_lune;
 
 // For fewer it takes longer to start threads than to wait for one.
-constexpr Index least_parallel_sites = 4096;
+constexpr Index min_parallel_sites = 4096;
 
 // Returns the lune of a ray along the x axis, or along the y axis if x is 0.
 std::size_t lune_of_axis(double x, double y) { return x > 0 ? 0 : (y > 0 ? 1 : (x < 0 ? 2 : 3)); }
@@ -106,7 +106,7 @@ class SphereTriangulation {
   // Triangulates the lunes, merges them to halves, and these to a sphere. Returns false if this does
   // not work.
   bool conquer() {
-    const unsigned threads = num_sites_ < least_parallel_sites ? 1 : by_ranks_.options.threads;
+    const unsigned threads = num_sites_ < min_parallel_sites ? 1 : by_ranks_.options.threads;
     // The rest counts as one lune more.
     system::StageProgress progress(by_ranks_.options.progress, "triangulate", num_lunes + 1);
     Input input = by_ranks_;

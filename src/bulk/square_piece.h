@@ -31,7 +31,7 @@ class SquarePiece {
     memory_.reserve(num_sites);
     piece_.assign(input, 0, num_sites, memory_);
     const Block all = {0, num_sites, square};
-    if (num_sites < least_sites || !piece_.solve({&all, 1}) || !piece_.find_hidden()) return false;
+    if (num_sites < min_sites || !piece_.solve({&all, 1}) || !piece_.find_hidden()) return false;
     piece_.graph().clear_faces();
     return true;
   }
@@ -53,7 +53,7 @@ class SquarePiece {
 
  private:
   // With fewer sites nothing would be final.
-  static constexpr Index least_sites = 32;
+  static constexpr Index min_sites = 32;
 
   PieceMemory memory_;
   Piece<T> piece_;

@@ -29,15 +29,15 @@ using system::mask;
 constexpr double orientation_bound = 38 * unit_roundoff;
 
 // No bound is below this: products of what is smaller may lose bits to underflow.
-constexpr double least_bound = 1e-280;
+constexpr double min_bound = 1e-280;
 
 // The error of N.(y-l) with weights, relative to the square of the largest distance: 6 eta for the
 // ends of three vectors, where eta is the error of a point, and 8.8 units times the distance for
 // the roundings (docs/theory/filters.md); 1.2 for terms of higher order.
-double find_weighted_bound(double w_error, double most_w_distance) {
-  constexpr double most_uv = 2.83;
+double find_weighted_bound(double w_error, double max_w_distance) {
+  constexpr double max_uv = 2.83;
   const double eta = unit_roundoff * std::sqrt(3 * 3 + 3 * 3 + w_error * w_error);
-  const double distance = std::sqrt(most_uv * most_uv + most_w_distance * most_w_distance);
+  const double distance = std::sqrt(max_uv * max_uv + max_w_distance * max_w_distance);
   return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
 }
 
@@ -103,9 +103,9 @@ RONDEL_ALWAYS_INLINE inline std::uint64_t position_of(double ratio) {
          std::bit_cast<std::uint64_t>(shift);
 }
 
-// Whether rounding may have changed the upper bits, from least_bit on.
+// Whether rounding may have changed the upper bits, from min_bit on.
 bool is_doubtful(std::uint64_t position) {
-  constexpr std::uint64_t lower_bits = (std::uint64_t{1} << least_bit) - 1;
+  constexpr std::uint64_t lower_bits = (std::uint64_t{1} << min_bit) - 1;
   return ((position + position_rounding) & lower_bits) < 2 * position_rounding;
 }
 
@@ -115,7 +115,7 @@ constexpr std::size_t batch = 128;  // coordinates found at once
 constexpr Index many = 128;
 
 // side_over_tangent() is asked until it has failed this much more often than not.
-constexpr std::uint64_t most_ties = 16;
+constexpr std::uint64_t max_ties = 16;
 
 }  // namespace
 
@@ -145,8 +145,8 @@ void SquareSites<T>::find_bounds(int bits) {
   bits_ = bits;
   if (is_weighted) {
     // w is off by at most 2 units; it is below sqrt(3) s/|p|.
-    const double most_w = 1.74 * extent_.most_size / extent_.least_size;
-    square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
+    const double max_w = 1.74 * extent_.max_size / extent_.min_size;
+    square_bound_ = find_weighted_bound(2.1 * max_w, max_w);
     cube_bound_ = 0;
   } else {
     // In units: 71 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
@@ -181,7 +181,7 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
   const auto out = exact::to_vector(axes.out);
   const double hand = det(u_axis, v_axis, out);
   hand_ = hand;
-  const double most_size = extent_.most_size;
+  const double max_size = extent_.max_size;
   const Tangent tangent(square, hand);
   const auto origin = exact::to_vector(center());
   const std::size_t end = std::size_t{next_} + num_sites;
@@ -201,7 +201,7 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
         const double depth = x * out.x + y * out.y + z * out.z;
         const double u = (x * u_axis.x + y * u_axis.y + z * u_axis.z) / depth;
         const double v = (x * v_axis.x + y * v_axis.y + z * v_axis.z) / depth;
-        const double size = is_weighted ? most_size / depth : std::sqrt(1 + (u * u + v * v));
+        const double size = is_weighted ? max_size / depth : std::sqrt(1 + (u * u + v * v));
         const double w = is_weighted ? size : tangent.height(u, hand * v, size);
         point[i] = {u, hand * v, w, size};
         position[i] = {position_of(u), position_of(v)};
@@ -221,11 +221,11 @@ template <models::SphereModel T>
 SquareLimits SquareSites<T>::limits(double length) const {
   double distance = 1.42 * length;
   if (is_weighted) {
-    const double most_ratio = extent_.most_size / extent_.least_size;
-    distance = most_ratio * 2.01 * length + 1.74 * (most_ratio - 1);
+    const double max_ratio = extent_.max_size / extent_.min_size;
+    distance = max_ratio * 2.01 * length + 1.74 * (max_ratio - 1);
   }
-  return {std::max(orientation_bound * distance, least_bound),
-          std::max(conflict_limit(distance), least_bound)};
+  return {std::max(orientation_bound * distance, min_bound),
+          std::max(conflict_limit(distance), min_bound)};
 }
 
 template <models::SphereModel T>
@@ -247,7 +247,7 @@ Sign SquareSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const
                        z.height * (x.u * y.v - x.v * y.u);
   const double squared = std::max(std::max(x.squared, y.squared), z.squared);
   const double bound = (cube_bound * std::sqrt(squared) + bound_of_rest * squared) * squared;
-  return beyond(value, std::max(bound, least_bound));
+  return beyond(value, std::max(bound, min_bound));
 }
 
 template <models::SphereModel T>
@@ -257,9 +257,9 @@ Sign SquareSites<T>::filtered_side(Index a, Index b, Index c, Index p) {
     const Vector ac = coordinates(c) - coordinates(a);
     const Vector ap = coordinates(p) - coordinates(a);
     const double distance = std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ap, ap)}));
-    return -beyond(dot(cross(ab, ac), ap), std::max(conflict_limit(distance), least_bound));
+    return -beyond(dot(cross(ab, ac), ap), std::max(conflict_limit(distance), min_bound));
   }
-  if (num_ties_ > most_ties * (num_over_tangent_ + 1)) return Sign::zero;
+  if (num_ties_ > max_ties * (num_over_tangent_ + 1)) return Sign::zero;
   const Sign side = side_over_tangent(a, b, c, p);
   ++(side == Sign::zero ? num_ties_ : num_over_tangent_);
   return -side;

@@ -65,7 +65,7 @@ struct SquareLimits {
 };
 
 // Squares are split down to this bit of positions.
-inline constexpr int least_bit = 14;
+inline constexpr int min_bit = 14;
 
 // Rounding moves positions by less than this.
 inline constexpr std::uint64_t position_rounding = 4;

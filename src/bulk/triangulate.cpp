@@ -13,15 +13,15 @@ namespace rondel::bulk {
 namespace {
 
 // With fewer the parts of a sphere would be too small to pay, and most sites of blocks in the seam.
-constexpr std::size_t least_sphere_sites = 128;
-constexpr std::size_t least_block_sites = std::size_t{1} << 13;
+constexpr std::size_t min_sphere_sites = 128;
+constexpr std::size_t min_block_sites = std::size_t{1} << 13;
 
 // Between neighbors on a sphere the squared distance is 4 pi / n on average, and weights must differ
 // by as much if one is to hide another.
 bool are_weights_close(const Input& input) {
   const Extent& extent = input.extent;
   const auto num_sites = static_cast<double>(input.order.size());
-  return num_sites * (extent.most_size - extent.least_size) < 4 * extent.least_size;
+  return num_sites * (extent.max_size - extent.min_size) < 4 * extent.min_size;
 }
 
 }  // namespace
@@ -34,10 +34,10 @@ kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index
   const std::size_t num_sites = order.size();
   std::optional<bool> trial;  // it takes time, and may not be needed
   const auto have_blocks = [&] {
-    if (!trial) trial = num_sites >= least_block_sites && has_short_seams(input);
+    if (!trial) trial = num_sites >= min_block_sites && has_short_seams(input);
     return *trial;
   };
-  const bool is_sphere = num_sites >= least_sphere_sites && num_sites <= max_sphere_sites &&
+  const bool is_sphere = num_sites >= min_sphere_sites && num_sites <= max_sphere_sites &&
                          surround_center(sites, options.sphere.center);
   std::optional<kernel::Triangulated> result;
   if (is_sphere && (are_weights_close(input) || have_blocks())) {

@@ -30,7 +30,7 @@ namespace rondel::bulk {
 
 // From so many sites on it pays to copy them in their order: to read them one by one from
 // everywhere in memory takes longer.
-inline constexpr std::size_t least_copied_sites = std::size_t{3} << 18;
+inline constexpr std::size_t min_copied_sites = std::size_t{3} << 18;
 
 // With more the mesh of a whole sphere would not fit into the second cache, more or less.
 inline constexpr std::size_t most_sphere_sites = std::size_t{1} << 16;

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "distributed/bucket_store.h"
 #include "distributed/result_array.h"
+#include "distributed/result_store.h"
 #include "distributed/scratch_file.h"
 
 namespace rondel::distributed {

@@ -24,8 +24,8 @@ constexpr std::uint64_t square_of(std::uint64_t high_key, int level) {
 
 }  // namespace
 
-BucketCounts::BucketCounts(std::uint64_t most_sites, int depth)
-    : most_sites_(std::max<std::uint64_t>(most_sites, 1)) {
+BucketCounts::BucketCounts(std::uint64_t max_num_sites, int depth)
+    : max_sites_(std::max<std::uint64_t>(max_num_sites, 1)) {
   const std::size_t size = 6 * num_squares(depth);
   tables_.push_back(
       {depth, depth, std::vector<std::uint64_t>(size, 0), std::vector<Index>(size, no_index)});
@@ -72,7 +72,7 @@ void BucketCounts::refine(Index table) {
   if (level == high_levels) return;
   const int depth = std::min(next_depth, high_levels - level);
   for (std::size_t i = 0; i < tables_[table].counts.size(); ++i) {
-    if (tables_[table].counts[i] <= most_sites_) continue;
+    if (tables_[table].counts[i] <= max_sites_) continue;
     tables_[table].finer[i] = static_cast<Index>(tables_.size());
     const std::size_t size = num_squares(depth);
     tables_.push_back({level + depth, depth, std::vector<std::uint64_t>(size, 0),
@@ -98,7 +98,7 @@ void BucketCounts::cut(Index table, const bulk::Square& square, std::uint64_t fi
   if (num_sites == 0) return;
   const Index finer = depth == 0 ? tables_[table].finer[begin] : no_index;
   if (finer != no_index) return cut(finer, square, first_key, 0, tables_[finer].depth, cuts);
-  if (num_sites <= most_sites_ || depth == 0) {
+  if (num_sites <= max_sites_ || depth == 0) {
     cuts.push_back({square, first_key, num_sites});
     return;
   }

@@ -32,7 +32,7 @@ class BucketCounts {
 
   // With at most this many sites in a bucket. Copies of a site count. In the first round 6 * 4^depth
   // squares are told apart, on which no result depends.
-  explicit BucketCounts(std::uint64_t most_sites, int depth = usual_depth);
+  explicit BucketCounts(std::uint64_t max_num_sites, int depth = usual_depth);
 
   // Counts these sites. In each round all sites are counted once.
   void add(std::span<const std::uint64_t> high_keys);
@@ -61,7 +61,7 @@ class BucketCounts {
   void cut(Index table, const bulk::Square& square, std::uint64_t first_key, std::size_t begin,
            int depth, std::vector<BucketCut>& cuts) const;
 
-  std::uint64_t most_sites_;
+  std::uint64_t max_sites_;
   std::size_t num_old_ = 0;  // tables that were counted in earlier rounds
   std::vector<Table> tables_;
 };

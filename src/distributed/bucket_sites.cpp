@@ -58,32 +58,33 @@ class DistinctSites {
 };
 
 // Reads a crowded slot piece by piece; both the kept sites and the new ones are at most
-// `most_sites`.
-std::optional<BucketSites> read_crowd(const BucketFiles& files, std::uint64_t most_sites,
+// `max_num_sites`.
+std::optional<BucketSites> read_crowd(const BucketFiles& files, std::uint64_t max_num_sites,
                                       const system::Job& options, StoredBucket& stored) {
   DistinctSites places(options);
   Checksum point_sum;
   Checksum row_sum;
-  std::vector<Point> points(most_sites);
-  std::vector<std::uint64_t> rows(most_sites);
-  for (std::uint64_t first = 0; first < files.num_sites; first += most_sites) {
+  std::vector<Point> points(max_num_sites);
+  std::vector<std::uint64_t> rows(max_num_sites);
+  for (std::uint64_t first = 0; first < files.num_sites; first += max_num_sites) {
     system::obey_stop();
-    const std::uint64_t size = std::min(most_sites, files.num_sites - first);
+    const std::uint64_t size = std::min(max_num_sites, files.num_sites - first);
     points.resize(size);
     rows.resize(size);
-    files.slots.read_points(files.bucket, first, points);
-    files.slots.read_rows(files.bucket, first, rows);
+    files.spool.read_points(files.bucket, first, points);
+    files.spool.read_rows(files.bucket, first, rows);
     point_sum.add(std::span<const Point>(points));
     row_sum.add(std::span<const std::uint64_t>(rows));
     files.store.add_duplicates(files.bucket, stored, places.add(points, rows));
-    if (places.size() <= most_sites) continue;
+    if (places.size() <= max_num_sites) continue;
     throw FileError(
         "of " + std::to_string(files.num_sites) + " sites within 2^-28 rad of each other, row " +
-        std::to_string(rows[0]) + " among them, more than " + std::to_string(most_sites) +
+        std::to_string(rows[0]) + " among them, more than " + std::to_string(max_num_sites) +
         " are in different places: for all of them " + memory_of_crowd(files.num_sites) +
         " of memory are enough, then the run can be resumed");
   }
-  if (point_sum.value() != files.dealt.points || row_sum.value() != files.dealt.rows) return {};
+  if (point_sum.value() != files.scattered.points || row_sum.value() != files.scattered.rows)
+    return {};
   return places.take();
 }
 
@@ -115,24 +116,24 @@ std::vector<DuplicateRow> duplicate_rows(std::span<const Duplicate> duplicates,
   return result;
 }
 
-std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t most_sites,
+std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t max_num_sites,
                                              const system::Job& options, StoredBucket& stored) {
-  if (files.num_sites > most_sites) return read_crowd(files, most_sites, options, stored);
+  if (files.num_sites > max_num_sites) return read_crowd(files, max_num_sites, options, stored);
   BucketSites sites;
   sites.points.resize(files.num_sites);
-  files.slots.read_points(files.bucket, 0, sites.points);
+  files.spool.read_points(files.bucket, 0, sites.points);
   Checksum sum;
   sum.add(std::span<const Point>(sites.points));
-  if (sum.value() != files.dealt.points) return {};
+  if (sum.value() != files.scattered.points) return {};
   return sites;
 }
 
 std::optional<std::vector<std::uint64_t>> read_bucket_rows(const BucketFiles& files) {
   std::vector<std::uint64_t> rows(files.num_sites);
-  files.slots.read_rows(files.bucket, 0, rows);
+  files.spool.read_rows(files.bucket, 0, rows);
   Checksum sum;
   sum.add(std::span<const std::uint64_t>(rows));
-  if (sum.value() != files.dealt.rows) return {};
+  if (sum.value() != files.scattered.rows) return {};
   return rows;
 }
 

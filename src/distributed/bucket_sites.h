@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "distributed/bucket_store.h"
-#include "distributed/slots.h"
+#include "distributed/result_store.h"
+#include "distributed/site_spool.h"
 #include "system/job.h"
 #include "system/large_arrays.h"
 
@@ -32,17 +32,17 @@ struct BucketSites {
 
 // The places where the sites of a bucket are stored, and where its duplicates go.
 struct BucketFiles {
-  const Slots& slots;
-  BucketStore& store;
+  const SiteSpool& spool;
+  ResultStore& store;
   std::size_t bucket;
   std::uint64_t num_sites;
-  SlotChecksums dealt;
+  SpoolChecksums scattered;
 };
 
-// Reads all points, or one of each place if there are more than `most_sites`; then the duplicates
-// are added to the store. Returns nothing if the slot does not contain what was dealt. Throws
-// FileError if more than `most_sites` places lie in the smallest square.
-std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t most_sites,
+// Reads all points, or one of each place if there are more than `max_num_sites`; then the duplicates
+// are added to the store. Returns nothing if the slot does not contain what was scattered. Throws
+// FileError if more than `max_num_sites` places lie in the smallest square.
+std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t max_num_sites,
                                              const system::Job& options, StoredBucket& stored);
 
 // Returns the row of each vertex, by rank.
@@ -55,7 +55,7 @@ LargeVector<Point> vertex_points(const order::SpatialOrder& order, const BucketS
 std::vector<DuplicateRow> duplicate_rows(std::span<const Duplicate> duplicates,
                                          std::span<const std::uint64_t> rows);
 
-// Returns all rows of a bucket, or nothing if the slot does not contain what was dealt.
+// Returns all rows of a bucket, or nothing if the slot does not contain what was scattered.
 std::optional<std::vector<std::uint64_t>> read_bucket_rows(const BucketFiles& files);
 
 }  // namespace rondel::distributed

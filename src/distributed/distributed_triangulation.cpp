@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "distributed/bsp_session.h"
 #include "distributed/rank_build.h"
 #include "distributed/rank_duals.h"
 #include "distributed/rank_result.h"
-#include "distributed/supersteps.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -18,12 +18,12 @@ class RowVisits {
  public:
   explicit RowVisits(const std::function<void(std::span<const GlobalTriple>)>& visit)
       : visit_(visit) {
-    rows_.reserve(most_rows);
+    rows_.reserve(max_rows);
   }
 
   void add(const GlobalTriple& row) {
     rows_.push_back(row);
-    if (rows_.size() == most_rows) flush();
+    if (rows_.size() == max_rows) flush();
   }
   // Shows the collected rows.
   void flush() {
@@ -32,7 +32,7 @@ class RowVisits {
   }
 
  private:
-  static constexpr std::size_t most_rows = std::size_t{1} << 13;
+  static constexpr std::size_t max_rows = std::size_t{1} << 13;
 
   const std::function<void(std::span<const GlobalTriple>)>& visit_;
   std::vector<GlobalTriple> rows_;
@@ -115,9 +115,9 @@ void DistributedTriangulation::visit_circumcenters(
 std::vector<double> areas(Communicator& ranks, const DistributedTriangulation& triangulation,
                           const Execution& execution) {
   const system::Call call(execution);
-  distributed::Supersteps steps(ranks);
-  return steps.run([&] {
-    return distributed::areas_on_ranks(steps, DistributedTriangulation::Impl::of(triangulation),
+  distributed::BspSession session(ranks);
+  return session.run([&] {
+    return distributed::areas_on_ranks(session, DistributedTriangulation::Impl::of(triangulation),
                                        execution);
   });
 }
@@ -126,8 +126,8 @@ DistributedTriangulation delaunay(Communicator& ranks, std::span<const Point> mi
                                   const DistributedOptions& distributed, const Options& options,
                                   const Execution& execution) {
   const distributed::RankLimits limits = {
-      std::clamp<std::uint64_t>(distributed.most_bucket_sites, 1, max_sites),
-      std::clamp<std::uint64_t>(distributed.most_dealt_sites, 1, max_sites), 0,
+      std::clamp<std::uint64_t>(distributed.max_bucket_sites, 1, max_sites),
+      std::clamp<std::uint64_t>(distributed.max_scattered_sites, 1, max_sites), 0,
       distributed.keep_points};
   return DistributedTriangulation(
       distributed::build_on_ranks(ranks, mine, limits, {options, execution}));

@@ -52,7 +52,7 @@ void join_flat(std::span<const bulk::OpenBucket> open, const system::Job& option
 }
 
 // Computes the faces between all buckets from their outlines.
-Joined join(const RunState& state, const BucketStore& store, const system::Job& options,
+Joined join(const RunState& state, const ResultStore& store, const system::Job& options,
             bool has_areas) {
   Joined joined;
   std::vector<bulk::OpenBucket> open;
@@ -89,7 +89,7 @@ struct NumberedBucket {
 // Writes the results from what was joined.
 class ResultWriter {
  public:
-  ResultWriter(const RunState& state, const BucketStore& store, const Joined& joined,
+  ResultWriter(const RunState& state, const ResultStore& store, const Joined& joined,
                GlobalIndex first_face, const system::Job& options, FileResults& results)
       : state_(state),
         store_(store),
@@ -179,7 +179,7 @@ class ResultWriter {
   }
 
   const RunState& state_;
-  const BucketStore& store_;
+  const ResultStore& store_;
   const Joined& joined_;
   GlobalIndex first_face_;
   const system::Job& options_;
@@ -188,7 +188,7 @@ class ResultWriter {
 };
 
 // Writes the duplicates of all buckets, in increasing order of site.
-void write_duplicates(const RunState& state, const BucketStore& store, RowFile& file) {
+void write_duplicates(const RunState& state, const ResultStore& store, RowFile& file) {
   std::vector<std::uint64_t> sizes;
   for (std::size_t i = 0; i < state.num_buckets(); ++i)
     sizes.push_back(state.done(i).num_duplicates);
@@ -243,7 +243,7 @@ void FileResults::commit() {
   faces.commit();
 }
 
-void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
+void write_results(const RunState& state, const ResultStore& store, std::uint64_t first_number,
                    const system::Job& options, FileResults& results, OutOfCoreReport& report) {
   system::announce(options, "join", 0);
   const Joined joined = join(state, store, options, results.areas.has_value());

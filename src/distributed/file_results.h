@@ -39,7 +39,7 @@ struct FileResults {
 
 // Joins the buckets and writes the results. Adds counts to `report`. The first site and the first
 // face have the number `first_number`.
-void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
+void write_results(const RunState& state, const ResultStore& store, std::uint64_t first_number,
                    const system::Job& options, FileResults& results, OutOfCoreReport& report);
 
 }  // namespace rondel::distributed

@@ -38,8 +38,8 @@ Journal::Journal(const std::string& path) : file_(path) {
   RecordHead head{};
   while (end_ + sizeof(RecordHead) <= size) {
     file_.read(end_, std::span(&head, 1));
-    const std::uint64_t most_words = (size - end_ - sizeof(RecordHead)) / sizeof(std::uint64_t);
-    if (head.num_words > most_words) break;
+    const std::uint64_t max_words = (size - end_ - sizeof(RecordHead)) / sizeof(std::uint64_t);
+    if (head.num_words > max_words) break;
     Words words(head.num_words);
     file_.read(end_ + sizeof(RecordHead), std::span(words));
     if (checksum_of(words) != head.checksum) break;

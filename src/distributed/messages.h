@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Messages between ranks: plain values and arrays of them, one after the other, after one byte that
-// says whether the sender has failed (supersteps.h). All ranks run the same program on machines of
+// says whether the sender has failed (bsp_session.h). All ranks run the same program on machines of
 // one kind.
 #pragma once
 

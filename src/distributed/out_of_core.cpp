@@ -15,7 +15,7 @@
 #include "distributed/result_names.h"
 #include "distributed/run_state.h"
 #include "distributed/scratch_file.h"
-#include "distributed/slots.h"
+#include "distributed/site_spool.h"
 #include "rondel/error.h"
 #include "system/on_failure.h"
 
@@ -84,18 +84,18 @@ class OutOfCoreRun {
     reserve();
     if (!state_.has_counts()) {
       state_.set_counts(
-          count_sites(rows_, options_, limits_.most_bucket_sites, limits_.piece_sites));
+          count_sites(rows_, options_, limits_.max_bucket_sites, limits_.piece_sites));
     }
     has_begun = true;
     check_buckets();
     const auto& cuts = state_.counts().cuts;
-    Slots slots(scratch_path("sites"), cuts);
-    BucketStore store(scratch_path("faces"), scratch_path("borders"), cuts, parts_);
+    SiteSpool spool(scratch_path("sites"), cuts);
+    ResultStore store(scratch_path("faces"), scratch_path("borders"), cuts, parts_);
     OutOfCoreReport report;
     report.num_sites = rows_.num_rows();
     report.num_buckets = state_.num_buckets();
     report.num_resumed = find_done(store);
-    do_buckets(slots, store);
+    do_buckets(spool, store);
     check_open_sites(store);
     write_results(state_, store, limits_.first_number, options_, results_, report);
     if (!is_still_the_same()) throw FileError(rows_.name() + ": changed while it was read");
@@ -142,7 +142,7 @@ class OutOfCoreRun {
   // Throws if the buckets are too large, since an earlier run may have had more memory.
   void check_buckets() const {
     for (const BucketCut& cut : state_.counts().cuts) {
-      if (cut.num_sites <= limits_.most_bucket_sites || cut.square.bits == order::low_levels)
+      if (cut.num_sites <= limits_.max_bucket_sites || cut.square.bits == order::low_levels)
         continue;
       throw FileError(scratch_ + ": a run with buckets of " + std::to_string(cut.num_sites) +
                       " sites, for which " + memory_of_bucket(cut.num_sites) +
@@ -151,7 +151,7 @@ class OutOfCoreRun {
   }
 
   // Forgets finished buckets that the files do not contain, and returns the number of the others.
-  std::uint64_t find_done(const BucketStore& store) {
+  std::uint64_t find_done(const ResultStore& store) {
     std::uint64_t num_done = 0;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
       if (!state_.is_done(i)) continue;
@@ -164,49 +164,49 @@ class OutOfCoreRun {
     return num_done;
   }
 
-  // Deals and triangulates all buckets that are not done; tries again once if the slots were
+  // Scatters and triangulates all buckets that are not done; tries again once if the spool were
   // damaged.
-  void do_buckets(Slots& slots, BucketStore& store) {
-    deal(slots);
-    if (!triangulate(slots, store)) {
-      deal(slots);
-      if (!triangulate(slots, store))
+  void do_buckets(SiteSpool& spool, ResultStore& store) {
+    scatter(spool);
+    if (!triangulate(spool, store)) {
+      scatter(spool);
+      if (!triangulate(spool, store))
         throw FileError(scratch_path("sites") + ": what is read is not what was written");
     }
   }
 
-  // Deals the sites of all buckets that are neither done nor dealt.
-  void deal(Slots& slots) {
+  // Scatters the sites of all buckets that are neither done nor scattered.
+  void scatter(SiteSpool& spool) {
     std::vector<bool> wanted(state_.num_buckets());
     for (std::size_t i = 0; i < wanted.size(); ++i)
-      wanted[i] = !state_.is_done(i) && !state_.is_dealt(i);
+      wanted[i] = !state_.is_done(i) && !state_.is_scattered(i);
     if (std::ranges::find(wanted, true) == wanted.end()) return;
-    state_.set_dealt(slots.deal(rows_, options_, wanted, limits_.piece_sites, limits_.first_number),
-                     wanted);
+    state_.set_scattered(
+        spool.scatter(rows_, options_, wanted, limits_.piece_sites, limits_.first_number), wanted);
   }
 
-  // Triangulates the buckets. Returns false if some slots do not contain what was dealt.
-  bool triangulate(const Slots& slots, BucketStore& store) {
+  // Triangulates the buckets. Returns false if some spool do not contain what was scattered.
+  bool triangulate(const SiteSpool& spool, ResultStore& store) {
     bool are_all_done = true;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
       if (state_.is_done(i)) continue;
       system::obey_stop();
       system::announce(options_, "triangulate", i, state_.num_buckets());
-      if (triangulate(i, slots, store)) continue;
-      state_.lose_dealt(i);
+      if (triangulate(i, spool, store)) continue;
+      state_.lose_scattered(i);
       are_all_done = false;
     }
     return are_all_done;
   }
 
   // Triangulates and stores bucket i; returns false if its slot is damaged.
-  bool triangulate(std::size_t i, const Slots& slots, BucketStore& store) {
+  bool triangulate(std::size_t i, const SiteSpool& spool, ResultStore& store) {
     const BucketCut& cut = state_.counts().cuts[i];
-    const BucketFiles files = {slots, store, i, cut.num_sites, state_.dealt(i)};
+    const BucketFiles files = {spool, store, i, cut.num_sites, state_.scattered(i)};
     StoredBucket stored;
     const bool is_crowd = cut.square.bits == order::low_levels;
-    const std::uint64_t most_sites = is_crowd ? limits_.most_sites : cut.num_sites;
-    auto sites = read_bucket_sites(files, most_sites, options_, stored);
+    const std::uint64_t max_num_sites = is_crowd ? limits_.max_num_sites : cut.num_sites;
+    auto sites = read_bucket_sites(files, max_num_sites, options_, stored);
     if (!sites) return false;
     system::Job job = options_;
     job.progress = {};  // the progress over all buckets is shown instead
@@ -239,11 +239,11 @@ class OutOfCoreRun {
   }
 
   // Throws FileError if the open sites of all buckets are too many for the memory.
-  void check_open_sites(const BucketStore& store) const {
+  void check_open_sites(const ResultStore& store) const {
     std::uint64_t num_open = 0;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i)
       num_open += store.num_open_sites(state_.done(i));
-    if (num_open <= limits_.most_open_sites) return;
+    if (num_open <= limits_.max_open_sites) return;
     throw FileError(
         scratch_ + ": the faces of " + std::to_string(num_open) + " of " +
         std::to_string(rows_.num_rows()) + " sites reach beyond every bucket; to join them " +

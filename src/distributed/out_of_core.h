@@ -4,8 +4,8 @@
 // A run from a file of sites to result files, within a given amount of memory.
 //
 //     count        counts the sites of each square               rows -> cuts
-//     deal         moves the sites of each bucket together       rows -> slots
-//     triangulate  triangulates one bucket after the other       slots -> store
+//     scatter      moves the sites of each bucket together       rows -> spool
+//     triangulate  triangulates one bucket after the other       spool -> store
 //     join         joins what the buckets left open, in memory
 //     write        writes the faces, bucket by bucket            store -> results
 //

@@ -8,18 +8,18 @@
 #include <string>
 #include <utility>
 
+#include "distributed/bsp_session.h"
 #include "distributed/rank_join.h"
 #include "distributed/rank_result.h"
-#include "distributed/supersteps.h"
 
 namespace rondel::distributed {
 namespace {
 
-std::vector<std::uint64_t> gather_values(Supersteps& steps, std::uint64_t value) {
+std::vector<std::uint64_t> gather_values(BspSession& session, std::uint64_t value) {
   MessageWriter writer;
   writer.add_value(value);
   std::vector<std::uint64_t> values;
-  for (const Bytes& message : steps.all_gather(writer.take()))
+  for (const Bytes& message : session.all_gather(writer.take()))
     values.push_back(MessageReader(message).value<std::uint64_t>());
   return values;
 }
@@ -32,16 +32,16 @@ std::uint64_t sum(std::span<const std::uint64_t> values) {
 
 class RankBuild {
  public:
-  RankBuild(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
+  RankBuild(BspSession& session, std::span<const Point> mine, const RankLimits& limits,
             const system::Job& options)
-      : steps_(steps),
+      : session_(session),
         mine_(mine),
         limits_(limits),
         options_(options),
         result_(std::make_shared<DistributedTriangulation::Impl>()) {}
 
   std::shared_ptr<const DistributedTriangulation::Impl> run() {
-    counts_ = count_on_ranks(steps_, mine_, limits_, options_);
+    counts_ = count_on_ranks(session_, mine_, limits_, options_);
     result_->num_sites = counts_.first_site.back();
     result_->options = options_;
     result_->first_number = limits_.first_number;
@@ -59,14 +59,14 @@ class RankBuild {
   RankBuckets& own() { return result_->own; }
 
   void triangulate() {
-    const RankSites sites(steps_, mine_, counts_, limits_);
-    steps_.begin("triangulate");
-    const std::size_t first = counts_.plan.first_bucket[steps_.rank()];
-    own() = triangulate_buckets(sites, counts_, first, counts_.plan.num_buckets(steps_.rank()),
+    const RankSites sites(session_, mine_, counts_, limits_);
+    session_.begin("triangulate");
+    const std::size_t first = counts_.plan.first_bucket[session_.rank()];
+    own() = triangulate_buckets(sites, counts_, first, counts_.plan.num_buckets(session_.rank()),
                                 limits_.keep_points, options_);
     std::uint64_t num_open = 0;
     for (const auto& points : own().open_points) num_open += points.size();
-    result_->num_open_sites = sum(gather_values(steps_, num_open));
+    result_->num_open_sites = sum(gather_values(session_, num_open));
     if (result_->num_open_sites <= max_sites) return;
     throw std::length_error("the faces of " + std::to_string(result_->num_open_sites) + " of " +
                             std::to_string(result_->num_sites) +
@@ -75,16 +75,16 @@ class RankBuild {
   }
 
   void join() {
-    steps_.begin("join");
+    session_.begin("join");
     system::announce(options_, "join", 0);
-    std::vector<Bytes> messages(steps_.size());
+    std::vector<Bytes> messages(session_.size());
     messages[0] = write_open_buckets(own(), limits_.keep_points);
     own().open_points = {};
-    std::vector<Bytes> received = steps_.exchange(std::move(messages));
-    messages.assign(steps_.size(), {});
-    if (steps_.rank() == 0)
+    std::vector<Bytes> received = session_.exchange(std::move(messages));
+    messages.assign(session_.size(), {});
+    if (session_.rank() == 0)
       messages = join_ranks(std::move(received), counts_, limits_.keep_points, options_);
-    received = steps_.exchange(std::move(messages));
+    received = session_.exchange(std::move(messages));
     MessageReader reader(received[0]);
     const auto report = reader.value<JoinedReport>();
     result_->dimension = report.dimension;
@@ -92,7 +92,7 @@ class RankBuild {
     if (report.dimension == 2) {
       result_->part = read_joined_part(reader, own().open_sites(), own().kept_open_points());
       add_hidden();
-    } else if (steps_.rank() == 0) {
+    } else if (session_.rank() == 0) {
       result_->ring = reader.values<std::uint64_t>();
       const auto hidden = reader.values<std::uint64_t>();
       own().hidden.insert(own().hidden.end(), hidden.begin(), hidden.end());
@@ -116,7 +116,7 @@ class RankBuild {
   }
 
   void number() {
-    steps_.begin("number");
+    session_.begin("number");
     const JoinedPart& part = result_->part;
     Index first_site = part.first_site;
     Index first_edge = part.first_edge;
@@ -127,9 +127,9 @@ class RankBuild {
       first_site += static_cast<Index>(bucket.border.open_sites.size());
       first_edge += static_cast<Index>(bucket.border.open_edges.size());
     }
-    const auto num_faces = gather_values(steps_, result_->num_own_faces);
+    const auto num_faces = gather_values(session_, result_->num_own_faces);
     result_->num_faces = sum(num_faces);
-    result_->first_face = limits_.first_number + sum(std::span(num_faces).first(steps_.rank()));
+    result_->first_face = limits_.first_number + sum(std::span(num_faces).first(session_.rank()));
     result_->numbers = std::make_unique<JoinedNumbers>(part.faces);
     result_->numbers->faces.resize(part.num_faces);
     std::uint64_t next = result_->first_face;
@@ -145,14 +145,14 @@ class RankBuild {
 
   void tell_numbers() {
     JoinedNumbers& numbers = *result_->numbers;
-    std::vector<Bytes> messages(steps_.size());
+    std::vector<Bytes> messages(session_.size());
     for (const NumberList& list : result_->part.told) {
       MessageWriter writer;
       for (const Index f : list.faces) writer.add_value(numbers.faces[f]);
       for (const Index e : list.edges) writer.add_value(numbers.at_edge[e]);
       messages[list.rank] = writer.take();
     }
-    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    const std::vector<Bytes> received = session_.exchange(std::move(messages));
     for (const NumberList& list : result_->part.asked) {
       MessageReader reader(received[list.rank]);
       for (const Index f : list.faces) numbers.faces[f] = reader.value<std::uint64_t>();
@@ -166,12 +166,12 @@ class RankBuild {
     return rank_of_site(site - limits_.first_number, counts_.first_site);
   }
 
-  // Adds the copies that were not dealt to the duplicates: each is at the place of a site that was
-  // dealt.
+  // Adds the copies that were not scattered to the duplicates: each is at the place of a site that was
+  // scattered.
   void add_copies() {
     if (counts_.copies.empty()) return;
     auto& duplicates = result_->duplicates;
-    const std::uint64_t first = limits_.first_number + counts_.first_site[steps_.rank()];
+    const std::uint64_t first = limits_.first_number + counts_.first_site[session_.rank()];
     std::vector<GlobalDuplicate> merged;
     merged.reserve(duplicates.size() + counts_.copies.size());
     for (const PointCopy& copy : counts_.copies) {
@@ -187,14 +187,14 @@ class RankBuild {
   }
 
   void finish() {
-    steps_.begin("finish");
+    session_.begin("finish");
     const std::uint64_t num_own = own().sites.size();
-    std::vector<std::vector<GlobalDuplicate>> duplicates(steps_.size());
-    std::vector<std::vector<std::uint64_t>> hidden(steps_.size());
+    std::vector<std::vector<GlobalDuplicate>> duplicates(session_.size());
+    std::vector<std::vector<std::uint64_t>> hidden(session_.size());
     for (const GlobalDuplicate& d : own().duplicates) duplicates[home_of(d.site)].push_back(d);
     for (const std::uint64_t site : own().hidden) hidden[home_of(site)].push_back(site);
-    std::vector<Bytes> messages(steps_.size());
-    for (std::size_t rank = 0; rank < steps_.size(); ++rank) {
+    std::vector<Bytes> messages(session_.size());
+    for (std::size_t rank = 0; rank < session_.size(); ++rank) {
       if (duplicates[rank].empty() && hidden[rank].empty()) continue;
       MessageWriter writer;
       writer.add(duplicates[rank]);
@@ -203,7 +203,7 @@ class RankBuild {
     }
     own().duplicates = {};
     own().hidden = {};
-    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    const std::vector<Bytes> received = session_.exchange(std::move(messages));
     for (const Bytes& message : received) {
       if (message.empty()) continue;
       MessageReader reader(message);
@@ -213,12 +213,12 @@ class RankBuild {
     std::ranges::sort(result_->duplicates, {}, &GlobalDuplicate::site);
     add_copies();
     std::ranges::sort(result_->hidden);
-    result_->num_duplicates = sum(gather_values(steps_, result_->duplicates.size()));
-    result_->num_hidden = sum(gather_values(steps_, result_->hidden.size()));
-    result_->num_vertices = sum(gather_values(steps_, num_own)) - result_->num_hidden;
+    result_->num_duplicates = sum(gather_values(session_, result_->duplicates.size()));
+    result_->num_hidden = sum(gather_values(session_, result_->hidden.size()));
+    result_->num_vertices = sum(gather_values(session_, num_own)) - result_->num_hidden;
   }
 
-  Supersteps& steps_;
+  BspSession& session_;
   std::span<const Point> mine_;
   const RankLimits& limits_;
   const system::Job& options_;
@@ -233,8 +233,8 @@ std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(Communicato
                                                                      const RankLimits& limits,
                                                                      const system::Job& options) {
   const system::Call call(options);
-  Supersteps steps(ranks);
-  return steps.run([&] { return RankBuild(steps, mine, limits, options).run(); });
+  BspSession session(ranks);
+  return session.run([&] { return RankBuild(session, mine, limits, options).run(); });
 }
 
 }  // namespace rondel::distributed

@@ -4,7 +4,7 @@
 // A build by all ranks, step by step:
 //
 //     count        decides which squares each rank triangulates    exchange, all-gather; repeated if dense
-//     deal         sends the sites to these ranks                  exchange, a limited number at a time
+//     scatter      sends the sites to these ranks                  exchange, a limited number at a time
 //     triangulate  triangulates each rank's squares                all-gather
 //     join         joins on rank 0 what they left open             exchange, there and back
 //     number       numbers the faces of all ranks                  all-gather, exchange

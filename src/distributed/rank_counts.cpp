@@ -17,11 +17,11 @@ namespace {
 // A square has at most a twentieth of a rank's share, so that no rank has 5 % more than its share.
 constexpr std::uint64_t squares_of_rank = 20;
 
-std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
-                                std::uint64_t most_bucket_sites) {
+std::uint64_t max_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
+                               std::uint64_t max_bucket_sites) {
   const std::uint64_t share =
       num_ranks == 1 ? num_sites : num_sites / (squares_of_rank * num_ranks);
-  return std::clamp<std::uint64_t>(share, 1, most_bucket_sites);
+  return std::clamp<std::uint64_t>(share, 1, max_bucket_sites);
 }
 
 // Returns the least depth with which uniform sites need one round.
@@ -41,22 +41,22 @@ std::size_t slice_begin(std::size_t size, std::size_t rank, std::size_t num_rank
 
 class RankCounter {
  public:
-  RankCounter(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
+  RankCounter(BspSession& session, std::span<const Point> mine, const RankLimits& limits,
               const system::Job& options)
-      : steps_(steps), mine_(mine), limits_(limits), options_(options) {}
+      : session_(session), mine_(mine), limits_(limits), options_(options) {}
 
   RankCounts run() {
-    steps_.begin("count");
+    session_.begin("count");
     find_first_sites();
     look_at_sites();
     bool needs_round = true;
     while (needs_round) {
       system::obey_stop();
-      const auto received = steps_.exchange(slices_of_counts());
-      read(steps_.all_gather(sum_slices(received)));
+      const auto received = session_.exchange(slices_of_counts());
+      read(session_.all_gather(sum_slices(received)));
       needs_round = counts_->end_round();
     }
-    result_.plan = plan_ranks(counts_->cuts(), steps_.size(), limits_.most_bucket_sites);
+    result_.plan = plan_ranks(counts_->cuts(), session_.size(), limits_.max_bucket_sites);
     return std::move(result_);
   }
 
@@ -65,7 +65,7 @@ class RankCounter {
     api::validate(options_, 0);
     MessageWriter writer;
     writer.add_value<std::uint64_t>(mine_.size());
-    const auto received = steps_.all_gather(writer.take());
+    const auto received = session_.all_gather(writer.take());
     result_.first_site.push_back(0);
     for (const Bytes& message : received) {
       MessageReader reader(message);
@@ -83,15 +83,15 @@ class RankCounter {
     for (std::size_t begin = 0; begin < mine_.size(); begin += cached_sites) {
       const std::size_t size = std::min(cached_sites, mine_.size() - begin);
       const auto sites = mine_.subspan(begin, size);
-      api::validate_some(sites, options_, result_.first_site[steps_.rank()] + begin);
+      api::validate_some(sites, options_, result_.first_site[session_.rank()] + begin);
       result_.all.add(sites);
       find_keys(sites, options_, std::span(result_.keys).subspan(begin, size));
     }
     result_.copies = find_copies(mine_, options_.threads);
     remove_copies();
     counts_.emplace(
-        most_square_sites(result_.first_site.back(), steps_.size(), limits_.most_bucket_sites),
-        depth_for(steps_.size()));
+        max_square_sites(result_.first_site.back(), session_.size(), limits_.max_bucket_sites),
+        depth_for(session_.size()));
   }
 
   void remove_copies() {
@@ -113,9 +113,9 @@ class RankCounter {
     const std::vector<std::uint64_t> counts = counts_->counts_of_round();
     num_counts_ = counts.size();
     std::vector<Bytes> messages;
-    for (std::size_t rank = 0; rank < steps_.size(); ++rank) {
-      const std::size_t begin = slice_begin(num_counts_, rank, steps_.size());
-      const std::size_t end = slice_begin(num_counts_, rank + 1, steps_.size());
+    for (std::size_t rank = 0; rank < session_.size(); ++rank) {
+      const std::size_t begin = slice_begin(num_counts_, rank, session_.size());
+      const std::size_t end = slice_begin(num_counts_, rank + 1, session_.size());
       MessageWriter writer;
       writer.add_values(std::span(counts).subspan(begin, end - begin));
       messages.push_back(writer.take());
@@ -124,8 +124,8 @@ class RankCounter {
   }
 
   [[nodiscard]] Bytes sum_slices(std::span<const Bytes> received) const {
-    const std::size_t begin = slice_begin(num_counts_, steps_.rank(), steps_.size());
-    const std::size_t end = slice_begin(num_counts_, steps_.rank() + 1, steps_.size());
+    const std::size_t begin = slice_begin(num_counts_, session_.rank(), session_.size());
+    const std::size_t end = slice_begin(num_counts_, session_.rank() + 1, session_.size());
     std::vector<std::uint64_t> sums(end - begin, 0);
     std::vector<std::uint64_t> counts(sums.size());
     for (const Bytes& message : received) {
@@ -141,8 +141,8 @@ class RankCounter {
   void read(std::span<const Bytes> received) {
     std::vector<std::uint64_t> counts(num_counts_);
     for (std::size_t rank = 0; rank < received.size(); ++rank) {
-      const std::size_t begin = slice_begin(num_counts_, rank, steps_.size());
-      const std::size_t end = slice_begin(num_counts_, rank + 1, steps_.size());
+      const std::size_t begin = slice_begin(num_counts_, rank, session_.size());
+      const std::size_t end = slice_begin(num_counts_, rank + 1, session_.size());
       MessageReader reader(received[rank]);
       result_.all.add(reader.value<bulk::AllSites>());
       reader.read_values(std::span(counts).subspan(begin, end - begin));
@@ -150,7 +150,7 @@ class RankCounter {
     counts_->set_counts_of_round(counts);
   }
 
-  Supersteps& steps_;
+  BspSession& session_;
   std::span<const Point> mine_;
   const RankLimits& limits_;
   const system::Job& options_;
@@ -161,9 +161,9 @@ class RankCounter {
 
 }  // namespace
 
-RankCounts count_on_ranks(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
-                          const system::Job& options) {
-  return RankCounter(steps, mine, limits, options).run();
+RankCounts count_on_ranks(BspSession& session, std::span<const Point> mine,
+                          const RankLimits& limits, const system::Job& options) {
+  return RankCounter(session, mine, limits, options).run();
 }
 
 }  // namespace rondel::distributed

@@ -16,17 +16,17 @@
 #include <vector>
 
 #include "bulk/bucket.h"
+#include "distributed/bsp_session.h"
 #include "distributed/rank_plan.h"
 #include "distributed/same_points.h"
-#include "distributed/supersteps.h"
 #include "system/job.h"
 
 namespace rondel::distributed {
 
 // Limits that tests set, in addition to the options of users.
 struct RankLimits {
-  std::uint64_t most_bucket_sites = 0;
-  std::uint64_t most_dealt_sites = 0;
+  std::uint64_t max_bucket_sites = 0;
+  std::uint64_t max_scattered_sites = 0;
   // The number of the first site and of the first face. Tests set it to see that 64 bits arrive
   // everywhere.
   std::uint64_t first_number = 0;
@@ -45,7 +45,7 @@ struct RankCounts {
   bulk::AllSites all;
   RankPlan plan;
   std::vector<PointCopy> copies;    // copies among this rank's sites, which are neither counted nor
-                                    // dealt
+                                    // scattered
   std::vector<std::uint64_t> keys;  // keys of this rank's other sites
 
   [[nodiscard]] std::uint64_t num_sites(std::size_t rank) const {
@@ -54,7 +54,7 @@ struct RankCounts {
 };
 
 // Counts the sites. Throws InvalidInput on all ranks if a site of any rank is not valid.
-RankCounts count_on_ranks(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
-                          const system::Job& options);
+RankCounts count_on_ranks(BspSession& session, std::span<const Point> mine,
+                          const RankLimits& limits, const system::Job& options);
 
 }  // namespace rondel::distributed

@@ -30,13 +30,13 @@ void require_points(const Impl& t) {
 // Sends the areas of the rank's own sites to the ranks that gave the sites.
 class AreasHome {
  public:
-  AreasHome(Supersteps& steps, const Impl& t, const Execution& execution)
-      : steps_(steps), t_(t), job_{t.options, execution}, sent_(steps.size()) {}
+  AreasHome(BspSession& session, const Impl& t, const Execution& execution)
+      : session_(session), t_(t), job_{t.options, execution}, sent_(session.size()) {}
 
   std::vector<double> run() {
-    steps_.begin("areas");
+    session_.begin("areas");
     require_points(t_);
-    areas_.resize(t_.first_site[steps_.rank() + 1] - t_.first_site[steps_.rank()]);
+    areas_.resize(t_.first_site[session_.rank() + 1] - t_.first_site[session_.rank()]);
     add_buckets();
     for (const SiteArea& area : t_.flat_areas) add(area);
     std::vector<Bytes> messages;
@@ -45,7 +45,7 @@ class AreasHome {
       writer.add(std::exchange(list, {}));
       messages.push_back(writer.take());
     }
-    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    const std::vector<Bytes> received = session_.exchange(std::move(messages));
     for (const Bytes& message : received) {
       for (const SiteArea& area : MessageReader(message).values<SiteArea>()) add(area);
     }
@@ -56,7 +56,7 @@ class AreasHome {
   void add(const SiteArea& area) {
     const std::uint64_t site = area.site - t_.first_number;
     const std::size_t home = rank_of_site(site, t_.first_site);
-    if (home == steps_.rank()) {
+    if (home == session_.rank()) {
       areas_[site - t_.first_site[home]] = area.area;
     } else {
       sent_[home].push_back(area);
@@ -89,7 +89,7 @@ class AreasHome {
     for (std::size_t i = 0; i < sites.size(); ++i) add({sites[i], areas[i]});
   }
 
-  Supersteps& steps_;
+  BspSession& session_;
   const Impl& t_;
   system::Job job_;
   std::vector<double> areas_;
@@ -158,12 +158,12 @@ class CircumcenterVisits {
       : t_(t),
         bucket_(bucket),
         threads_(threads),
-        most_faces_(piece_faces * std::max(system::num_threads(threads), 1U)),
+        max_faces_(piece_faces * std::max(system::num_threads(threads), 1U)),
         visit_(visit) {}
 
   void add(const FaceCorners& face) {
     faces_.push_back(face);
-    if (faces_.size() == most_faces_) flush();
+    if (faces_.size() == max_faces_) flush();
   }
 
   void flush() {
@@ -183,7 +183,7 @@ class CircumcenterVisits {
   const Impl& t_;
   std::size_t bucket_;
   unsigned threads_;
-  std::size_t most_faces_;
+  std::size_t max_faces_;
   const std::function<void(std::span<const Point>)>& visit_;
   std::vector<FaceCorners> faces_;
   std::vector<Point> centers_;
@@ -191,9 +191,9 @@ class CircumcenterVisits {
 
 }  // namespace
 
-std::vector<double> areas_on_ranks(Supersteps& steps, const Impl& triangulation,
+std::vector<double> areas_on_ranks(BspSession& session, const Impl& triangulation,
                                    const Execution& execution) {
-  return AreasHome(steps, triangulation, execution).run();
+  return AreasHome(session, triangulation, execution).run();
 }
 
 void visit_circumcenters(const Impl& triangulation, const Execution& execution,

@@ -14,14 +14,14 @@
 #include <span>
 #include <vector>
 
+#include "distributed/bsp_session.h"
 #include "distributed/rank_result.h"
-#include "distributed/supersteps.h"
 
 namespace rondel::distributed {
 
 // Returns the areas of the sites that this rank gave. Both functions throw InvalidInput if points
 // were not kept.
-std::vector<double> areas_on_ranks(Supersteps& steps,
+std::vector<double> areas_on_ranks(BspSession& session,
                                    const DistributedTriangulation::Impl& triangulation,
                                    const Execution& execution);
 

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "distributed/bsp_session.h"
 #include "distributed/rank_duals.h"
 #include "distributed/result_names.h"
 #include "distributed/shared_rows.h"
 #include "distributed/site_counts.h"
-#include "distributed/supersteps.h"
 #include "io/npy_rows.h"
 #include "system/job.h"
 #include "system/large_arrays.h"
@@ -21,9 +21,9 @@ namespace rondel {
 namespace distributed {
 namespace {
 
-LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
+LargeVector<Point> read_share(BspSession& session, const std::string& path,
                               const DistributedFiles& files, const system::Job& options) {
-  steps.begin("read");
+  session.begin("read");
   const std::vector<std::string> results = {files.faces, files.neighbors, files.duplicates,
                                             files.areas, files.circumcenters};
   require_different(path, results);
@@ -31,10 +31,10 @@ LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
   const io::NpyRows rows(path, files.radians);
   const auto begin_of = [&](std::size_t rank) {
     const std::uint64_t num_rows = rows.num_rows();
-    return num_rows / steps.size() * rank + num_rows % steps.size() * rank / steps.size();
+    return num_rows / session.size() * rank + num_rows % session.size() * rank / session.size();
   };
-  const std::uint64_t begin = begin_of(steps.rank());
-  LargeVector<Point> sites(begin_of(steps.rank() + 1) - begin);
+  const std::uint64_t begin = begin_of(session.rank());
+  LargeVector<Point> sites(begin_of(session.rank() + 1) - begin);
   rows.read(begin, sites, options.threads);
   validate_rows(rows, sites, options, begin);  // here the error names the file
   return sites;
@@ -55,12 +55,12 @@ void add_rows(SharedRows& file, std::span<const Point> rows) {
 }
 
 // Returns the sum of the values of all ranks before this one.
-std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
+std::uint64_t sum_before(BspSession& session, std::uint64_t value) {
   MessageWriter writer;
   writer.add_value(value);
-  const auto received = steps.all_gather(writer.take());
+  const auto received = session.all_gather(writer.take());
   std::uint64_t sum = 0;
-  for (std::size_t rank = 0; rank < steps.rank(); ++rank)
+  for (std::size_t rank = 0; rank < session.rank(); ++rank)
     sum += MessageReader(received[rank]).value<std::uint64_t>();
   return sum;
 }
@@ -68,9 +68,9 @@ std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
 // The written results, which all get their names at the end.
 class SharedResults {
  public:
-  SharedResults(Supersteps& steps, const DistributedTriangulation& part,
+  SharedResults(BspSession& session, const DistributedTriangulation& part,
                 const DistributedFiles& files)
-      : steps_(steps), part_(part), files_(files) {}
+      : session_(session), part_(part), files_(files) {}
 
   void write(std::span<const double> areas, const Execution& execution) {
     const std::uint64_t num_faces = part_.num_faces();
@@ -85,11 +85,11 @@ class SharedResults {
       part_.visit_circumcenters([&](std::span<const Point> rows) { add_rows(file, rows); },
                                 execution);
     });
-    const std::uint64_t first_area = sum_before(steps_, areas.size());
+    const std::uint64_t first_area = sum_before(session_, areas.size());
     write(files_.areas, {part_.num_sites(), 1, 0, first_area, true}, [&](SharedRows& file) {
       for (const double area : areas) file.add(area);
     });
-    const std::uint64_t first_duplicate = sum_before(steps_, part_.duplicates().size());
+    const std::uint64_t first_duplicate = sum_before(session_, part_.duplicates().size());
     write(files_.duplicates, {part_.num_duplicates(), 2, part_.num_sites(), first_duplicate},
           [&](SharedRows& file) {
             for (const GlobalDuplicate& d : part_.duplicates()) {
@@ -112,27 +112,27 @@ class SharedResults {
   template <class Add>
   void write(const std::string& path, const SharedShape& shape, Add add) {
     if (path.empty()) return;
-    written_.push_back(std::make_unique<SharedRows>(steps_, path, shape));
+    written_.push_back(std::make_unique<SharedRows>(session_, path, shape));
     add(*written_.back());
     written_.back()->finish();
   }
 
-  Supersteps& steps_;
+  BspSession& session_;
   const DistributedTriangulation& part_;
   const DistributedFiles& files_;
   std::vector<std::unique_ptr<SharedRows>> written_;
 };
 
-bool write_files(Supersteps& steps, const DistributedTriangulation& part,
+bool write_files(BspSession& session, const DistributedTriangulation& part,
                  const DistributedFiles& files, const Execution& execution) {
   std::vector<double> areas;
   if (!files.areas.empty())
-    areas = areas_on_ranks(steps, DistributedTriangulation::Impl::of(part), execution);
-  steps.begin("write");
-  SharedResults results(steps, part, files);
+    areas = areas_on_ranks(session, DistributedTriangulation::Impl::of(part), execution);
+  session.begin("write");
+  SharedResults results(session, part, files);
   results.write(areas, execution);
-  steps.all_gather({});
-  if (steps.rank() == 0) results.commit();
+  session.all_gather({});
+  if (session.rank() == 0) results.commit();
   return true;
 }
 
@@ -147,16 +147,16 @@ DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& s
   const system::Job job{options, execution};
   {
     const system::Call call(job);
-    distributed::Supersteps steps(ranks);
-    mine = steps.run([&] { return distributed::read_share(steps, sites, files, job); });
+    distributed::BspSession session(ranks);
+    mine = session.run([&] { return distributed::read_share(session, sites, files, job); });
   }
   DistributedOptions with_points = distributed;
   with_points.keep_points |= !files.areas.empty() || !files.circumcenters.empty();
   DistributedTriangulation part = delaunay(ranks, mine, with_points, options, execution);
   mine = {};
   const system::Call call(job);
-  distributed::Supersteps steps(ranks);
-  steps.run([&] { return distributed::write_files(steps, part, files, execution); });
+  distributed::BspSession session(ranks);
+  session.run([&] { return distributed::write_files(session, part, files, execution); });
   return part;
 }
 

@@ -27,8 +27,8 @@ std::vector<std::size_t> ranks_of(std::span<const BucketCut> squares, std::size_
 class Planner {
  public:
   Planner(std::span<const BucketCut> squares, std::span<const std::size_t> ranks,
-          std::uint64_t most_sites)
-      : squares_(squares), ranks_(ranks), most_sites_(most_sites) {}
+          std::uint64_t max_num_sites)
+      : squares_(squares), ranks_(ranks), max_sites_(max_num_sites) {}
 
   // Adds the buckets of a square that results from `level` divisions of a face of the cube.
   void add(const bulk::Square& square, std::uint64_t first_key, int level) {
@@ -40,7 +40,7 @@ class Planner {
       num_sites += squares_[end].num_sites;
     if (begin == end) return;
     const bool is_of_one = ranks_[begin] == ranks_[end - 1];
-    if (is_of_one && (num_sites <= most_sites_ || end - begin == 1)) {
+    if (is_of_one && (num_sites <= max_sites_ || end - begin == 1)) {
       buckets_.push_back({square, first_key, num_sites});
       bucket_ranks_.push_back(ranks_[begin]);
       next_ = end;
@@ -62,7 +62,7 @@ class Planner {
  private:
   std::span<const BucketCut> squares_;
   std::span<const std::size_t> ranks_;
-  std::uint64_t most_sites_;
+  std::uint64_t max_sites_;
   std::size_t next_ = 0;
   std::vector<BucketCut> buckets_;
   std::vector<std::size_t> bucket_ranks_;
@@ -71,9 +71,9 @@ class Planner {
 }  // namespace
 
 RankPlan plan_ranks(std::span<const BucketCut> squares, std::size_t num_ranks,
-                    std::uint64_t most_bucket_sites) {
+                    std::uint64_t max_bucket_sites) {
   const std::vector<std::size_t> ranks = ranks_of(squares, num_ranks);
-  Planner planner(squares, ranks, most_bucket_sites);
+  Planner planner(squares, ranks, max_bucket_sites);
   for (unsigned face = 0; face < 6; ++face) {
     planner.add({{face, 0, 0}, order::position_bits, 0}, std::uint64_t{face} << (2 * high_levels),
                 0);

@@ -36,8 +36,8 @@ struct RankPlan {
 };
 
 // Each square goes to the rank in whose share its middle site is. A bucket has more than
-// `most_bucket_sites` sites only if it is a single one of the squares.
+// `max_bucket_sites` sites only if it is a single one of the squares.
 RankPlan plan_ranks(std::span<const BucketCut> squares, std::size_t num_ranks,
-                    std::uint64_t most_bucket_sites);
+                    std::uint64_t max_bucket_sites);
 
 }  // namespace rondel::distributed

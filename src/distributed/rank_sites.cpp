@@ -64,12 +64,12 @@ struct SiteRow {
 // Makes the messages with a piece of the sites, sorted by bucket. A message has the index of the
 // first site, for each bucket of the receiver the number of its sites, all points, and for each
 // site the difference of its index to that of the first one.
-class Dealer {
+class Scatter {
  public:
-  Dealer(const RankPlan& plan, std::size_t self, std::size_t num_ranks)
+  Scatter(const RankPlan& plan, std::size_t self, std::size_t num_ranks)
       : plan_(plan), table_(plan.buckets), self_(self), num_ranks_(num_ranks) {}
 
-  std::vector<Bytes> deal(const SiteRow& row, std::uint64_t first_index) {
+  std::vector<Bytes> scatter(const SiteRow& row, std::uint64_t first_index) {
     counts_.assign(plan_.buckets.size(), 0);
     bucket_of_.resize(row.keys.size());
     for (std::size_t k = 0; k < row.keys.size(); ++k) {
@@ -81,7 +81,7 @@ class Dealer {
       messages.push_back(make_message(rank, first_index));
     find_places(messages);
     row.for_each([&](std::size_t i, std::size_t k) {
-      DealtPlace& place = places_[bucket_of_[k]];
+      ScatteredPlace& place = places_[bucket_of_[k]];
       const auto offset = static_cast<Index>(i);
       if (place.point != nullptr) {
         std::memcpy(place.point, &row.points[i], sizeof(Point));
@@ -98,7 +98,7 @@ class Dealer {
   static constexpr std::size_t lines_ahead = 256;  // bytes
 
   // The addresses at which the next site of a bucket is written.
-  struct DealtPlace {
+  struct ScatteredPlace {
     std::byte* point;  // null if points are not sent
     std::byte* offset;
   };
@@ -141,47 +141,47 @@ class Dealer {
   BucketTable table_;
   std::size_t self_;
   std::size_t num_ranks_;
-  std::vector<Index> counts_;       // by bucket
-  std::vector<Index> bucket_of_;    // by site that is not a copy
-  std::vector<DealtPlace> places_;  // by bucket
+  std::vector<Index> counts_;           // by bucket
+  std::vector<Index> bucket_of_;        // by site that is not a copy
+  std::vector<ScatteredPlace> places_;  // by bucket
 };
 
 }  // namespace
 
-RankSites::RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
+RankSites::RankSites(BspSession& session, std::span<const Point> mine, RankCounts& counts,
                      const RankLimits& limits)
     : mine_(mine),
-      first_index_(limits.first_number + counts.first_site[steps.rank()]),
-      pieces_(steps.size()) {
-  steps.begin("deal");
-  std::uint64_t most_sites = 0;
-  for (std::size_t rank = 0; rank < steps.size(); ++rank)
-    most_sites = std::max(most_sites, counts.num_sites(rank));
-  const std::size_t num_buckets = counts.plan.num_buckets(steps.rank());
-  Dealer dealer(counts.plan, steps.rank(), steps.size());
+      first_index_(limits.first_number + counts.first_site[session.rank()]),
+      pieces_(session.size()) {
+  session.begin("scatter");
+  std::uint64_t max_num_sites = 0;
+  for (std::size_t rank = 0; rank < session.size(); ++rank)
+    max_num_sites = std::max(max_num_sites, counts.num_sites(rank));
+  const std::size_t num_buckets = counts.plan.num_buckets(session.rank());
+  Scatter dealer(counts.plan, session.rank(), session.size());
   std::span<const PointCopy> copies = counts.copies;
   std::span<const std::uint64_t> keys = counts.keys;
-  for (std::uint64_t first = 0; first < most_sites; first += limits.most_dealt_sites) {
+  for (std::uint64_t first = 0; first < max_num_sites; first += limits.max_scattered_sites) {
     system::obey_stop();
     const std::uint64_t begin = std::min<std::uint64_t>(first, mine.size());
-    const std::uint64_t size = std::min(limits.most_dealt_sites, mine.size() - begin);
+    const std::uint64_t size = std::min(limits.max_scattered_sites, mine.size() - begin);
     const auto next = std::ranges::lower_bound(copies, begin + size, {}, &PointCopy::site);
     const auto num_copies = static_cast<std::size_t>(next - copies.begin());
-    std::vector<Bytes> received = steps.exchange(dealer.deal(
+    std::vector<Bytes> received = session.exchange(dealer.scatter(
         {mine.subspan(begin, size), begin, copies.first(num_copies), keys.first(size - num_copies)},
         first_index_ + begin));
     copies = copies.subspan(num_copies);
     keys = keys.subspan(size - num_copies);
-    for (std::size_t rank = 0; rank < steps.size(); ++rank)
-      add(std::move(received[rank]), num_buckets, rank != steps.rank(), pieces_[rank]);
+    for (std::size_t rank = 0; rank < session.size(); ++rank)
+      add(std::move(received[rank]), num_buckets, rank != session.rank(), pieces_[rank]);
   }
   counts.keys = {};
 }
 
 void RankSites::add(Bytes message, std::size_t num_buckets, bool has_points,
-                    std::vector<DealtPiece>& pieces) {
+                    std::vector<ScatteredPiece>& pieces) {
   if (message.empty()) return;
-  DealtPiece& piece = pieces.emplace_back();
+  ScatteredPiece& piece = pieces.emplace_back();
   piece.bytes = std::move(message);
   MessageReader reader(piece.bytes);
   piece.first_index = reader.value<std::uint64_t>();
@@ -196,14 +196,14 @@ void RankSites::gather(std::size_t bucket, LargeVector<Point>& points,
                        LargeVector<std::uint64_t>& indices) const {
   std::size_t num_sites = 0;
   for (const auto& of_rank : pieces_) {
-    for (const DealtPiece& piece : of_rank)
+    for (const ScatteredPiece& piece : of_rank)
       num_sites += piece.begin[bucket + 1] - piece.begin[bucket];
   }
   points.resize(num_sites);
   indices.resize(num_sites);
   std::size_t next = 0;
   for (const auto& of_rank : pieces_) {
-    for (const DealtPiece& piece : of_rank) {
+    for (const ScatteredPiece& piece : of_rank) {
       const std::size_t begin = piece.begin[bucket];
       const std::size_t size = piece.begin[bucket + 1] - begin;
       if (size == 0) continue;

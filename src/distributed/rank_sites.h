@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "distributed/bsp_session.h"
 #include "distributed/rank_counts.h"
-#include "distributed/supersteps.h"
 #include "system/large_arrays.h"
 
 namespace rondel::distributed {
@@ -24,7 +24,7 @@ class RankSites {
  public:
   // Sends and receives the sites. `mine` must outlive this object. The keys in `counts` are not
   // needed afterwards.
-  RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
+  RankSites(BspSession& session, std::span<const Point> mine, RankCounts& counts,
             const RankLimits& limits);
 
   // Sets the points and the indices, which are increasing, of the sites of one bucket.
@@ -33,7 +33,7 @@ class RankSites {
 
  private:
   // The sites that one rank sent in one round.
-  struct DealtPiece {
+  struct ScatteredPiece {
     Bytes bytes;
     std::uint64_t first_index = 0;
     std::vector<Index> begin;           // by bucket: its first site; then the end
@@ -43,11 +43,11 @@ class RankSites {
 
   // Divides a received message into its buckets and appends it to the pieces.
   void add(Bytes message, std::size_t num_buckets, bool has_points,
-           std::vector<DealtPiece>& pieces);
+           std::vector<ScatteredPiece>& pieces);
 
   std::span<const Point> mine_;
-  std::uint64_t first_index_;                    // index of the first site in `mine_`
-  std::vector<std::vector<DealtPiece>> pieces_;  // by rank, and by round
+  std::uint64_t first_index_;                        // index of the first site in `mine_`
+  std::vector<std::vector<ScatteredPiece>> pieces_;  // by rank, and by round
 };
 
 }  // namespace rondel::distributed

@@ -19,30 +19,30 @@ constexpr std::uint64_t bytes_of_piece_site = 80;
 constexpr std::uint64_t bytes_of_bucket_site = 115;
 constexpr std::uint64_t bytes_of_crowded_site = 250;  // within 2^-28 of all others of its bucket
 constexpr std::uint64_t bytes_of_open_site = 330;
-constexpr std::uint64_t least_memory = std::uint64_t{96} << 20;
+constexpr std::uint64_t min_memory = std::uint64_t{96} << 20;
 
 std::string in_megabytes(std::uint64_t bytes) {
   return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
 }
 
 std::string memory_of(std::uint64_t num_sites, std::uint64_t bytes_of_site) {
-  return in_megabytes(std::max(fixed_bytes + bytes_of_site * num_sites, least_memory));
+  return in_megabytes(std::max(fixed_bytes + bytes_of_site * num_sites, min_memory));
 }
 
 }  // namespace
 
 RunLimits limits_of(std::uint64_t memory) {
-  if (memory < least_memory) {
+  if (memory < min_memory) {
     throw InvalidInput(in_megabytes(memory) + " of memory are less than the " +
-                           in_megabytes(least_memory) + " that are needed at least",
+                           in_megabytes(min_memory) + " that are needed at least",
                        0);
   }
   const std::uint64_t bytes = memory - fixed_bytes;
   RunLimits limits;
-  limits.most_bucket_sites = std::min<std::uint64_t>(bytes / bytes_of_bucket_site, max_sites);
-  limits.most_sites = std::min<std::uint64_t>(bytes / bytes_of_crowded_site, max_sites);
-  limits.most_open_sites = std::min<std::uint64_t>(bytes / bytes_of_open_site, max_sites);
-  limits.piece_sites = std::min<std::size_t>(bytes / 2 / bytes_of_piece_site, most_piece_sites);
+  limits.max_bucket_sites = std::min<std::uint64_t>(bytes / bytes_of_bucket_site, max_sites);
+  limits.max_num_sites = std::min<std::uint64_t>(bytes / bytes_of_crowded_site, max_sites);
+  limits.max_open_sites = std::min<std::uint64_t>(bytes / bytes_of_open_site, max_sites);
+  limits.piece_sites = std::min<std::size_t>(bytes / 2 / bytes_of_piece_site, max_piece_sites);
   return limits;
 }
 

@@ -15,10 +15,10 @@ namespace rondel::distributed {
 
 // The largest numbers of sites that are in memory at once.
 struct RunLimits {
-  std::uint64_t most_bucket_sites = 0;  // in a bucket that can be divided
-  std::uint64_t most_sites = 0;         // in a bucket of the smallest size, without duplicates
-  std::uint64_t most_open_sites = 0;    // in all buckets together
-  std::size_t piece_sites = 0;          // number of sites that are read at a time
+  std::uint64_t max_bucket_sites = 0;  // in a bucket that can be divided
+  std::uint64_t max_num_sites = 0;     // in a bucket of the smallest size, without duplicates
+  std::uint64_t max_open_sites = 0;    // in all buckets together
+  std::size_t piece_sites = 0;         // number of sites that are read at a time
   // The number of the first site and of the first face; tests of numbers that need 64 bits set it.
   std::uint64_t first_number = 0;
 };

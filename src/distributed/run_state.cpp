@@ -12,7 +12,7 @@ namespace rondel::distributed {
 namespace {
 
 // The kinds of records, which are their first words.
-enum JournalRecord : std::uint64_t { about, counted, dealt, done };
+enum JournalRecord : std::uint64_t { about, counted, scattered, done };
 
 template <class T>
 std::vector<T> one(const T& value) {
@@ -71,9 +71,9 @@ void RunState::read(const Words& record) {
     reader.read(counts_->cuts);
     dealt_.resize(counts_->cuts.size());
     done_.resize(counts_->cuts.size());
-  } else if (kind == JournalRecord::dealt) {
+  } else if (kind == JournalRecord::scattered) {
     std::vector<std::uint64_t> buckets;
-    std::vector<SlotChecksums> sums;
+    std::vector<SpoolChecksums> sums;
     reader.read(buckets);
     reader.read(sums);
     for (std::size_t i = 0; i < buckets.size(); ++i) dealt_[buckets[i]] = sums[i];
@@ -96,9 +96,10 @@ void RunState::set_counts(SiteCounts counts) {
   done_.resize(counts_->cuts.size());
 }
 
-void RunState::set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted) {
+void RunState::set_scattered(std::span<const SpoolChecksums> sums,
+                             const std::vector<bool>& wanted) {
   std::vector<std::uint64_t> buckets;
-  std::vector<SlotChecksums> wanted_sums;
+  std::vector<SpoolChecksums> wanted_sums;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!wanted[i]) continue;
     buckets.push_back(i);
@@ -106,7 +107,7 @@ void RunState::set_dealt(std::span<const SlotChecksums> sums, const std::vector<
     dealt_[i] = sums[i];
   }
   WordWriter writer;
-  writer.add(JournalRecord::dealt);
+  writer.add(JournalRecord::scattered);
   writer.add(buckets);
   writer.add(wanted_sums);
   journal_.append(writer.words());

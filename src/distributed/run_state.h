@@ -4,7 +4,7 @@
 // How far a run has come, as its journal tells.
 //
 // in    what the run is about, and its journal
-// out   the buckets, and which of them are dealt and done
+// out   the buckets, and which of them are scattered and done
 // index buckets
 #pragma once
 
@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "distributed/bucket_store.h"
 #include "distributed/journal.h"
+#include "distributed/result_store.h"
 #include "distributed/site_counts.h"
-#include "distributed/slots.h"
+#include "distributed/site_spool.h"
 
 namespace rondel::distributed {
 
@@ -37,19 +37,19 @@ class RunState {
   [[nodiscard]] bool has_counts() const { return counts_.has_value(); }
   [[nodiscard]] const SiteCounts& counts() const { return *counts_; }
   [[nodiscard]] std::size_t num_buckets() const { return counts_->cuts.size(); }
-  [[nodiscard]] const SlotChecksums& dealt(std::size_t i) const { return *dealt_[i]; }
+  [[nodiscard]] const SpoolChecksums& scattered(std::size_t i) const { return *dealt_[i]; }
   [[nodiscard]] const StoredBucket& done(std::size_t i) const { return *done_[i]; }
-  [[nodiscard]] bool is_dealt(std::size_t i) const { return dealt_[i].has_value(); }
+  [[nodiscard]] bool is_scattered(std::size_t i) const { return dealt_[i].has_value(); }
   [[nodiscard]] bool is_done(std::size_t i) const { return done_[i].has_value(); }
 
   // Records that the sites have been counted.
   void set_counts(SiteCounts counts);
-  // Records that the buckets that are `wanted` have been dealt, with their checksums.
-  void set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted);
+  // Records that the buckets that are `wanted` have been scattered, with their checksums.
+  void set_scattered(std::span<const SpoolChecksums> sums, const std::vector<bool>& wanted);
   // Records that bucket i has been triangulated and stored.
   void set_done(std::size_t i, const StoredBucket& stored);
-  // Forgets that a bucket was dealt or done, because the files do not contain it.
-  void lose_dealt(std::size_t i) { dealt_[i].reset(); }
+  // Forgets that a bucket was scattered or done, because the files do not contain it.
+  void lose_scattered(std::size_t i) { dealt_[i].reset(); }
   void lose_done(std::size_t i) { done_[i].reset(); }
 
  private:
@@ -58,7 +58,7 @@ class RunState {
 
   Journal journal_;
   std::optional<SiteCounts> counts_;
-  std::vector<std::optional<SlotChecksums>> dealt_;
+  std::vector<std::optional<SpoolChecksums>> dealt_;
   std::vector<std::optional<StoredBucket>> done_;
 };
 

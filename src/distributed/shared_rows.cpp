@@ -19,16 +19,16 @@
 
 namespace rondel::distributed {
 
-SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape)
+SharedRows::SharedRows(BspSession& session, const std::string& path, const SharedShape& shape)
     : path_(path),
       target_(io::replaced_by(path)),
-      is_maker_(steps.rank() == 0),
+      is_maker_(session.rank() == 0),
       is_narrow_(!shape.are_doubles && are_narrow(shape.num_different)) {
   const std::string header = header_of(shape);
   const std::uint64_t row_bytes = shape.num_columns * (is_narrow_ ? 4 : 8);
   try {
     if (is_maker_) make(header, header.size() + shape.num_rows * row_bytes);
-    take_name(steps.all_gather(name_message()).front());
+    take_name(session.all_gather(name_message()).front());
     if (!is_maker_) descriptor_ = system::open_to_change(temporary_);
     if (descriptor_ < 0) fail(errno);
   } catch (...) {

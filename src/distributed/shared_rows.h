@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "distributed/supersteps.h"
+#include "distributed/bsp_session.h"
 
 namespace rondel::distributed {
 
@@ -30,7 +30,7 @@ struct SharedShape {
 class SharedRows {
  public:
   // All ranks call this together. Every function throws FileError if the operation fails.
-  SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape);
+  SharedRows(BspSession& session, const std::string& path, const SharedShape& shape);
   // Removes the file if it has not got its name yet.
   ~SharedRows();
   SharedRows(const SharedRows&) = delete;

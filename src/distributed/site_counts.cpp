@@ -35,9 +35,9 @@ void find_keys(std::span<const Point> sites, const system::Job& options,
 }
 
 SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,
-                       std::uint64_t most_bucket_sites, std::size_t piece_sites) {
+                       std::uint64_t max_bucket_sites, std::size_t piece_sites) {
   SiteCounts result{bulk::AllSites(options), {}};
-  BucketCounts counts(most_bucket_sites);
+  BucketCounts counts(max_bucket_sites);
   std::vector<Point> sites(std::min<std::uint64_t>(piece_sites, rows.num_rows()));
   std::vector<std::uint64_t> keys(sites.size());
   double round = 1;

@@ -20,7 +20,7 @@
 namespace rondel::distributed {
 
 // The number of sites that are read at a time: enough work for all threads, and little memory.
-inline constexpr std::size_t most_piece_sites = std::size_t{1} << 20;
+inline constexpr std::size_t max_piece_sites = std::size_t{1} << 20;
 
 // What is known of all sites, and the buckets.
 struct SiteCounts {
@@ -34,7 +34,7 @@ void validate_rows(const io::NpyRows& rows, std::span<const Point> sites, const 
 
 // Counts the sites of all rows. Throws FileError for the first row that is not valid.
 SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,
-                       std::uint64_t most_bucket_sites, std::size_t piece_sites);
+                       std::uint64_t max_bucket_sites, std::size_t piece_sites);
 
 // Computes the keys of some sites, by several threads.
 void find_keys(std::span<const Point> sites, const system::Job& options,

@@ -61,7 +61,7 @@ class Editor {
   Index insert(const Point& p, Index hint) {
     const Index site = places_.add_site();
     system::OnFailure undo([&] { places_.roll_back({&site, 1}, false); });
-    sites_.rebind(places_.points(), places_.speakers());
+    sites_.rebind(places_.points(), places_.representatives());
     arrive(site, p, hint);
     renumber_if_due();
     undo.succeed();
@@ -77,7 +77,7 @@ class Editor {
     ids.reserve(points.size());
     system::OnFailure undo([&] { places_.roll_back(ids, false); });
     while (ids.size() < points.size()) ids.push_back(places_.add_site());
-    sites_.rebind(places_.points(), places_.speakers());
+    sites_.rebind(places_.points(), places_.representatives());
     std::size_t num_done = 0;
     for (const Index rank : kernel::insertion_order(static_cast<Index>(points.size()))) {
       arrive(ids[order[rank]], points[order[rank]], no_index);
@@ -170,12 +170,12 @@ class Editor {
   // Takes the result of a build, instead of inserting each. At first assign_points(); then
   // `mesh` has places for vertices, `hidden` are pairs of a place and a vertex close to it.
   void assign_points(std::span<const Point> points) { places_.assign_points(points); }
-  void assign(std::span<const Index> place_of_site, std::span<const Index> speakers) {
+  void assign(std::span<const Index> place_of_site, std::span<const Index> representatives) {
     hull_.reset();
     span_.clear();
-    places_.assign(place_of_site, speakers);
+    places_.assign(place_of_site, representatives);
     sites_.assign({}, {}, center_);
-    for (Index place = 0; place < speakers.size(); ++place) refresh(place);
+    for (Index place = 0; place < representatives.size(); ++place) refresh(place);
     schedule_.done(places_.num_places());
   }
   void adopt(topology::Mesh mesh, std::span<const std::array<Index, 2>> hidden) {
@@ -192,7 +192,7 @@ class Editor {
     system::announce(execution, "change", num_done, num_changes);
   }
 
-  void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
+  void refresh(Index place) { sites_.set(place, places_.points(), places_.representatives()); }
 
   // After a failed move: the first sites have left these points.
   void restore(std::span<const Index> sites, std::span<const Point> from) noexcept {
@@ -207,7 +207,7 @@ class Editor {
     const Renumbering renumbering(places_.in_order(), places_.place_limit());
     places_.renumber(renumbering);
     sites_.reorder(renumbering.old_place, renumbering.room());
-    sites_.rebind(places_.points(), places_.speakers());
+    sites_.rebind(places_.points(), places_.representatives());
     if (hull_) hull_->renumber(renumbering);
     for (Index& place : span_) place = renumbering.new_place[place];
   }
@@ -233,7 +233,7 @@ class Editor {
     if (speaks) take_out(place);
     places_.join(site, place);
     if (!speaks) return;
-    places_.set_speaker(place, site);
+    places_.set_representative(place, site);
     refresh(place);
     put_in(place, no_index);
   }
@@ -242,7 +242,7 @@ class Editor {
     const Index place = places_.place_of(site);
     places_.prefetch(site);
     if (hull_) hull_->prefetch(place);
-    const Index next = places_.next_speaker(site);
+    const Index next = places_.next_representative(site);
     if (next == no_index) {
       const order::HilbertKey key = places_.key(places_.point(site));
       if (hull_) hull_->prefetch_face(place);
@@ -256,7 +256,7 @@ class Editor {
     const bool is_other = places_.point(next) != places_.place_point(place);
     if (is_other) take_out(place);
     places_.leave(site);
-    places_.set_speaker(place, next);
+    places_.set_representative(place, next);
     refresh(place);
     if (is_other) put_in(place, no_index);
   }

@@ -69,13 +69,13 @@ Places::Spot Places::look_up(const Point& p) const {
 }
 
 Index Places::add_place(Index site, const Spot& spot) {
-  Index place = static_cast<Index>(speakers_.size());
+  Index place = static_cast<Index>(representatives_.size());
   if (free_places_.empty()) {
-    speakers_.push_back(site);
+    representatives_.push_back(site);
     names_.push_back(site);
   } else {
     place = take_slot(free_places_);
-    speakers_[place] = site;
+    representatives_[place] = site;
     names_[place] = site;
   }
   place_of_[site] = place;
@@ -111,15 +111,15 @@ void Places::erase(const Resident& resident) {
 }
 
 void Places::join(Index site, Index place) {
-  insert({place, speakers_[place]});
+  insert({place, representatives_[place]});
   insert({place, site});
   place_of_[site] = place;
   names_[place] = std::min(names_[place], site);
 }
 
-Index Places::next_speaker(Index site) const {
+Index Places::next_representative(Index site) const {
   const Index place = place_of_[site];
-  if (site != speakers_[place]) return speakers_[place];
+  if (site != representatives_[place]) return representatives_[place];
   auto next = by_triple_.lower_bound(place);
   if (next == by_triple_.end() || next->place != place) return no_index;
   if (next->site == site) ++next;
@@ -138,7 +138,7 @@ void Places::leave(Index site) {
 }
 
 void Places::renumber(const Renumbering& places) {
-  speakers_ = system::gather(speakers_, places.old_place, places.room());
+  representatives_ = system::gather(representatives_, places.old_place, places.room());
   names_ = system::gather(names_, places.old_place, places.room());
   free_places_ = {};
   for (Index& place : place_of_) {
@@ -154,11 +154,11 @@ void Places::assign_points(std::span<const Point> points) {
   points_.assign(points.begin(), points.end());
 }
 
-void Places::assign(std::span<const Index> place_of_site, std::span<const Index> speakers) {
+void Places::assign(std::span<const Index> place_of_site, std::span<const Index> representatives) {
   place_of_.assign(place_of_site.begin(), place_of_site.end());
   count_sites();
-  speakers_.assign(speakers.begin(), speakers.end());
-  names_ = speakers_;
+  representatives_.assign(representatives.begin(), representatives.end());
+  names_ = representatives_;
   const bool lists_free_sites = free_sites_.size() + num_sites_ == place_of_.size();
   if (!lists_free_sites) free_sites_.clear();  // memory may have run out in the loop below before
   free_places_.clear();
@@ -168,13 +168,13 @@ void Places::assign(std::span<const Index> place_of_site, std::span<const Index>
     const Index place = place_of_[site];
     if (place == no_index) {
       if (!lists_free_sites) free_sites_.push_back(site);
-    } else if (speakers_[place] != site) {
+    } else if (representatives_[place] != site) {
       join(site, place);
     }
   }
-  std::vector<order::HilbertKey> keys(speakers.size());
-  std::vector<Index> places(speakers.size());
-  for (Index place = 0; place < speakers.size(); ++place) {
+  std::vector<order::HilbertKey> keys(representatives.size());
+  std::vector<Index> places(representatives.size());
+  for (Index place = 0; place < representatives.size(); ++place) {
     keys[place] = key(place_point(place));
     places[place] = place;
   }

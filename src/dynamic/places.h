@@ -58,11 +58,13 @@ class Places {
   // --- places ---
 
   // Places are below this.
-  [[nodiscard]] Index place_limit() const { return static_cast<Index>(speakers_.size()); }
+  [[nodiscard]] Index place_limit() const { return static_cast<Index>(representatives_.size()); }
   // For the traits class of the model: points by site, and the site that speaks for each place.
   [[nodiscard]] std::span<const Point> points() const { return points_; }
-  [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
-  [[nodiscard]] const Point& place_point(Index place) const { return points_[speakers_[place]]; }
+  [[nodiscard]] std::span<const Index> representatives() const { return representatives_; }
+  [[nodiscard]] const Point& place_point(Index place) const {
+    return points_[representatives_[place]];
+  }
 
   [[nodiscard]] order::HilbertKey key(const Point& p) const {
     return order::place_key(p, model_, center_);
@@ -81,7 +83,7 @@ class Places {
   // Asks for the memory that changes at this site, or around this key, will need.
   void prefetch(Index site) const {
     system::prefetch(&points_[site]);
-    system::prefetch(&speakers_[place_of_[site]]);
+    system::prefetch(&representatives_[place_of_[site]]);
     system::prefetch(&names_[place_of_[site]]);
   }
   void prefetch(const order::HilbertKey& key) const { index_.prefetch(key); }
@@ -100,9 +102,9 @@ class Places {
   [[nodiscard]] bool would_speak(Index site, Index place) const;
   void join(Index site, Index place);
   // The site that speaks when this one leaves its place; no_index when nobody is left.
-  [[nodiscard]] Index next_speaker(Index site) const;
+  [[nodiscard]] Index next_representative(Index site) const;
   void leave(Index site);
-  void set_speaker(Index place, Index site) { speakers_[place] = site; }
+  void set_representative(Index place, Index site) { representatives_[place] = site; }
 
   void renumber(const Renumbering& places);
 
@@ -110,7 +112,7 @@ class Places {
   void assign_points(std::span<const Point> points);
   // Takes the result of a build: of each site the place, of those that are not there no_index.
   // Places are in spatial order. If it throws, nothing is lost but places.
-  void assign(std::span<const Index> place_of_site, std::span<const Index> speakers);
+  void assign(std::span<const Index> place_of_site, std::span<const Index> representatives);
 
  private:
   // Places with several sites list them twice, so that whoever leaves has a successor at once: by
@@ -147,7 +149,7 @@ class Places {
   std::vector<Index> place_of_;
   std::size_t num_sites_ = 0;
 
-  std::vector<Index> speakers_;
+  std::vector<Index> representatives_;
   std::vector<Index> names_;
   std::vector<Index> free_sites_;  // all that are not there; after roll_back() none
   std::vector<Index> free_places_;

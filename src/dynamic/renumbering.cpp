@@ -16,7 +16,7 @@ Renumbering::Renumbering(std::vector<Index> old_places, Index place_limit)
 }
 
 RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places) {
-  const auto least_vertex = [&](Index f) {
+  const auto min_vertex = [&](Index f) {
     const auto& v = mesh[f].vertex;
     return std::min({places.new_place[v[0]], places.new_place[v[1]], places.new_place[v[2]]});
   };
@@ -25,7 +25,7 @@ RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places) {
   std::vector<Index> begin(places.old_place.size() + 1, 0);
   std::vector<Index> least(mesh.num_slots(), no_index);
   mesh.for_each_face([&](Index f) {
-    least[f] = least_vertex(f);
+    least[f] = min_vertex(f);
     ++begin[least[f] + std::size_t{1}];
   });
   for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];

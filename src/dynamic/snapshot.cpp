@@ -57,9 +57,9 @@ Build make_build(const Triangulation& triangulation, unsigned threads) {
   auto order =
       order::spatial_order(sites, triangulation.model(), triangulation.sphere().center, threads);
   build.place_of_site.assign(sites.size(), no_index);
-  build.speakers = std::move(order.order);
-  for (Index place = 0; place < build.speakers.size(); ++place) {
-    build.place_of_site[build.speakers[place]] = place;
+  build.representatives = std::move(order.order);
+  for (Index place = 0; place < build.representatives.size(); ++place) {
+    build.place_of_site[build.representatives[place]] = place;
   }
   for (const auto& [place, lowest] : order.renamed) build.place_of_site[lowest] = place;
   for (const auto& [site, lowest] : order.duplicates) {

@@ -29,7 +29,7 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
 // What Editor::assign and Editor::adopt take.
 struct Build {
   std::vector<Index> place_of_site;
-  std::vector<Index> speakers;
+  std::vector<Index> representatives;
   topology::Mesh mesh;
   std::vector<std::array<Index, 2>> hidden;
 };

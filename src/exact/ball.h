@@ -45,7 +45,7 @@ class Ball {
   // Precondition: finite.
   explicit Ball(double value) {
     constexpr int mantissa_bits = 52;
-    constexpr int least_exponent = -1074;
+    constexpr int min_exponent = -1074;
     const auto bits = std::bit_cast<Word>(value);
     const Word fraction = bits & ((Word{1} << mantissa_bits) - 1);
     const auto biased = static_cast<int>(bits >> mantissa_bits & 0x7ffU);
@@ -53,7 +53,7 @@ class Ball {
     if (mantissa == 0) return;
     const int zeros = std::countl_zero(mantissa);
     digits_[N - 1] = mantissa << zeros;
-    exponent_ = least_exponent + std::max(biased - 1, 0) - zeros - last_word;
+    exponent_ = min_exponent + std::max(biased - 1, 0) - zeros - last_word;
     is_negative_ = value < 0;
   }
 

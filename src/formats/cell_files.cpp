@@ -22,7 +22,7 @@
 #include "overlay/same_nodes.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
@@ -178,26 +178,27 @@ void require_centers_in_cells(const formats::MeshContent& mesh, CellTable& table
 
 }  // namespace
 
-CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each) {
+CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_per_cell) {
   const system::ArithmeticScope arithmetic;
-  if (of_each == 0 || corners.size() % of_each != 0) {
+  if (corners_per_cell == 0 || corners.size() % corners_per_cell != 0) {
     throw InvalidInput(std::to_string(corners.size()) + " corners are none of cells with " +
-                           std::to_string(of_each) + " each",
+                           std::to_string(corners_per_cell) + " each",
                        corners.size());
   }
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const auto [lon, lat] = corners[k];
     if (std::isfinite(lon) && std::abs(lat) <= 90) continue;
-    throw InvalidInput("cell " + std::to_string(k / of_each) + " has a corner at longitude " +
-                           system::shortest_text(lon) + " and latitude " +
-                           system::shortest_text(lat) + ", which is no place",
-                       k / of_each);
+    throw InvalidInput("cell " + std::to_string(k / corners_per_cell) +
+                           " has a corner at longitude " + system::shortest_text(lon) +
+                           " and latitude " + system::shortest_text(lat) + ", which is no place",
+                       k / corners_per_cell);
   }
   RingsOfNodes maker(corners, same_place);
-  maker.reserve(corners.size() / of_each, corners.size() / of_each, corners.size());
+  maker.reserve(corners.size() / corners_per_cell, corners.size() / corners_per_cell,
+                corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     maker.add_corner(static_cast<Index>(k));
-    if ((k + 1) % of_each == 0) {
+    if ((k + 1) % corners_per_cell == 0) {
       maker.end_ring();
       maker.end_cell();
     }

@@ -18,7 +18,7 @@
 #include "io/number.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "system/arithmetic.h"
 #include "system/message_text.h"
 
@@ -104,13 +104,13 @@ class CfGrids {
     const std::vector<double> lat =
         degrees_of(file_, *pair[1], UsualUnits::of_name, {nullptr, pair[0]});
     const bool is_lon_last = places.dimensions.back() == variable(axes.lon).dimensions[0];
-    constexpr double most_apart = 1e-3;  // degrees
+    constexpr double max_apart = 1e-3;  // degrees
     for (std::size_t i = 0; i < places.lon.size(); ++i) {
       const std::size_t along = is_lon_last ? i % lon.size() : i / lat.size();
       const std::size_t across = is_lon_last ? i / lon.size() : i % lat.size();
       if (places.lon.size() == lon.size() * lat.size() &&
-          std::abs(std::remainder(places.lon[i] - lon[along], 360)) <= most_apart &&
-          std::abs(places.lat[i] - lat[across]) <= most_apart) {
+          std::abs(std::remainder(places.lon[i] - lon[along], 360)) <= max_apart &&
+          std::abs(places.lat[i] - lat[across]) <= max_apart) {
         continue;
       }
       throw BadValue("its longitudes " + io::in_quotes(headers_[first.lon].name) +
@@ -244,11 +244,11 @@ bool is_of_nodes(const MeshVariable& bounds, const PlaceArrays& places) {
 }
 
 // Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
-// in `of_each`. The bounds have one more dimension than the coordinate, or they are the nodes of a
-// grid: then the nodes are returned, and `of_each` is 0.
+// in `corners_per_cell`. The bounds have one more dimension than the coordinate, or they are the nodes of a
+// grid: then the nodes are returned, and `corners_per_cell` is 0.
 std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
                                       const MeshVariable& other, const MeshVariable& bounds,
-                                      const PlaceArrays& places, std::size_t& of_each) {
+                                      const PlaceArrays& places, std::size_t& corners_per_cell) {
   std::vector<double> values = degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
   const std::size_t num_cells = places.lon.size();
   const auto is_of_bounds = [&](std::size_t dimension) {
@@ -262,21 +262,21 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
       if (is_of_bounds(d)) order.push_back(d);
     }
     order.insert(order.end(), places.dimensions.begin(), places.dimensions.end());
-    of_each = 1;
+    corners_per_cell = 1;
     for (std::size_t d = 0; d < bounds.dimensions.size(); ++d) {
       if (std::ranges::count(order, bounds.dimensions[d]) != 0) continue;
       order.push_back(bounds.dimensions[d]);
-      of_each *= bounds.shape[d];
+      corners_per_cell *= bounds.shape[d];
     }
     if (std::ranges::is_permutation(order, bounds.dimensions)) {
       values = in_order(bounds, order, std::move(values));
-      require_repeated(bounds, values, num_cells * of_each);
-      values.resize(num_cells * of_each);
+      require_repeated(bounds, values, num_cells * corners_per_cell);
+      values.resize(num_cells * corners_per_cell);
       return values;
     }
   }
   if (is_of_nodes(bounds, places)) {
-    of_each = 0;
+    corners_per_cell = 0;
     return values;
   }
   if (num_cells == 0 || values.size() % num_cells != 0) {
@@ -284,7 +284,7 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
                    std::to_string(bounds.num_values) + " values for " + std::to_string(num_cells) +
                    " cells");
   }
-  of_each = values.size() / num_cells;
+  corners_per_cell = values.size() / num_cells;
   return values;
 }
 
@@ -297,15 +297,16 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   const MeshVariable& lon_bounds = grids.variable(pair.lon_bounds);
   const MeshVariable& lat_bounds = grids.variable(pair.lat_bounds);
   const PlaceArrays places = places_of(file, lon, lat);
-  std::size_t of_each = 0;
+  std::size_t corners_per_cell = 0;
   std::size_t of_each_lat = 0;
-  const std::vector<double> lons = corners_of_bounds(file, lon, lat, lon_bounds, places, of_each);
+  const std::vector<double> lons =
+      corners_of_bounds(file, lon, lat, lon_bounds, places, corners_per_cell);
   std::vector<double> lats = corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
   if (of_each_lat == 0 &&
       std::ranges::is_permutation(lon_bounds.dimensions, lat_bounds.dimensions)) {
     lats = in_order(lat_bounds, lon_bounds.dimensions, std::move(lats));
   }
-  if (of_each != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
+  if (corners_per_cell != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
                    io::in_quotes(lat_bounds.name) + " have not as many corners");
   }
@@ -315,12 +316,12 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   for (std::size_t i = 0; i < places.lon.size(); ++i) {
     mesh.centers.push_back({places.lon[i], places.lat[i]});
   }
-  if (of_each == 0) {
-    of_each = 4;
+  if (corners_per_cell == 0) {
+    corners_per_cell = 4;
     mesh.nodes = corners_of_grid(mesh.nodes, last_two_of(lon_bounds.shape), mesh.centers,
                                  last_two_of(places.shape));
   }
-  end_cells_of_nodes(of_each, !has_rows(places.shape), mesh);
+  end_cells_of_nodes(corners_per_cell, !has_rows(places.shape), mesh);
   if (places.shape.size() > 1) mesh.shape = places.shape;
   return mesh;
 }

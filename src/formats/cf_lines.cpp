@@ -30,9 +30,9 @@ struct CellSides {
 
 // Throws InvalidInput for the first coordinate that is not finite or is beyond a million degrees.
 void require_finite_axis(std::span<const double> values, const std::string& what) {
-  constexpr double most_degrees = 1e6;
+  constexpr double max_degrees = 1e6;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i]) <= most_degrees) continue;
+    if (std::abs(values[i]) <= max_degrees) continue;
     throw InvalidInput(what + " " + std::to_string(i) + " is " +
                            (std::isfinite(values[i]) ? "too large" : "not finite"),
                        i);

@@ -172,8 +172,8 @@ PlaceArrays places_of(const io::NetcdfReader& file, const io::NetcdfReader::Vari
       require_one_place(file, kind, PlacesMay::be_missing);
   }
   // Places that are repeated at many times need not be in memory together.
-  const bool has_room = lon.num_values <= file.most_values();  // otherwise reading them below is an
-                                                               // error
+  const bool has_room = lon.num_values <= file.max_values();  // otherwise reading them below is an
+                                                              // error
   if (has_room && has_time_first(file, lon) && has_time_first(file, lat) &&
       lon.shape == lat.shape && is_repeated_along_first(file, lon) &&
       is_repeated_along_first(file, lat)) {

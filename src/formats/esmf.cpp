@@ -99,7 +99,7 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
 
 // ESMF has a list of nodes, to which the cells refer by numbers from 1.
 void define_esmf(MeshFile& file, const CellCorners& corners) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
   const std::size_t room = arrays.max_edges();
   const std::size_t nodes = file.dimension("nodeCount", arrays.num_vertices());

@@ -115,7 +115,7 @@ void define_exodus_attributes(io::NetcdfWriter& out) {
 // Defines one variable with all x, then all y, then all z. With a file_size of 1 the format has
 // three variables, which TempestRemap does not read.
 void define_coordinates(MeshFile& file, std::size_t axes, std::size_t nodes) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();
   file.numbers("coord", {axes, nodes}, {}, 3 * size, 1,
                [&arrays, size](std::size_t i, double* out) {
@@ -156,7 +156,7 @@ std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::stri
 }
 
 // Groups the cells by their number of corners with a counting sort.
-CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners) {
+CellBlocks blocks_of(const mesh::VoronoiMesh& arrays, const CellCorners& corners) {
   system::RowPlaces<std::size_t> places(arrays.max_edges() + 1);
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) places.count(corners.count(i));
   CellBlocks blocks;
@@ -176,7 +176,7 @@ CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners)
 
 // The order of the variables is that in which they are written.
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t num_blocks = blocks.corners.size();
   const std::size_t names = file.dimension("len_string", exodus_name_length);
   file.dimension("len_line", exodus_line_length);
@@ -199,13 +199,15 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
   for (std::size_t b = 0; b < num_blocks; ++b) {
     const std::string number = std::to_string(b + 1);
     const std::size_t begin = blocks.begins[b];
-    const std::size_t of_each = blocks.corners[b];
+    const std::size_t corners_per_cell = blocks.corners[b];
     const std::size_t in_block =
         file.dimension(("num_el_in_blk" + number).c_str(), blocks.begins[b + 1] - begin);
-    const std::size_t per_element = file.dimension(("num_nod_per_el" + number).c_str(), of_each);
+    const std::size_t per_element =
+        file.dimension(("num_nod_per_el" + number).c_str(), corners_per_cell);
     file.indices(("connect" + number).c_str(), {in_block, per_element},
-                 {{"elem_type", element_type(of_each).c_str()}}, blocks.begins[b + 1] - begin,
-                 of_each, [&corners, &blocks, begin](std::size_t i, std::int32_t* out) {
+                 {{"elem_type", element_type(corners_per_cell).c_str()}},
+                 blocks.begins[b + 1] - begin, corners_per_cell,
+                 [&corners, &blocks, begin](std::size_t i, std::int32_t* out) {
                    corners.visit(blocks.cells[begin + i],
                                  [&](Index v) { *out++ = static_cast<std::int32_t>(v + 1); });
                  });

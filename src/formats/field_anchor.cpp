@@ -17,12 +17,12 @@ bool is_nowhere(const LonLat& place) {
 }
 
 // Places that are missing on one side fit.
-bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double most_apart_deg) {
+bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double max_apart_deg) {
   const auto is_near = [&](const LonLat& x, const LonLat& y) {
     if (x == y || is_nowhere(x) || is_nowhere(y)) return true;
-    const bool is_pole = std::min(std::abs(x.lat_deg), std::abs(y.lat_deg)) >= 90 - most_apart_deg;
-    return std::abs(x.lat_deg - y.lat_deg) <= most_apart_deg &&
-           (is_pole || std::abs(std::remainder(x.lon_deg - y.lon_deg, 360)) <= most_apart_deg);
+    const bool is_pole = std::min(std::abs(x.lat_deg), std::abs(y.lat_deg)) >= 90 - max_apart_deg;
+    return std::abs(x.lat_deg - y.lat_deg) <= max_apart_deg &&
+           (is_pole || std::abs(std::remainder(x.lon_deg - y.lon_deg, 360)) <= max_apart_deg);
   };
   return std::ranges::equal(a, b, is_near);
 }
@@ -42,7 +42,7 @@ bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
 bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
   if (candidate.layout.places.size() != anchor_->places.size()) return false;
   if (anchor_->lon == CoordinatePair::none) {
-    return are_near(candidate.layout.places, anchor_->places, wanted_.most_apart_deg);
+    return are_near(candidate.layout.places, anchor_->places, wanted_.max_apart_deg);
   }
   return are_one_place(candidate.lon, anchor_->lon, candidate.layout.places, anchor_->places);
 }
@@ -51,7 +51,7 @@ bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
 // coordinates.
 bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
   for (PossiblePlaces& candidate : candidates(variable)) {
-    if (!are_near(candidate.layout.places, wanted_.positions, wanted_.most_apart_deg)) continue;
+    if (!are_near(candidate.layout.places, wanted_.positions, wanted_.max_apart_deg)) continue;
     anchor_ = {candidate.lon, candidate.lat, variable.name, std::move(candidate.layout.places)};
     return true;
   }

@@ -9,7 +9,7 @@ namespace rondel::formats {
 
 // Takes whole dimensions from the last leading one on, while they fit; the next one is divided.
 FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
-                         const FieldDimensions& layout, std::size_t most_values)
+                         const FieldDimensions& layout, std::size_t max_values)
     : shape_(variable.shape.begin(), variable.shape.end()), leading_(layout.leading) {
   const std::vector<std::uint64_t> chunk = file.chunk_of(variable);
   are_apart_ = std::ranges::is_sorted(layout.order()) &&
@@ -17,7 +17,7 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::V
   std::size_t num_points = 1;
   for (const std::size_t d : layout.points) num_points *= shape_[d];
   const std::size_t room =
-      std::max<std::size_t>(most_values / std::max<std::size_t>(num_points, 1), 1);
+      std::max<std::size_t>(max_values / std::max<std::size_t>(num_points, 1), 1);
   num_outer_ = leading_.size();
   while (num_outer_ > 0) {
     const std::size_t d = leading_[--num_outer_];

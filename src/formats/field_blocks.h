@@ -29,14 +29,14 @@ struct FieldBlock {
 // The number of values in a block that FieldSlices uses.
 inline constexpr std::size_t usual_block = std::size_t{1} << 24U;
 
-// Blocks of about `most_values` values, or of one field where a field has more. A block is a box of
+// Blocks of about `max_values` values, or of one field where a field has more. A block is a box of
 // the variable: it has one index of each of the first leading dimensions, some indices of the next
 // one (whole chunks if they fit) and all indices of the rest. So the file is read once for each
 // block of fields, and only once if the fields of a chunk fit into a block.
 class FieldBlocks {
  public:
   FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
-              const FieldDimensions& layout, std::size_t most_values);
+              const FieldDimensions& layout, std::size_t max_values);
 
   // True if the values of each field are contiguous in the file and in no chunk with those of
   // others.

@@ -218,7 +218,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
 }
 
 // Times are rounded to seconds, and to milliseconds if one is farther than this from a second.
-constexpr double most_off_second = 0.01;
+constexpr double max_off_second = 0.01;
 constexpr std::int64_t ms_per_day = 1000 * seconds_per_day;
 
 // Returns a time, in milliseconds from the year 0, as ISO 8601.
@@ -257,7 +257,7 @@ std::vector<std::string> dates_of(const FieldArray& axis) {
   bool has_ms = false;
   for (const double value : axis.values) {
     const double since = value * units->seconds;
-    has_ms = has_ms || std::abs(since - std::round(since)) > most_off_second;
+    has_ms = has_ms || std::abs(since - std::round(since)) > max_off_second;
     if (!(std::round(since) + start >= first && std::round(since) + start <= last)) return {};
   }
   std::vector<std::int64_t> times;

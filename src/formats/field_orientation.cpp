@@ -26,9 +26,9 @@ double coordinate_of(const LonLat& place, CoordinateKind kind) {
 }
 
 // Missing numbers fit all others.
-bool is_near_deg(double a, double b, CoordinateKind kind, double most_apart_deg) {
+bool is_near_deg(double a, double b, CoordinateKind kind, double max_apart_deg) {
   const double away = kind == CoordinateKind::lon ? std::remainder(a - b, 360) : a - b;
-  return !(std::abs(away) > most_apart_deg);
+  return !(std::abs(away) > max_apart_deg);
 }
 
 CoordinateKind other_kind(CoordinateKind kind) {
@@ -52,7 +52,7 @@ bool FieldDimensionFinder::changes_along(const PlacesAlong& line, CoordinateKind
     const double first = coordinate_of(wanted_.positions[i * line.step], kind);
     for (std::size_t k = 1; k < line.num_across; ++k) {
       const LonLat& place = wanted_.positions[i * line.step + k * line.across];
-      if (!is_near_deg(coordinate_of(place, kind), first, kind, wanted_.most_apart_deg)) {
+      if (!is_near_deg(coordinate_of(place, kind), first, kind, wanted_.max_apart_deg)) {
         return false;
       }
     }
@@ -95,7 +95,7 @@ bool FieldDimensionFinder::fits_line(const NamedDirection& direction,
   }
   for (std::size_t i = 0; i < line.length; ++i) {
     const double wanted = coordinate_of(wanted_.positions[i * line.step], *direction.kind);
-    if (!is_near_deg(degrees[i], wanted, *direction.kind, wanted_.most_apart_deg)) return false;
+    if (!is_near_deg(degrees[i], wanted, *direction.kind, wanted_.max_apart_deg)) return false;
   }
   return true;
 }

@@ -87,9 +87,9 @@ void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places
 }  // namespace
 
 FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
-                         std::size_t most_of_block)
+                         std::size_t max_per_block)
     : file_(file),
-      most_of_block_(most_of_block),
+      max_per_block_(max_per_block),
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
   for (const std::string& given : wanted.names) {
@@ -178,7 +178,7 @@ void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions 
   }
   if (fields_.num_points == 0) fields_.num_points = fields_.points.size();
   layout.places.clear();
-  FieldBlocks blocks(file_, variable, layout, most_of_block_);
+  FieldBlocks blocks(file_, variable, layout, max_per_block_);
   sources_.push_back(
       {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
 }

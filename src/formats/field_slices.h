@@ -29,7 +29,7 @@ class FieldSlices {
  public:
   // Throws BadValue if a named variable is missing or is no field at the points.
   FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
-              std::size_t most_of_block = usual_block);
+              std::size_t max_per_block = usual_block);
 
   // Returns the arrays without their values; only coordinates along axes have values here.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
@@ -64,7 +64,7 @@ class FieldSlices {
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;
-  std::size_t most_of_block_;
+  std::size_t max_per_block_;
   FieldDimensionFinder layouts_;
   FieldSet fields_;
   std::vector<SlicedVariable> sources_;  // by array

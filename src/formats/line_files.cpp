@@ -10,8 +10,8 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/io.h"
-#include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
+#include "rondel/read_cells.h"
 
 namespace rondel::mesh {
 namespace {

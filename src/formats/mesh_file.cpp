@@ -68,7 +68,7 @@ void MeshFile::write(const NetcdfOptions& options) {
 }
 
 // Each vertex is represented by the lowest of the vertices with which it is joined.
-CellCorners::CellCorners(const mesh::MeshArrays& arrays) : arrays_(arrays) {
+CellCorners::CellCorners(const mesh::VoronoiMesh& arrays) : arrays_(arrays) {
   if (std::ranges::find(arrays.vertex_distances, 0.0) == arrays.vertex_distances.end()) return;
   joined_.resize(arrays.num_vertices());
   std::iota(joined_.begin(), joined_.end(), Index{0});
@@ -93,7 +93,7 @@ std::string_view name_of(MeshFormat format) noexcept {
   return system::name_in({"mpas", "ugrid", "scrip", "esmf", "exodus"}, format);
 }
 
-void write(const FileName& name, const MeshArrays& arrays, const MeshFileOptions& options,
+void write(const FileName& name, const VoronoiMesh& arrays, const MeshFileOptions& options,
            const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
@@ -127,7 +127,7 @@ void write(const FileName& name, const MeshArrays& arrays, const MeshFileOptions
 
 // Writes the graph in the format of METIS: the numbers of cells and edges, then a line for each
 // cell with its neighbors, counted from 1.
-void write_graph(const FileName& name, const MeshArrays& arrays, const Execution& execution) {
+void write_graph(const FileName& name, const VoronoiMesh& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   io::AtomicFile file(name);

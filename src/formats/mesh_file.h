@@ -19,7 +19,7 @@
 
 #include "io/netcdf_writer.h"
 #include "rondel/mesh.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "system/parallel.h"
 
 namespace rondel::formats {
@@ -28,31 +28,31 @@ class MeshFile {
  public:
   using Texts = std::initializer_list<std::pair<const char*, const char*>>;
 
-  MeshFile(io::AtomicFile& file, const mesh::MeshArrays& arrays, const Execution& execution)
+  MeshFile(io::AtomicFile& file, const mesh::VoronoiMesh& arrays, const Execution& execution)
       : arrays_(arrays), execution_(execution), out_(file) {}
 
-  [[nodiscard]] const mesh::MeshArrays& arrays() const { return arrays_; }
+  [[nodiscard]] const mesh::VoronoiMesh& arrays() const { return arrays_; }
   io::NetcdfWriter& netcdf() { return out_; }
   std::size_t dimension(const char* name, std::uint64_t size) {
     return out_.add_dimension(name, size);
   }
 
-  // Defines a variable of `rows` rows of `of_each` values; fill(row, values) sets the values of a
+  // Defines a variable of `rows` rows of `row_size` values; fill(row, values) sets the values of a
   // row, which are 0 before. It is called when the file is written.
   template <typename T, typename Fill>
-  void add(io::NetcdfVariable variable, std::size_t rows, std::size_t of_each, Fill fill) {
+  void add(io::NetcdfVariable variable, std::size_t rows, std::size_t row_size, Fill fill) {
     out_.add_variable(std::move(variable));
-    writes_.push_back([this, rows, of_each, fill](Values* kept) {
+    writes_.push_back([this, rows, row_size, fill](Values* kept) {
       const auto fill_rows = [&](std::size_t begin, std::size_t end, T* values) {
-        for (std::size_t i = begin; i < end; ++i, values += of_each) fill(i, values);
+        for (std::size_t i = begin; i < end; ++i, values += row_size) fill(i, values);
       };
       if (kept == nullptr) {
-        out_.write_rows<T>(execution_.threads, rows, of_each, fill_rows);
+        out_.write_rows<T>(execution_.threads, rows, row_size, fill_rows);
       } else if constexpr (sizeof(T) > 1) {  // the numbers of MPAS, which no text is
-        auto& all = kept->emplace<std::vector<T>>(rows * of_each);
+        auto& all = kept->emplace<std::vector<T>>(rows * row_size);
         system::parallel_for(execution_.threads, rows, rows_per_piece,
                              [&](std::size_t begin, std::size_t end) {
-                               fill_rows(begin, end, all.data() + begin * of_each);
+                               fill_rows(begin, end, all.data() + begin * row_size);
                              });
       }
     });
@@ -60,9 +60,9 @@ class MeshFile {
   // Defines a variable of doubles with fill(row, values).
   template <typename Fill>
   void numbers(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
-               std::size_t of_each, Fill fill) {
+               std::size_t row_size, Fill fill) {
     add<double>(variable(name, io::NetcdfType::float64, std::move(dimensions), texts), rows,
-                of_each, fill);
+                row_size, fill);
   }
   // Defines a variable of doubles with one value a row, value(row).
   template <typename Value>
@@ -74,9 +74,9 @@ class MeshFile {
   // Defines a variable of 32-bit integers with fill(row, values).
   template <typename Fill>
   void indices(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
-               std::size_t of_each, Fill fill) {
+               std::size_t row_size, Fill fill) {
     add<std::int32_t>(variable(name, io::NetcdfType::int32, std::move(dimensions), texts), rows,
-                      of_each, fill);
+                      row_size, fill);
   }
   // Defines a variable of 32-bit integers with one value a row, value(row).
   template <typename Value>
@@ -118,7 +118,7 @@ class MeshFile {
   using Values = decltype(mesh::FileVariable::values);
   static constexpr std::size_t rows_per_piece = 4096;
 
-  const mesh::MeshArrays& arrays_;
+  const mesh::VoronoiMesh& arrays_;
   const Execution& execution_;
   io::NetcdfWriter out_;
   // Each writes the values of a variable, or keeps them if there is a place for them.
@@ -135,7 +135,7 @@ double latitude_deg_of(const Point& p);
 // as one.
 class CellCorners {
  public:
-  explicit CellCorners(const mesh::MeshArrays& arrays);
+  explicit CellCorners(const mesh::VoronoiMesh& arrays);
 
   // Calls visit(vertex) for the corners of a cell, counterclockwise.
   template <typename Visit>
@@ -162,7 +162,7 @@ class CellCorners {
     return joined_.empty() ? vertex : joined_[vertex];
   }
 
-  const mesh::MeshArrays& arrays_;
+  const mesh::VoronoiMesh& arrays_;
   std::vector<Index> joined_;  // by vertex: the corner; empty if every vertex is a corner
 };
 
@@ -170,7 +170,7 @@ constexpr MeshFile::Texts texts_of_degrees = {{"units", "degrees"}};
 constexpr MeshFile::Texts texts_of_areas = {{"units", "radians^2"}};
 
 // Returns the area of a cell on the unit sphere.
-inline double area_at_one(const mesh::MeshArrays& arrays, std::size_t cell) {
+inline double area_at_one(const mesh::VoronoiMesh& arrays, std::size_t cell) {
   return arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
 }
 
@@ -188,7 +188,7 @@ struct CellBlocks {
   std::vector<std::size_t> corners;
 };
 // Returns the cells in blocks.
-CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
+CellBlocks blocks_of(const mesh::VoronoiMesh& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
 }  // namespace rondel::formats

@@ -38,9 +38,9 @@ using io::NetcdfReader;
 
 // The largest distance of two places that count as one, in radians. Longitudes in single precision
 // are off by up to 3e-7.
-constexpr double most_apart_of_mpas = 1e-5;
+constexpr double max_apart_of_mpas = 1e-5;
 
-using mesh::MeshArrays;
+using mesh::VoronoiMesh;
 
 // The sizes and dimensions of the variables.
 struct MpasSizes {
@@ -88,7 +88,7 @@ void define_values(MeshFile& file, const char* name, std::size_t dimension, Mesh
 // Defines rows of fixed length from an array in compressed rows.
 void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
                  const std::vector<Index>& ring) {
-  const MeshArrays& arrays = file.arrays();
+  const VoronoiMesh& arrays = file.arrays();
   file.indices(name, {sizes.cells, sizes.max_edges}, {}, arrays.num_cells(), sizes.of_cell,
                [&arrays, &ring](std::size_t i, std::int32_t* out) {
                  for (std::uint64_t at = arrays.edges_on_cell.offsets[i];
@@ -110,7 +110,7 @@ void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dime
 
 // Defines the variables of cells.
 void define_cells(MeshFile& file, const MpasSizes& sizes) {
-  const MeshArrays& arrays = file.arrays();
+  const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
   define_places(file, "Cell", sizes.cells, arrays.cell_points);
   file.indices("nEdgesOnCell", sizes.cells, {}, size, [&arrays](std::size_t i) {
@@ -146,7 +146,7 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
 
 // Defines the variables of edges.
 void define_edges(MeshFile& file, const MpasSizes& sizes) {
-  const MeshArrays& arrays = file.arrays();
+  const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_edges();
   define_places(file, "Edge", sizes.edges, arrays.edge_points);
   define_rows(file, "cellsOnEdge", {sizes.edges, sizes.two}, arrays.cells_on_edge);
@@ -176,7 +176,7 @@ void define_edges(MeshFile& file, const MpasSizes& sizes) {
 using Corners = std::array<Point, 3>;
 
 // Returns the sites of the triangle of a vertex.
-Corners corners_of(const MeshArrays& arrays, std::size_t v) {
+Corners corners_of(const VoronoiMesh& arrays, std::size_t v) {
   Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = arrays.cell_points[arrays.cells_on_vertex[v][i]];
@@ -223,7 +223,7 @@ bool is_obtuse(const Corners& corners) {
 
 // Defines the variables of vertices.
 void define_vertices(MeshFile& file, const MpasSizes& sizes) {
-  const MeshArrays& arrays = file.arrays();
+  const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();
   define_places(file, "Vertex", sizes.vertices, arrays.vertex_points);
   define_rows(file, "cellsOnVertex", {sizes.vertices, sizes.degree}, arrays.cells_on_vertex);
@@ -287,7 +287,7 @@ void require_one_place(const io::NetcdfReader& file, const std::string& kind, Pl
     const double dx = xyz[0][i] / length - unit.x;
     const double dy = xyz[1][i] / length - unit.y;
     const double dz = xyz[2][i] / length - unit.z;
-    if (!(dx * dx + dy * dy + dz * dz > most_apart_of_mpas * most_apart_of_mpas)) continue;
+    if (!(dx * dx + dy * dy + dz * dz > max_apart_of_mpas * max_apart_of_mpas)) continue;
     throw io::BadValue("value " + std::to_string(i) + " of " + io::in_quotes(lon->name) + " and " +
                        io::in_quotes(lat->name) + ", " + system::shortest_text(place.lon_deg) +
                        " and " + system::shortest_text(place.lat_deg) +
@@ -322,7 +322,7 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
 // The order of the variables is that in which they are written. The file has no times: `Time` is
 // its record dimension.
 void define_mpas(MeshFile& file) {
-  const MeshArrays& arrays = file.arrays();
+  const VoronoiMesh& arrays = file.arrays();
   MpasSizes sizes{};
   sizes.of_cell = arrays.max_edges();
   sizes.of_edge = 2 * sizes.of_cell;
@@ -355,7 +355,7 @@ void define_mpas(MeshFile& file) {
 
 namespace rondel::mesh {
 
-MpasContent mpas_content(const MeshArrays& arrays, const Execution& execution) {
+MpasContent mpas_content(const VoronoiMesh& arrays, const Execution& execution) {
   constexpr std::array<std::string_view, 15> left_out = {
       "indexToCellID",        "indexToEdgeID",   "indexToVertexID", "cellQuality",
       "gridSpacing",          "nEdgesOnEdge",    "edgesOnEdge",     "weightsOnEdge",

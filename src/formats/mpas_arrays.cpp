@@ -3,7 +3,7 @@
 
 // Reads an MPAS file as arrays. Only the lists from which the others follow are read: cells and
 // vertices of edges, edges around cells, cells around vertices. Programs differ in where a list
-// begins and in the order of the two vertices of an edge; the result has the order that MeshArrays
+// begins and in the order of the two vertices of an edge; the result has the order that VoronoiMesh
 // documents.
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 #include "meshing/consistency.h"
 #include "meshing/face_measures.h"
 #include "rondel/error.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "system/job.h"
 #include "system/row_assembly.h"
 
@@ -40,7 +40,7 @@ class MpasReader {
   MpasReader(const io::NetcdfReader& file, const Execution& execution)
       : file_(file), threads_(execution.threads), execution_(execution) {}
 
-  MeshArrays read() {
+  VoronoiMesh read() {
     read_sphere();
     read_points({"xCell", "yCell", "zCell"}, arrays_.cell_points);
     read_points({"xEdge", "yEdge", "zEdge"}, arrays_.edge_points);
@@ -155,7 +155,7 @@ class MpasReader {
     });
   }
 
-  // Reads the density; a constant one is left out, as MeshArrays documents.
+  // Reads the density; a constant one is left out, as VoronoiMesh documents.
   void read_density() {
     const Variable* const variable = file_.find("meshDensity");
     if (variable == nullptr) return;
@@ -191,15 +191,15 @@ class MpasReader {
   template <class Row>
   void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
                  bool may_lack) const {
-    constexpr std::size_t of_each = std::tuple_size_v<Row>;
-    const Variable& variable = require(name, static_cast<std::uint64_t>(size) * of_each);
+    constexpr std::size_t row_size = std::tuple_size_v<Row>;
+    const Variable& variable = require(name, static_cast<std::uint64_t>(size) * row_size);
     rows.resize(size);
     in_pieces(size, [&](std::size_t first, std::size_t last) {
-      std::vector<std::int64_t> numbers((last - first) * of_each);
-      file_.read_integers(variable, first * of_each, numbers);
+      std::vector<std::int64_t> numbers((last - first) * row_size);
+      file_.read_integers(variable, first * row_size, numbers);
       for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const std::size_t row = first + k / of_each;
-        rows[row][k % of_each] =
+        const std::size_t row = first + k / row_size;
+        rows[row][k % row_size] =
             may_lack && is_none(numbers[k], end) ? no_index : index_of(name, row, numbers[k], end);
       }
     });
@@ -422,12 +422,12 @@ class MpasReader {
   unsigned threads_;
   const Execution& execution_;
   std::uint64_t num_border_edges_ = 0;
-  MeshArrays arrays_;
+  VoronoiMesh arrays_;
 };
 
 }  // namespace
 
-MeshArrays read_mpas(const FileName& file, const Execution& execution) {
+VoronoiMesh read_mpas(const FileName& file, const Execution& execution) {
   const system::Call call(execution);
   io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(),
@@ -442,7 +442,7 @@ bool has_mpas_arrays(const io::NetcdfReader& file) {
   return file.find("cellsOnEdge") != nullptr && file.find("verticesOnEdge") != nullptr;
 }
 
-mesh::MeshArrays read_mpas_arrays(const io::NetcdfReader& file, const Execution& execution) {
+mesh::VoronoiMesh read_mpas_arrays(const io::NetcdfReader& file, const Execution& execution) {
   return mesh::MpasReader(file, execution).read();
 }
 

@@ -38,12 +38,12 @@ class ConnectivityReader {
   }
 
   void read() {
-    if (!is_ragged()) require_values(of_.variable, of_.num_cells * of_.of_each);
+    if (!is_ragged()) require_values(of_.variable, of_.num_cells * of_.corners_per_cell);
     std::uint64_t begin = 0;  // where the row of the cell begins
     for (std::uint64_t i = 0; i < of_.num_cells; ++i) {
       const Row row = {i, begin, length_of(i, begin)};
       take_row(row);
-      begin += is_ragged() ? row.length : of_.of_each;
+      begin += is_ragged() ? row.length : of_.corners_per_cell;
     }
     if (is_ragged()) require_values(of_.variable, begin);
     tell();
@@ -56,15 +56,15 @@ class ConnectivityReader {
     std::uint64_t length;  // number of entries in use
   };
 
-  [[nodiscard]] bool is_ragged() const { return of_.of_each == 0; }
+  [[nodiscard]] bool is_ragged() const { return of_.corners_per_cell == 0; }
   [[nodiscard]] std::uint64_t place_of(const Row& row, std::uint64_t k) const {
     return of_.is_transposed ? k * of_.num_cells + row.cell : row.begin + k;
   }
   [[nodiscard]] std::string name() const { return io::in_quotes(of_.variable.name); }
 
   [[nodiscard]] std::uint64_t length_of(std::uint64_t cell, std::uint64_t begin) const {
-    if (counts_.empty()) return of_.of_each;
-    const std::uint64_t most = is_ragged() ? entries_.size() - begin : of_.of_each;
+    if (counts_.empty()) return of_.corners_per_cell;
+    const std::uint64_t most = is_ragged() ? entries_.size() - begin : of_.corners_per_cell;
     const double given = counts_[cell];
     if (given >= 0 && given <= static_cast<double>(most) && given == std::floor(given)) {
       return static_cast<std::uint64_t>(given);
@@ -121,7 +121,7 @@ class ConnectivityReader {
   // fill up rows with numbers that are no nodes, or by repeating corners.
   void find_further_corners(const Row& row, std::size_t before) {
     const std::span<const Index> corners = std::span(mesh_.cells.corners).subspan(before);
-    for (std::uint64_t k = row.length; k < of_.of_each; ++k) {
+    for (std::uint64_t k = row.length; k < of_.corners_per_cell; ++k) {
       const std::uint64_t at = place_of(row, k);
       if (!is_node(at) || std::ranges::count(corners, node_at(at)) != 0) continue;
       if (num_longer_++ == 0) first_longer_ = row.cell;
@@ -253,19 +253,20 @@ bool has_rows(std::span<const std::uint64_t> shape) {
   return std::ranges::count_if(shape, [](std::uint64_t length) { return length > 1; }) > 1;
 }
 
-void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh) {
-  const std::size_t num_cells = mesh.nodes.size() / of_each;
+void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshContent& mesh) {
+  const std::size_t num_cells = mesh.nodes.size() / corners_per_cell;
   CellRings& cells = mesh.cells;
   cells.corners.reserve(mesh.nodes.size());
   cells.rings.reserve(num_cells + 1);
   cells.cells.reserve(num_cells + 1);
   for (std::size_t i = 0; i < num_cells; ++i) {
-    std::size_t count = of_each;
-    while (may_be_fewer && count > 3 && is_missing_place(mesh.nodes[i * of_each + count - 1])) {
+    std::size_t count = corners_per_cell;
+    while (may_be_fewer && count > 3 &&
+           is_missing_place(mesh.nodes[i * corners_per_cell + count - 1])) {
       --count;
     }
     for (std::size_t k = 0; k < count; ++k) {
-      cells.corners.push_back(static_cast<Index>(i * of_each + k));
+      cells.corners.push_back(static_cast<Index>(i * corners_per_cell + k));
     }
     cells.end_ring();
     cells.end_cell();

@@ -21,7 +21,7 @@
 #include "io/netcdf_reader.h"
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/types.h"
 
 namespace rondel::formats {
@@ -90,15 +90,15 @@ bool is_nearly_place(const LonLat& place);
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);
 // True if more than one of the lengths is above 1: the cells of (1, n) are a list.
 bool has_rows(std::span<const std::uint64_t> shape);
-// Makes cells that have corners of their own: the nodes, `of_each` for each cell. If
+// Makes cells that have corners of their own: the nodes, `corners_per_cell` for each cell. If
 // `may_be_fewer`, missing nodes at the end of a cell are no corners.
-void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh);
-// The nodes that are corners of cells. A row has `of_each` entries, of which the first are in use
-// if there are counts. If `of_each` is 0, the rows have different lengths, which are the counts.
+void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshContent& mesh);
+// The nodes that are corners of cells. A row has `corners_per_cell` entries, of which the first are in use
+// if there are counts. If `corners_per_cell` is 0, the rows have different lengths, which are the counts.
 struct Connectivity {
   const MeshVariable& variable;
   std::uint64_t num_cells;
-  std::uint64_t of_each;
+  std::uint64_t corners_per_cell;
   bool is_transposed;  // true if the cells are the last dimension
   double first;        // the number that the file gives to the first node
   // The entry that begins a further ring; not in use if it is `first` or more.

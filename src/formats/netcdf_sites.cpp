@@ -15,7 +15,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "system/job.h"
 
 namespace rondel {

@@ -17,11 +17,11 @@ namespace rondel::formats {
 namespace {
 
 // Distances are chords of the unit sphere; that of 60 degrees is 1.
-constexpr double most_radius = 1;
+constexpr double max_radius = 1;
 // A center on the circle may be outside by rounding, in single precision 1e-7 of the sphere.
 constexpr double slack_of_circle = 1.05;
 constexpr double rounding_of_center = 1e-6;
-constexpr double most_radii = 3;
+constexpr double max_radii = 3;
 // How far the distances from a circumcenter to the corners may differ, in radii.
 constexpr double slack_of_circumcenter = 0.01;
 
@@ -58,7 +58,7 @@ class CenterCheck {
     for (const std::size_t i : outside) {
       const CornerCircle circle = circle_of(i);
       const double away = norm(centers_[i] - circle.middle);
-      if (away > most_radii * std::max(circle.radius, *median)) {
+      if (away > max_radii * std::max(circle.radius, *median)) {
         refuse(i, outside.size(), radii.size());
       }
     }
@@ -85,7 +85,7 @@ class CenterCheck {
     for_corners(cell, [&](const Point& corner) {
       circle.radius = std::max(circle.radius, norm(corner - circle.middle));
     });
-    return circle.radius < most_radius ? circle : CornerCircle{};
+    return circle.radius < max_radius ? circle : CornerCircle{};
   }
 
   [[nodiscard]] bool is_circumcenter(std::size_t cell, double radius) const {

@@ -29,16 +29,16 @@
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/query.h"
+#include "rondel/read_cells.h"
 #include "system/job.h"
 
 namespace rondel::mesh {
 namespace {
 
 // True if a cell has a corner within that distance.
-bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
+bool has_corner(const VoronoiMesh& arrays, std::size_t cell, const Point& corner,
                 double square_distance) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
@@ -69,7 +69,7 @@ bool has_corner_in_file(const CellRings& cells, std::size_t cell, const Point& c
 
 // Throws BadValue for the first cell of the file whose corners are not those of the mesh, or lack
 // one of them.
-void require_cells(const MeshArrays& arrays, const CellTable& table) {
+void require_cells(const VoronoiMesh& arrays, const CellTable& table) {
   const CellRings& cells = table.cells;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     const double distance =
@@ -88,9 +88,9 @@ void require_cells(const MeshArrays& arrays, const CellTable& table) {
 }
 
 // Returns the Voronoi mesh of the centers, without a border.
-MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation,
-                      const MeshOptions& options, const Execution& execution) {
-  MeshArrays result = arrays(triangulation, options, execution);
+VoronoiMesh whole_mesh(const CellTable& table, const Triangulation& triangulation,
+                       const MeshOptions& options, const Execution& execution) {
+  VoronoiMesh result = make_mesh(triangulation, options, execution);
   require_cells(result, table);
   return result;
 }
@@ -98,9 +98,9 @@ MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation
 // Returns the mesh of cells with a border, or nothing if there is no border. A border may be found
 // only because cells state shared corners differently, by more than is taken for equal; then they
 // are a whole mesh all the same.
-std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulation& triangulation,
-                                       std::span<const Point> sites, const MeshOptions& options,
-                                       const Execution& execution) {
+std::optional<VoronoiMesh> part_of_mesh(const CellTable& table, const Triangulation& triangulation,
+                                        std::span<const Point> sites, const MeshOptions& options,
+                                        const Execution& execution) {
   const meshing::RingSides sides(table.cells);
   if (!sides.has_border()) return std::nullopt;
   if (!triangulation.duplicates().empty()) {
@@ -171,8 +171,8 @@ void leave_out_masked(CellTable& table) {
 }
 
 // Returns the mesh of cells with centers: with a border, or of the whole sphere.
-MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
-                           const Execution& execution) {
+VoronoiMesh mesh_of_centers(const CellTable& table, const MeshOptions& options,
+                            const Execution& execution) {
   const CellFacts& facts = table.facts;
   if (table.grid) throw FileError(facts.name + ": a grid of longitudes and latitudes is no mesh");
   if (facts.centers.size() != table.num_cells()) {
@@ -184,7 +184,7 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
       require_rings(table);
       const std::vector<Point> sites = unit_vectors(facts.centers);
       const Triangulation triangulation = delaunay(sites, {}, execution);
-      std::optional<MeshArrays> part =
+      std::optional<VoronoiMesh> part =
           part_of_mesh(table, triangulation, sites, options, execution);
       return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
     });
@@ -195,8 +195,8 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
 
 }  // namespace
 
-MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
-                     std::vector<std::string>* remarks) {
+VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
+                      std::vector<std::string>* remarks) {
   const system::Call call(execution);
   CellTable table;
   std::string remark;
@@ -205,7 +205,7 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
     if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
       io::throw_unknown_ending(file, "meshes are read from netCDF:", io::netcdf_endings);
     }
-    std::optional<MeshArrays> arrays;
+    std::optional<VoronoiMesh> arrays;
     io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
       remark = remark_on_fields(reader);

@@ -22,7 +22,7 @@ using io::NetcdfReader;
 // Defines the corners of each cell; the last one is repeated to the end of the row.
 void define_corners(MeshFile& file, const char* name, std::vector<std::size_t> dimensions,
                     const CellCorners& corners, double (*coordinate)(const Point&)) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t room = arrays.max_edges();
   file.numbers(name, std::move(dimensions), texts_of_degrees, arrays.num_cells(), room,
                [&arrays, &corners, coordinate, room](std::size_t cell, double* out) {
@@ -54,18 +54,19 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
                    " cells");
   }
   take_nodes(file, {lon, lat}, centers, UsualUnits::degrees, mesh);
-  const std::uint64_t of_each = lon->num_values / num_cells;
+  const std::uint64_t corners_per_cell = lon->num_values / num_cells;
   if (is_transposed) {
     std::vector<LonLat> nodes;
     for (std::uint64_t i = 0; i < num_cells; ++i) {
-      for (std::uint64_t k = 0; k < of_each; ++k) nodes.push_back(mesh.nodes[k * num_cells + i]);
+      for (std::uint64_t k = 0; k < corners_per_cell; ++k)
+        nodes.push_back(mesh.nodes[k * num_cells + i]);
     }
     mesh.nodes = std::move(nodes);
   }
   if (const MeshVariable* const dims = file.find("grid_dims")) {
     mesh.shape = io::shape_of_grid(file, *dims, num_cells);
   }
-  end_cells_of_nodes(of_each, !has_rows(mesh.shape), mesh);
+  end_cells_of_nodes(corners_per_cell, !has_rows(mesh.shape), mesh);
   take_mask(file, "grid_imask", num_cells, MaskedBy::zero, mesh);
   take_centers(file, centers, {lon, lat}, UsualUnits::degrees, mesh);
   return mesh;
@@ -73,7 +74,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
 
 // SCRIP has a row of corners for each cell, so that a corner is stored once for each of its cells.
 void define_scrip(MeshFile& file, const CellCorners& corners) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
   const std::size_t cells = file.dimension("grid_size", size);
   const std::size_t max_corners = file.dimension("grid_corners", arrays.max_edges());

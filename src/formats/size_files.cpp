@@ -20,9 +20,9 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
-#include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
+#include "rondel/read_cells.h"
 #include "system/message_text.h"
 
 namespace rondel::mesh {
@@ -50,7 +50,7 @@ std::string text_of_value(const FileName& file, const std::string& column, const
 }
 
 // Bounds far beyond those of any mesh, within which roots of quotients are finite.
-constexpr double least_density = 1e-100;
+constexpr double min_density = 1e-100;
 constexpr double largest_density = 1e100;
 
 // Returns the places of the cells of a mesh: the centers that its file has, or else the directions
@@ -273,7 +273,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   drop_missing(file, densities, remarks);
   for (std::size_t i = 0; i < densities.values.size(); ++i) {
     const double value = densities.values[i];
-    if (value >= least_density && value <= largest_density) continue;
+    if (value >= min_density && value <= largest_density) continue;
     throw FileError(text_of_value(file, name, densities, i, "density") +
                     " is not positive, or of no size that a mesh can have");
   }

@@ -121,7 +121,7 @@ io::NetcdfVariable connectivity(const char* name, const char* role,
 template <class Entry>
 void define_face_list(MeshFile& file, io::NetcdfVariable variable, const CellCorners& corners,
                       std::size_t room, Entry entry) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   file.add<std::int32_t>(std::move(variable), arrays.num_cells(), room,
                          [&arrays, &corners, room, entry](std::size_t cell, std::int32_t* out) {
                            std::fill_n(out, room, ugrid_none);
@@ -129,12 +129,12 @@ void define_face_list(MeshFile& file, io::NetcdfVariable variable, const CellCor
                          });
 }
 
-void face_nodes(const mesh::MeshArrays& /*arrays*/, const CellCorners& corners, std::size_t cell,
+void face_nodes(const mesh::VoronoiMesh& /*arrays*/, const CellCorners& corners, std::size_t cell,
                 std::int32_t* out) {
   corners.visit(cell, [&](Index corner) { *out++ = static_cast<std::int32_t>(corner); });
 }
 
-void face_edges(const mesh::MeshArrays& arrays, const CellCorners& /*corners*/, std::size_t cell,
+void face_edges(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
@@ -143,7 +143,7 @@ void face_edges(const mesh::MeshArrays& arrays, const CellCorners& /*corners*/, 
   }
 }
 
-void face_faces(const mesh::MeshArrays& arrays, const CellCorners& /*corners*/, std::size_t cell,
+void face_faces(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
@@ -183,15 +183,16 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
                              file.dimensions()[faces.dimensions[1]].name == dimension &&
                              file.dimensions()[faces.dimensions[0]].name != dimension;
   const std::uint64_t num_cells = faces.shape[is_transposed ? 1 : 0];
-  const std::uint64_t of_each = faces.shape[is_transposed ? 0 : 1];
+  const std::uint64_t corners_per_cell = faces.shape[is_transposed ? 0 : 1];
   const double first = number_or(faces, "start_index", 0);
-  take_connectivity(file, {faces, num_cells, of_each, is_transposed, first, first}, {}, mesh);
+  take_connectivity(file, {faces, num_cells, corners_per_cell, is_transposed, first, first}, {},
+                    mesh);
   take_centers(file, centers, nodes, UsualUnits::degrees, mesh);
   return mesh;
 }
 
 void define_ugrid(MeshFile& file, const CellCorners& corners) {
-  const mesh::MeshArrays& arrays = file.arrays();
+  const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t room = arrays.max_edges();
   const std::size_t nodes = file.dimension("n_node", arrays.num_vertices());
   const std::size_t edges = file.dimension("n_edge", arrays.num_edges());

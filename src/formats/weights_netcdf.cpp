@@ -46,9 +46,9 @@ std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
 // Writes the texts of cells as one table in an attribute, since the classic formats have no
 // strings.
 void add_table(io::NetcdfWriter& out, const char* name, const WeightSide& side) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 28U;  // readers load an attribute at once
+  constexpr std::size_t max_bytes = std::size_t{1} << 28U;  // readers load an attribute at once
   const std::string table = io::csv_of(side.columns);
-  if (!table.empty() && table.size() <= most_bytes) out.add_attribute(name, table);
+  if (!table.empty() && table.size() <= max_bytes) out.add_attribute(name, table);
 }
 
 void read_table(const io::NetcdfReader& file, const char* name, std::size_t size,
@@ -154,12 +154,12 @@ void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& s
   }
   const std::span<const LonLat> corners = written_corners(names, side);
   if (!corners.empty() || names.needs_corners) {
-    const std::size_t of_each =
+    const std::size_t corners_per_cell =
         out.add_dimension(names.corners, corners.empty() ? 1 : corners.size() / size);
     for (const std::string& name : {names.corner_lon, names.corner_lat}) {
       if (corners.empty()) break;
       out.add_variable(
-          variable(name, NetcdfType::float64, {cells, of_each}, {{"units", "degrees"}}));
+          variable(name, NetcdfType::float64, {cells, corners_per_cell}, {{"units", "degrees"}}));
     }
   }
   add(names.mask, NetcdfType::int32, "unitless");
@@ -261,7 +261,7 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
     if (dimension.name != name) continue;
     // Every format has a value for each point, so a larger size is wrong, and allocating it would
     // exhaust memory.
-    if (dimension.size > file.most_values()) {
+    if (dimension.size > file.max_values()) {
       throw io::BadValue("dimension " + io::in_quotes(name) + " of " +
                          std::to_string(dimension.size) + " in a file of " +
                          std::to_string(file.num_bytes()) + " bytes");

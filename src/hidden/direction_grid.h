@@ -44,7 +44,7 @@ class DirectionGrid {
     const double along = is_z ? p.z : (is_y ? p.y : p.x);
     const double next = is_z ? p.x : (is_y ? p.z : p.y);
     const double last = is_z ? p.y : (is_y ? p.x : p.z);
-    const double length = std::abs(along) > least_length ? std::abs(along) : 0;
+    const double length = std::abs(along) > min_length ? std::abs(along) : 0;
     const double factor = half_ / length;
     const unsigned axis = is_z ? 2 : (is_y ? 1 : 0);
     return {2 * axis + (along < 0 ? 1 : 0), length, next * factor + half_, last * factor + half_};
@@ -70,7 +70,7 @@ class DirectionGrid {
   }
 
  private:
-  static constexpr double least_length = 1e-290;
+  static constexpr double min_length = 1e-290;
 
   unsigned cells_;
   double half_;

@@ -33,7 +33,7 @@ FaceWalk::Cone FaceWalk::make_cone(Index f) const {
   const auto unit = [this](Index site) -> Vector {
     const Vector v = frame_.to(sites_[site]);
     const double squared = dot(v, v);
-    if (!(squared > least_length * least_length)) return {};
+    if (!(squared > min_length * min_length)) return {};
     const double length = std::sqrt(squared);
     return {v.x / length, v.y / length, v.z / length};
   };
@@ -45,8 +45,8 @@ FaceWalk::Cone FaceWalk::make_cone(Index f) const {
 }
 
 Index FaceWalk::walk_by_guess(Index f, const Vector& v) const {
-  constexpr int most_steps = 32;
-  for (int step = 0; step < most_steps; ++step) {
+  constexpr int max_steps = 32;
+  for (int step = 0; step < max_steps; ++step) {
     const Cone c = cones_.empty() ? make_cone(f) : cones_[f];
     std::size_t i = 0;
     while (i < 3 && !(dot(c.normal[i], v) < 0)) ++i;

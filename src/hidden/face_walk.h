@@ -51,9 +51,9 @@ class FaceWalk {
   // its longest coordinate.
   template <bool uses_cones>
   [[nodiscard]] Result walk(Index f, const Point& p, const Vector& v, double length,
-                            Index most_steps) const {
+                            Index max_steps) const {
     const double bound =
-        length > least_length ? cone_bound * length : std::numeric_limits<double>::infinity();
+        length > min_length ? cone_bound * length : std::numeric_limits<double>::infinity();
     for (Index steps = 0;; ++steps) {
       std::size_t i = uses_cones ? edge_by_cone(cones_[f], v, bound) : unsure;
       if (i == inside) return {f, f};
@@ -68,7 +68,7 @@ class FaceWalk {
       }
       const Index next = arrays_.neighbors[f][i];
       if (is_ghost(next)) return {f, f};
-      if (steps == most_steps) return {f, no_index};
+      if (steps == max_steps) return {f, no_index};
       f = next;
     }
   }
@@ -92,7 +92,7 @@ class FaceWalk {
   // u |p|, rounding 3u * 1.155 |p|; |p| is at most sqrt(3) times its longest coordinate: 31u.
   static constexpr double cone_bound = 40 * predicates::unit_roundoff;
   // Below this length the absolute error of a frame's coordinates would count.
-  static constexpr double least_length = 1e-90;
+  static constexpr double min_length = 1e-90;
 
   [[nodiscard]] Cone make_cone(Index f) const;
 

@@ -19,10 +19,10 @@ namespace {
 
 using predicates::Vector;
 
-// docs/theory/hull.md: enough as long as the sphere of radius `least_inradius` around the
+// docs/theory/hull.md: enough as long as the sphere of radius `min_inradius` around the
 // origin is inside the hull.
 constexpr double slack = 0x1p-25;
-constexpr double least_inradius = 0x1p-22;
+constexpr double min_inradius = 0x1p-22;
 constexpr double rounding = 64 * predicates::unit_roundoff;
 
 double size_of(const Vector& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
@@ -158,7 +158,7 @@ std::vector<Index> rest_without_inner_sites(std::span<const Point> sites, const 
                          [&](const Point& p) { return frame.to(p); });
   std::vector<Index> rest;
   const double radius = inradius(corners);
-  if (!(radius > least_inradius)) {
+  if (!(radius > min_inradius)) {
     rest.resize(sites.size());
     std::iota(rest.begin(), rest.end(), Index{0});
     return rest;

@@ -27,7 +27,7 @@ namespace rondel {
 namespace {
 
 constexpr double turn_deg = 360;
-constexpr std::size_t most_places = no_index / 2;  // signed 32-bit integers count them, too
+constexpr std::size_t max_places = no_index / 2;  // signed 32-bit integers count them, too
 // A column that is a turn after the first one up to this difference repeats it, as axes in single
 // precision do.
 constexpr double repeated_deg = 1e-4;
@@ -273,7 +273,7 @@ Weights bilinear_weights(const LonLatAxes& grid, std::span<const LonLat> targets
   const system::ArithmeticScope arithmetic;
   const LonLatAxes axes = {.lon_deg = checked_axis(grid.lon_deg, "lon", true),
                            .lat_deg = checked_axis(grid.lat_deg, "lat", false)};
-  if (axes.lat_deg.size() > most_places / axes.lon_deg.size()) {
+  if (axes.lat_deg.size() > max_places / axes.lon_deg.size()) {
     throw InvalidInput("a grid of " + std::to_string(axes.lon_deg.size()) + " x " +
                        std::to_string(axes.lat_deg.size()) + " places is too large");
   }

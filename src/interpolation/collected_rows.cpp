@@ -11,8 +11,9 @@
 
 namespace rondel::interpolation {
 
-CollectedRows::CollectedRows(const Ground& ground, SharedPlace shared) : ground_(ground) {
-  if (shared == SharedPlace::mean) shared_ = shared_places(ground);
+CollectedRows::CollectedRows(const PreparedTriangulation& prepared, SharedPlace shared)
+    : prepared_(prepared) {
+  if (shared == SharedPlace::mean) shared_ = shared_places(prepared);
 }
 
 void CollectedRows::append(Index target, const Row& row, RowList& list) const {
@@ -20,7 +21,7 @@ void CollectedRows::append(Index target, const Row& row, RowList& list) const {
   for (const auto& [vertex, weight] : row) {
     const auto place = std::ranges::lower_bound(shared_, vertex, {}, &SharedSites::vertex);
     if (place == shared_.end() || place->vertex != vertex) {
-      list.columns.push_back(ground_.name(vertex));
+      list.columns.push_back(prepared_.name(vertex));
       list.values.push_back(weight);
       continue;
     }
@@ -40,7 +41,7 @@ void CollectedRows::add(RowList list) {
 
 Weights CollectedRows::joined(std::size_t num_targets, unsigned threads) {
   Weights weights;
-  weights.num_columns = ground_.num_sites();
+  weights.num_columns = prepared_.num_sites();
   weights.offsets = system::join_rows(
       threads, num_targets, std::move(lists_),
       [](std::size_t /*list*/, const RowList& list, std::size_t k) { return list.targets[k]; },

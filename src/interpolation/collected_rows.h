@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "interpolation/ground.h"
-#include "interpolation/place_values.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
+#include "interpolation/vertex_fields.h"
 #include "rondel/weights.h"
 #include "system/mutex.h"
 
@@ -33,7 +33,7 @@ class CollectedRows {
  public:
   // The columns of the rows are sites: the lowest site of each vertex, or with SharedPlace::mean
   // all sites of its place, with equal parts of the weight.
-  CollectedRows(const Ground& ground, SharedPlace shared);
+  CollectedRows(const PreparedTriangulation& prepared, SharedPlace shared);
 
   // Appends the row of a target to a list, with sites instead of vertices.
   void append(Index target, const Row& row, RowList& list) const;
@@ -44,7 +44,7 @@ class CollectedRows {
   [[nodiscard]] Weights joined(std::size_t num_targets, unsigned threads);
 
  private:
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   std::vector<SharedSites> shared_;
   system::Mutex mutex_;
   std::vector<RowList> lists_;

@@ -17,17 +17,17 @@ constexpr std::size_t faces_at_a_time = 8192;
 
 // Returns for each site that shares its place with others the site that represents them: the one
 // with the smallest coordinates, so that the order of the sites does not matter.
-std::unordered_map<Index, Index> find_speakers(const Triangulation& triangulation) {
+std::unordered_map<Index, Index> find_representatives(const Triangulation& triangulation) {
   const Sites& sites = triangulation.sites();
   const auto key = [&](Index site) {
     return std::tuple(sites[site].x, sites[site].y, sites[site].z);
   };
-  std::unordered_map<Index, Index> speakers;
+  std::unordered_map<Index, Index> representatives;
   for (const auto& [site, representative] : triangulation.duplicates()) {
-    Index& speaker = speakers.try_emplace(representative, representative).first->second;
-    if (key(site) < key(speaker)) speaker = site;
+    Index& first_site = representatives.try_emplace(representative, representative).first->second;
+    if (key(site) < key(first_site)) first_site = site;
   }
-  return speakers;
+  return representatives;
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ ContourTracer::ContourTracer(const Triangulation& triangulation, std::span<const
       levels_(levels),
       kind_(kind),
       faces_(triangulation, values),
-      speakers_(find_speakers(triangulation)),
+      representatives_(find_representatives(triangulation)),
       region_of_(values.size()),
       content_(faces_.size()),
       lowest_(faces_.size()),
@@ -264,8 +264,9 @@ TracedLines ContourTracer::lines(std::size_t region) {
 }
 
 Point ContourTracer::direction(Index site) const {
-  const auto speaker = speakers_.empty() ? speakers_.end() : speakers_.find(site);
-  const Index place = speaker == speakers_.end() ? site : speaker->second;
+  const auto first_site =
+      representatives_.empty() ? representatives_.end() : representatives_.find(site);
+  const Index place = first_site == representatives_.end() ? site : first_site->second;
   return normalized(scaled(triangulation_.sites()[place] - triangulation_.sphere().center));
 }
 

@@ -115,7 +115,7 @@ class ContourTracer {
   RegionKind kind_;
   ValuedFaces faces_;
   std::unordered_map<Index, Index>
-      speakers_;  // site of a vertex -> the site that represents all sites of its place
+      representatives_;  // site of a vertex -> the site that represents all sites of its place
   std::vector<std::uint32_t> region_of_;    // by site: the number of levels up to its value
   std::vector<Content> content_;            // by face
   std::vector<std::uint32_t> lowest_;       // by face: its lowest region

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <span>
 
-#include "interpolation/unity.h"
+#include "interpolation/normalize_weights.h"
 #include "topology/mesh.h"
 
 namespace rondel::interpolation {
@@ -17,13 +17,13 @@ namespace {
 
 // S of 1 on the unit sphere is at least 0.48 in faces of evenly spread sites, from 40 sites on, and
 // near 1 in small faces. In faces below this bound the row is linear.
-constexpr double least_image_of_one = 0.25;
+constexpr double min_image_of_one = 0.25;
 
 }  // namespace
 
-bool CubicKernel::find_corners(std::size_t lane, const TargetPlace& place) {
+bool CubicKernel::find_corners(std::size_t lane, const LocatedTarget& place) {
   const Index f = place.location.face;
-  const topology::Mesh& mesh = ground_.mesh();
+  const topology::Mesh& mesh = prepared_.mesh();
   const topology::Face& face = mesh[f];
   std::array<Index, 6>& vertices = lanes_[lane].vertices;
   const auto lowest =
@@ -33,15 +33,15 @@ bool CubicKernel::find_corners(std::size_t lane, const TargetPlace& place) {
     const Index v = face.vertex[i];
     if (!has_gradient(v)) return false;
     vertices[k] = v;
-    faces_.set_corner(lane, k, exact::to_vector(ground_.unit(v).hi),
-                      careful_step(ground_, place, v));
+    faces_.set_corner(lane, k, exact::to_vector(prepared_.unit(v).hi),
+                      careful_step(prepared_, place, v));
     const topology::Halfedge h = face.opposite[i];
     const Index beyond = topology::face_of(h);
     const Index y = mesh[beyond].vertex[topology::edge_of(h)];
     vertices[3 + k] = y;
-    if (ground_.is_solid(beyond) && has_gradient(y)) {
-      faces_.set_opposite(lane, k, exact::to_vector(ground_.unit(y).hi),
-                          careful_step(ground_, place, y));
+    if (prepared_.is_solid(beyond) && has_gradient(y)) {
+      faces_.set_opposite(lane, k, exact::to_vector(prepared_.unit(y).hi),
+                          careful_step(prepared_, place, y));
     } else {
       faces_.clear_opposite(lane, k);
     }
@@ -50,7 +50,7 @@ bool CubicKernel::find_corners(std::size_t lane, const TargetPlace& place) {
 }
 
 // The linear weights of a target are the coordinates at which the element is evaluated.
-void CubicKernel::expect(std::size_t lane, const TargetPlace& place) {
+void CubicKernel::expect(std::size_t lane, const LocatedTarget& place) {
   Lane& expected = lanes_[lane];
   expected.flat.clear();
   linear_(place, expected.flat);
@@ -65,7 +65,7 @@ void CubicKernel::expect(std::size_t lane, const TargetPlace& place) {
   faces_.set_point(lane, l);
 }
 
-bool CubicKernel::weigh(std::size_t lane, SlopeRow& row) const {
+bool CubicKernel::weigh(std::size_t lane, GradientRow& row) const {
   if (!faces_.is_weighed(lane)) return false;
   double sum = 0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -73,7 +73,7 @@ bool CubicKernel::weigh(std::size_t lane, SlopeRow& row) const {
   }
   const double square = faces_.squared_norm(lane);
   const double cube = square * std::sqrt(square);
-  if (!(sum >= least_image_of_one * cube)) return false;
+  if (!(sum >= min_image_of_one * cube)) return false;
   const double factor = 1 / (normalization_ == Normalization::unity ? sum : cube);
   const std::array<Index, 6>& vertices = lanes_[lane].vertices;
   row.resize(6);
@@ -82,8 +82,8 @@ bool CubicKernel::weigh(std::size_t lane, SlopeRow& row) const {
     if (k >= 3 && !faces_.has_opposite(lane, k - 3)) continue;
     const std::span others(row.data(), size);
     // In triangulations of few sites, one vertex may be opposite to several edges.
-    const auto known = std::ranges::find(others, vertices[k], &SlopeShare::vertex);
-    SlopeShare& share = row[static_cast<std::size_t>(known - others.begin())];
+    const auto known = std::ranges::find(others, vertices[k], &GradientShare::vertex);
+    GradientShare& share = row[static_cast<std::size_t>(known - others.begin())];
     if (known == others.end()) {
       share = {vertices[k], 0, {}};
       ++size;
@@ -96,17 +96,17 @@ bool CubicKernel::weigh(std::size_t lane, SlopeRow& row) const {
   return true;
 }
 
-void CubicKernel::add_linear(const TargetPlace& place, const Row& flat, SlopeRow& row) const {
+void CubicKernel::add_linear(const LocatedTarget& place, const Row& flat, GradientRow& row) const {
   double lacking = 0;
   for (const auto& [v, weight] : flat) {
-    const Vec s = step(place.unit, ground_.unit(v));
+    const Vec s = step(place.unit, prepared_.unit(v));
     lacking += weight * dot(s, s);
   }
   const double divisor = normalization_ == Normalization::unity ? 1 : 1 - lacking / 2;
   for (const auto& [v, weight] : flat) row.push_back({v, weight / divisor, {}});
 }
 
-void CubicKernel::operator()(std::size_t lane, const TargetPlace& place, SlopeRow& row) {
+void CubicKernel::operator()(std::size_t lane, const LocatedTarget& place, GradientRow& row) {
   if (!are_weighed_) faces_.weigh();
   are_weighed_ = true;
   const Lane& expected = lanes_[lane];

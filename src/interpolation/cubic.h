@@ -17,8 +17,8 @@
 #include <span>
 
 #include "interpolation/cubic_faces.h"
-#include "interpolation/ground.h"
 #include "interpolation/linear.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 #include "rondel/interpolate.h"
 
@@ -38,17 +38,18 @@ class CubicKernel {
 
   // `has_gradient` says for each vertex whether it has a gradient; it is empty if all have one.
   // With Normalization::homogeneous, S is not divided.
-  explicit CubicKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
+  explicit CubicKernel(const PreparedTriangulation& prepared,
+                       std::span<const std::uint8_t> has_gradient = {},
                        Normalization normalization = Normalization::unity)
-      : ground_(ground),
-        linear_(ground),
+      : prepared_(prepared),
+        linear_(prepared),
         has_gradient_(has_gradient),
         normalization_(normalization) {}
 
   // Adds a target on an edge or in a face to a lane.
-  void expect(std::size_t lane, const TargetPlace& place);
-  void operator()(std::size_t lane, const TargetPlace& place, SlopeRow& row);
-  void operator()(const TargetPlace& place, SlopeRow& row) {
+  void expect(std::size_t lane, const LocatedTarget& place);
+  void operator()(std::size_t lane, const LocatedTarget& place, GradientRow& row);
+  void operator()(const LocatedTarget& place, GradientRow& row) {
     begin();
     expect(0, place);
     (*this)(0, place, row);
@@ -68,13 +69,13 @@ class CubicKernel {
     return has_gradient_.empty() || has_gradient_[v] != 0;
   }
   // Sets the vertices of the lane; returns false if one of the corners has no gradient.
-  bool find_corners(std::size_t lane, const TargetPlace& place);
+  bool find_corners(std::size_t lane, const LocatedTarget& place);
   // Sets the row by the element; returns false if that is not to be used in this face.
-  bool weigh(std::size_t lane, SlopeRow& row) const;
+  bool weigh(std::size_t lane, GradientRow& row) const;
   // Sets the row to the linear weights `flat`, without gradients.
-  void add_linear(const TargetPlace& place, const Row& flat, SlopeRow& row) const;
+  void add_linear(const LocatedTarget& place, const Row& flat, GradientRow& row) const;
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   LinearKernel linear_;
   std::span<const std::uint8_t> has_gradient_;
   Normalization normalization_;

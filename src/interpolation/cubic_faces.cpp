@@ -170,8 +170,8 @@ RONDEL_ALWAYS_INLINE inline BeyondEdge look_across(bool may_look, const LaneVec&
   // a coarse triangulation.
   const double turn = 4 * (a_sum + b_sum) / (1 + q) - 2;
   const double bounded = turn < 0 ? 0.0 : (1.0 < turn ? 1.0 : turn);
-  const double least_height = least(1.0, q * q) * height;
-  const double share = bounded * least(1.0, full_share_of_height * least_height / square);
+  const double min_height = least(1.0, q * q) * height;
+  const double share = bounded * least(1.0, full_share_of_height * min_height / square);
   const bool is = all_of(all_of(may_look, q > 0), share > 0);
   return {only_if(is, share),
           only_if(is, q),

@@ -20,14 +20,14 @@ namespace rondel::interpolation::fits {
 inline constexpr double reach = 1.2;
 
 // Weights do not grow further within this part of the radius.
-inline constexpr double least_radius = 0.25;
+inline constexpr double min_radius = 0.25;
 
 // Neighbors within this distance count as being in the place of the site.
-inline constexpr double least_scale = 0x1p-1000;
+inline constexpr double min_scale = 0x1p-1000;
 // A cloud is a line if its ratio of breadth to length is below the first bound, or if the second
 // bound says that its breadth may come from rounding errors.
-inline constexpr double least_thickness = 0x1p-40;
-inline constexpr double least_remainder = 0x1p-30;
+inline constexpr double min_thickness = 0x1p-40;
+inline constexpr double min_remainder = 0x1p-30;
 
 // Scales the steps by the largest coordinate; the first axis points to the farthest neighbor.
 RONDEL_ALWAYS_INLINE inline void set_axes(Fit& fit) {
@@ -40,7 +40,7 @@ RONDEL_ALWAYS_INLINE inline void set_axes(Fit& fit) {
   }
   Lanes in_scale;
   RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
-    in_scale[i] = 1 / (fit.scale[i] > least_scale ? fit.scale[i] : 1.0);
+    in_scale[i] = 1 / (fit.scale[i] > min_scale ? fit.scale[i] : 1.0);
   }
   LaneVectors far{};
   for (std::size_t k = 0; k < fit.size; ++k) {
@@ -101,7 +101,7 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   Lanes least;
   RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
     radius[i] = reach * std::sqrt(fit.largest[i]);
-    least[i] = (least_radius * least_radius) * (radius[i] * radius[i]);
+    least[i] = (min_radius * min_radius) * (radius[i] * radius[i]);
   }
   Lanes aa{};
   Lanes ab{};
@@ -127,9 +127,9 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
     fit.mean_weight[i] = squares[i] / (aa[i] + bb[i]);
     fit.shear[i] = ab[i] / aa[i];
     const double rest = bb[i] - fit.shear[i] * ab[i];
-    const bool is_plane = both(
-        both(rest > (least_thickness * least_thickness) * aa[i], rest > least_remainder * bb[i]),
-        fit.scale[i] >= least_scale);
+    const bool is_plane =
+        both(both(rest > (min_thickness * min_thickness) * aa[i], rest > min_remainder * bb[i]),
+             fit.scale[i] >= min_scale);
     fit.is_found[i] = is_plane ? 1.0 : 0.0;
     fit.round_a[i] = 1 / std::sqrt(aa[i]);
     fit.round_b[i] = 1 / std::sqrt(is_plane ? rest : 1.0);

@@ -17,7 +17,7 @@ namespace rondel::interpolation::fits {
 
 // The least number of neighbors for a linear, quadratic and cubic fit: one or two more than it has
 // terms, so that no pair of close sites decides the result.
-inline constexpr system::PlainArray<double, 3> least_neighbors = {2, 6, 11};
+inline constexpr system::PlainArray<double, 3> min_neighbors = {2, 6, 11};
 
 // The normal equations for the weights of the slopes along a' and b', which have one left side, and
 // their factors.
@@ -36,7 +36,7 @@ RONDEL_ALWAYS_INLINE inline void factor(Solution& s) {
     RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
       const double pivot = s.rows[j][j][l];
       const double reciprocal = 1 / pivot;
-      s.of_pivots[j][l] = pivot > LocalFits::least_pivot * s.diagonal[j][l] ? reciprocal : 0.0;
+      s.of_pivots[j][l] = pivot > LocalFits::min_pivot * s.diagonal[j][l] ? reciprocal : 0.0;
     }
     for (std::size_t i = max_terms; --i > j;) {
       Lanes factors;
@@ -62,9 +62,9 @@ RONDEL_ALWAYS_INLINE inline void keep_terms(Fit& fit, Solution& s) {
   constexpr auto quadratic = static_cast<double>(LocalFits::terms_of_degree[1]);
   constexpr auto cubic = static_cast<double>(LocalFits::terms_of_degree[2]);
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
-    const double most = fit.counts[l] >= least_neighbors[1] ? quadratic : linear;
-    fit.num_terms[l] = fit.counts[l] >= least_neighbors[2] ? cubic : most;
-    fit.is_found[l] = fit.counts[l] >= least_neighbors[0] ? fit.is_found[l] : 0.0;
+    const double most = fit.counts[l] >= min_neighbors[1] ? quadratic : linear;
+    fit.num_terms[l] = fit.counts[l] >= min_neighbors[2] ? cubic : most;
+    fit.is_found[l] = fit.counts[l] >= min_neighbors[0] ? fit.is_found[l] : 0.0;
   }
   for (std::size_t i = max_terms; i-- > LocalFits::terms_of_degree[0];) {
     const double before = i < LocalFits::terms_of_degree[1] ? linear : quadratic;

@@ -28,7 +28,7 @@ RangeOfRows rows_of(GradientBlocks& blocks, std::size_t begin) {
   std::vector<std::uint64_t> room = {0};  // begin of the room of each row: one more than its
                                           // neighbors, if it has enough
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    room.push_back(room[i] + blocks.most_neighbors(i) + 1);
+    room.push_back(room[i] + blocks.max_neighbors(i) + 1);
   }
   rows.vertices.resize(room.back());
   rows.weights.resize(room.back());
@@ -69,16 +69,17 @@ RangeOfRows rows_of(GradientBlocks& blocks, std::size_t begin) {
 
 }  // namespace
 
-GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
+GradientRows gradient_rows(const PreparedTriangulation& prepared, const GradientOptions& options,
+                           unsigned threads) {
   constexpr std::size_t grain = GradientBlocks::vertices_per_piece;
-  std::vector<RangeOfRows> pieces(system::num_pieces(ground.num_vertices(), grain));
-  for_each_range_of_blocks(ground, options, threads,
+  std::vector<RangeOfRows> pieces(system::num_pieces(prepared.num_vertices(), grain));
+  for_each_range_of_blocks(prepared, options, threads,
                            [&](GradientBlocks& blocks, std::size_t begin) {
                              pieces[begin / grain] = rows_of(blocks, begin);
                            });
   GradientRows rows;
   rows.offsets = system::join_rows(
-      threads, ground.num_vertices(), std::move(pieces),
+      threads, prepared.num_vertices(), std::move(pieces),
       [](std::size_t b, const RangeOfRows&, std::size_t k) { return b * grain + k; },
       system::JoinedColumn{&RangeOfRows::vertices, rows.vertices},
       system::JoinedColumn{&RangeOfRows::weights, rows.weights});

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "interpolation/ground.h"
+#include "interpolation/prepared_triangulation.h"
 #include "rondel/interpolate.h"
 #include "rondel/types.h"
 
@@ -31,6 +31,7 @@ struct GradientRows {
 };
 
 // Computes the rows of all vertices. Precondition: dimension 2, Model::projected.
-GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads);
+GradientRows gradient_rows(const PreparedTriangulation& prepared, const GradientOptions& options,
+                           unsigned threads);
 
 }  // namespace rondel::interpolation

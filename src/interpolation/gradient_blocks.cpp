@@ -20,9 +20,9 @@ constexpr std::size_t num_sizes = 64;
 
 }  // namespace
 
-GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder,
+GradientBlocks::GradientBlocks(const PreparedTriangulation& prepared, SolidRings& finder,
                                const GradientOptions& options, std::size_t begin, std::size_t end)
-    : ground_(ground),
+    : prepared_(prepared),
       with_lines_(options.undetermined == Undetermined::zero),
       begin_(begin),
       num_near_(end - begin),
@@ -38,7 +38,7 @@ GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder,
 }
 
 void GradientBlocks::sort_by_size() {
-  const auto size_of = [this](std::size_t i) { return std::min(most_neighbors(i), num_sizes - 1); };
+  const auto size_of = [this](std::size_t i) { return std::min(max_neighbors(i), num_sizes - 1); };
   std::array<Index, num_sizes + 1> places{};
   for (std::size_t i = 0; i < size(); ++i) ++places[size_of(i) + 1];
   for (std::size_t s = 0; s < num_sizes; ++s) places[s + 1] += places[s];
@@ -47,7 +47,7 @@ void GradientBlocks::sort_by_size() {
 
 void GradientBlocks::fit(std::span<const Index> members) {
   std::size_t most = 0;
-  for (const Index i : members) most = std::max(most, most_neighbors(i));
+  for (const Index i : members) most = std::max(most, max_neighbors(i));
   fits_.start(most);
   for (std::size_t lane = 0; lane < members.size(); ++lane) add_neighbors(lane, members[lane]);
   fits_.find(with_lines_);
@@ -55,16 +55,16 @@ void GradientBlocks::fit(std::span<const Index> members) {
 
 void GradientBlocks::add_neighbors(std::size_t lane, std::size_t i) {
   const auto v = static_cast<Index>(begin_ + i);
-  const exact::SplitPoint x = ground_.unit(v);  // a copy, so that the compiler knows that writing
-                                                // below does not change it
+  const exact::SplitPoint x = prepared_.unit(v);  // a copy, so that the compiler knows that writing
+                                                  // below does not change it
   Index* const neighbors = neighbors_.data() + starts_[i];
-  const std::size_t count = most_neighbors(i);
+  const std::size_t count = max_neighbors(i);
   std::size_t num_near = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const Index neighbor = neighbors[k];
-    Vec to_neighbor = step(x, ground_.unit(neighbor));
+    Vec to_neighbor = step(x, prepared_.unit(neighbor));
     if (!is_split_enough(to_neighbor)) {
-      to_neighbor = exact_step(ground_, {ground_.point(v), x, {}}, neighbor);
+      to_neighbor = exact_step(prepared_, {prepared_.point(v), x, {}}, neighbor);
     }
     if (dot(to_neighbor, to_neighbor) > largest_squared_chord) continue;
     fits_.set_neighbor(lane, num_near, to_neighbor);

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "bulk/builder_pool.h"
-#include "interpolation/ground.h"
 #include "interpolation/local_fit.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/solid_rings.h"
 #include "rondel/interpolate.h"
 #include "rondel/types.h"
@@ -32,12 +32,12 @@ class GradientBlocks {
   // The number of vertices that one thread takes at a time: their data fit the first-level cache.
   static constexpr std::size_t vertices_per_piece = 256;
 
-  GradientBlocks(const Ground& ground, SolidRings& finder, const GradientOptions& options,
-                 std::size_t begin, std::size_t end);
+  GradientBlocks(const PreparedTriangulation& prepared, SolidRings& finder,
+                 const GradientOptions& options, std::size_t begin, std::size_t end);
 
   [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
   // Returns an upper bound of the number of neighbors of vertex i of the range.
-  [[nodiscard]] std::size_t most_neighbors(std::size_t i) const {
+  [[nodiscard]] std::size_t max_neighbors(std::size_t i) const {
     return starts_[i + 1] - starts_[i];
   }
 
@@ -61,7 +61,7 @@ class GradientBlocks {
   void fit(std::span<const Index> members);
   void add_neighbors(std::size_t lane, std::size_t i);
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   bool with_lines_;
   std::size_t begin_;
   std::vector<Index> neighbors_;  // of all vertices, one after the other; blocks take out those
@@ -74,15 +74,15 @@ class GradientBlocks {
 
 // Calls work(blocks, begin) for ranges that cover all vertices, in parallel.
 template <class Work>
-void for_each_range_of_blocks(const Ground& ground, const GradientOptions& options,
+void for_each_range_of_blocks(const PreparedTriangulation& prepared, const GradientOptions& options,
                               unsigned threads, const Work& work) {
-  const SolidStars stars(ground, threads);
+  const SolidStars stars(prepared, threads);
   bulk::BuilderPool<SolidRings> finders;
-  system::parallel_for(threads, ground.num_vertices(), GradientBlocks::vertices_per_piece,
+  system::parallel_for(threads, prepared.num_vertices(), GradientBlocks::vertices_per_piece,
                        [&](std::size_t begin, std::size_t end) {
                          finders.with_builder([&] { return std::make_unique<SolidRings>(stars); },
                                               [&](SolidRings& finder) {
-                                                GradientBlocks blocks(ground, finder, options,
+                                                GradientBlocks blocks(prepared, finder, options,
                                                                       begin, end);
                                                 work(blocks, begin);
                                               });

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "interpolation/linear.h"
+#include "interpolation/normalize_weights.h"
 #include "interpolation/rows.h"
-#include "interpolation/unity.h"
 
 namespace rondel::interpolation {
 
@@ -20,9 +20,9 @@ bool HermiteKernel::all_have_gradients() const {
 
 // Weighs two sites on one line through u by their distances in the stereographic plane,
 // s| / (1 - |s|^2 / 4)^(1/2).
-void HermiteKernel::weigh_on_contour(const TargetPlace& place) {
+void HermiteKernel::weigh_on_contour(const LocatedTarget& place) {
   const auto distance = [&](Index v) {
-    const Vec s = careful_step(ground_, place, v);
+    const Vec s = careful_step(prepared_, place, v);
     return norm(s) / std::sqrt(1 - dot(s, s) / 4);
   };
   const double first = distance(flat_[0].vertex);
@@ -31,14 +31,14 @@ void HermiteKernel::weigh_on_contour(const TargetPlace& place) {
   flat_[1].weight = first / (first + second);
 }
 
-void HermiteKernel::add_without_gradients(const TargetPlace& place, SlopeRow& row) {
+void HermiteKernel::add_without_gradients(const LocatedTarget& place, GradientRow& row) {
   flat_.clear();
   sibson_(place, flat_);
-  if (normalization_ == Normalization::homogeneous) make_homogeneous(ground_, place.unit, flat_);
+  if (normalization_ == Normalization::homogeneous) make_homogeneous(prepared_, place.unit, flat_);
   for (const auto& [v, weight] : flat_) row.push_back({v, weight, {}});
 }
 
-void HermiteKernel::operator()(const TargetPlace& place, SlopeRow& row) {
+void HermiteKernel::operator()(const LocatedTarget& place, GradientRow& row) {
   flat_.clear();
   planar_(place, flat_);
   if (!all_have_gradients()) {
@@ -49,9 +49,9 @@ void HermiteKernel::operator()(const TargetPlace& place, SlopeRow& row) {
   take_up_rounding(flat_);
   for (const auto& [v, weight] : flat_) {
     // u = x - s, whose component along x is 1 - |s|^2 / 2.
-    const Vec s = careful_step(ground_, place, v);
+    const Vec s = careful_step(prepared_, place, v);
     const double square = dot(s, s);
-    const Vec tangent = square / 2 * exact::to_vector(ground_.unit(v).hi) - s;
+    const Vec tangent = square / 2 * exact::to_vector(prepared_.unit(v).hi) - s;
     row.push_back({v, weight, exact::to_point(weight / (2 - square / 2) * tangent)});
   }
 }

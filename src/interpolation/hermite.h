@@ -19,8 +19,8 @@
 #include <cstdint>
 #include <span>
 
-#include "interpolation/ground.h"
 #include "interpolation/natural.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 #include "rondel/interpolate.h"
 
@@ -32,24 +32,25 @@ class HermiteKernel {
   // `has_gradient` says for each vertex whether it has a gradient; it is empty if all have one. The
   // normalization matters only where the row has no gradients, as the formula above reproduces 1,
   // x, y and z.
-  explicit HermiteKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
+  explicit HermiteKernel(const PreparedTriangulation& prepared,
+                         std::span<const std::uint8_t> has_gradient = {},
                          Normalization normalization = Normalization::unity)
-      : ground_(ground),
-        planar_(ground),
-        sibson_(ground),
+      : prepared_(prepared),
+        planar_(prepared),
+        sibson_(prepared),
         has_gradient_(has_gradient),
         normalization_(normalization) {}
 
-  void operator()(const TargetPlace& place, SlopeRow& row);
+  void operator()(const LocatedTarget& place, GradientRow& row);
 
  private:
   // True if each vertex of the planar row has a gradient.
   [[nodiscard]] bool all_have_gradients() const;
-  void weigh_on_contour(const TargetPlace& place);
+  void weigh_on_contour(const LocatedTarget& place);
   // Sets the row to that of Sibson's method.
-  void add_without_gradients(const TargetPlace& place, SlopeRow& row);
+  void add_without_gradients(const LocatedTarget& place, GradientRow& row);
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   PlanarSibsonKernel planar_;
   SibsonKernel sibson_;
   std::span<const std::uint8_t> has_gradient_;

@@ -13,14 +13,14 @@
 #include "interpolation/collected_rows.h"
 #include "interpolation/cubic.h"
 #include "interpolation/gradient.h"
-#include "interpolation/ground.h"
 #include "interpolation/hermite.h"
 #include "interpolation/linear.h"
 #include "interpolation/natural.h"
-#include "interpolation/place_values.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/rows.h"
-#include "interpolation/slopes.h"
-#include "interpolation/takers.h"
+#include "interpolation/sinks.h"
+#include "interpolation/vertex_fields.h"
+#include "interpolation/vertex_gradients.h"
 #include "rondel/error.h"
 #include "rondel/interpolate.h"
 #include "system/job.h"
@@ -35,8 +35,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Given fields, in the form in which rows need them.
 struct Fields {
-  PlaceValues values;
-  std::optional<PlaceGradients> gradients{};
+  VertexFields values;
+  std::optional<VertexGradients> gradients{};
   std::vector<std::uint8_t> has_gradient{};  // by vertex; empty if all have one
 
   [[nodiscard]] FieldSums sums() const { return {values, gradients ? &*gradients : nullptr}; }
@@ -46,12 +46,12 @@ struct Fields {
 
 class Interpolator::Impl {
  public:
-  explicit Impl(const Triangulation& triangulation) : ground_(triangulation) {}
+  explicit Impl(const Triangulation& triangulation) : prepared_(triangulation) {}
 
-  [[nodiscard]] const Ground& ground() const { return ground_; }
+  [[nodiscard]] const PreparedTriangulation& prepared() const { return prepared_; }
   [[nodiscard]] bool needs_gradients(Method method) const {
     return (method == Method::hermite || method == Method::cubic) &&
-           ground_.triangulation().dimension() == 2;
+           prepared_.triangulation().dimension() == 2;
   }
 
   void validate(std::span<const Point> targets, const InterpolationOptions& options) const;
@@ -70,20 +70,20 @@ class Interpolator::Impl {
                               const Execution& execution) const;
 
   // `has_gradient` says which vertices have one; it is empty if all have.
-  template <class MakeTaker>
+  template <class MakeSink>
   void for_each_row(std::span<const Point> targets, const InterpolationOptions& options,
                     const Execution& execution, std::span<const std::uint8_t> has_gradient,
-                    const MakeTaker& make_taker) const;
+                    const MakeSink& make_sink) const;
 
   [[nodiscard]] std::uint64_t sites_hash() const {
     std::call_once(hash_once_, [this] {
-      sites_hash_ = point_set_hash(ground_.triangulation().sites().points());
+      sites_hash_ = point_set_hash(prepared_.triangulation().sites().points());
     });
     return sites_hash_;
   }
 
  private:
-  Ground ground_;
+  PreparedTriangulation prepared_;
   mutable std::once_flag hash_once_;
   mutable std::uint64_t sites_hash_ = 0;
   // The last gradient rows that were computed, and their options.
@@ -94,14 +94,14 @@ class Interpolator::Impl {
 
 void Interpolator::Impl::validate(std::span<const Point> targets,
                                   const InterpolationOptions& options) const {
-  const Triangulation& triangulation = ground_.triangulation();
+  const Triangulation& triangulation = prepared_.triangulation();
   if (targets.size() >= no_index) {
     throw InvalidInput(std::to_string(targets.size()) + " targets are too many for one call",
                        no_index);
   }
-  api::validate_queries(targets, ground_.center(), true, "target");
+  api::validate_queries(targets, prepared_.center(), true, "target");
   if (options.method > Method::cubic) throw InvalidInput("there is no such method");
-  if (ground_.model() == Model::weighted && options.method != Method::nearest) {
+  if (prepared_.model() == Model::weighted && options.method != Method::nearest) {
     throw InvalidInput("weighted sites have no method but nearest");
   }
   if (options.shared_place == SharedPlace::error && !triangulation.duplicates().empty()) {
@@ -121,7 +121,7 @@ void Interpolator::Impl::require_normalization(const InterpolationOptions& optio
 }
 
 std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t size) const {
-  const std::size_t num_sites = ground_.num_sites();
+  const std::size_t num_sites = prepared_.num_sites();
   if (num_sites == 0 && size == 0) return 1;
   if (num_sites == 0 || size == 0 || size % num_sites != 0) {
     throw InvalidInput(std::string(name) + " has " + std::to_string(size) +
@@ -135,8 +135,8 @@ std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t si
 std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
     const GradientOptions& options, unsigned threads) const {
   if (auto known = known_rows(options)) return known;
-  auto rows =
-      std::make_shared<const GradientRows>(interpolation::gradient_rows(ground_, options, threads));
+  auto rows = std::make_shared<const GradientRows>(
+      interpolation::gradient_rows(prepared_, options, threads));
   const std::lock_guard lock(gradients_mutex_);
   gradients_ = rows;
   gradients_options_ = options;
@@ -153,46 +153,46 @@ Fields Interpolator::Impl::fields(FieldLayout layout, std::size_t num_targets,
                                   const InterpolationOptions& options,
                                   const Execution& execution) const {
   const bool has_gradients = needs_gradients(options.method);
-  Fields fields{{ground_, std::move(layout), options.shared_place,
-                 has_gradients ? ground_.num_vertices() : num_targets, execution.threads}};
+  Fields fields{{prepared_, std::move(layout), options.shared_place,
+                 has_gradients ? prepared_.num_vertices() : num_targets, execution.threads}};
   if (!has_gradients) return fields;
   if (const auto rows = known_rows(options.gradient)) {
     fields.gradients.emplace(*rows, fields.values, execution.threads);
     fields.has_gradient = vertices_with(*rows);
   } else {
-    fields.gradients.emplace(ground_, options.gradient, fields.values, execution.threads,
+    fields.gradients.emplace(prepared_, options.gradient, fields.values, execution.threads,
                              fields.has_gradient);
   }
   return fields;
 }
 
-template <class MakeTaker>
+template <class MakeSink>
 void Interpolator::Impl::for_each_row(std::span<const Point> targets,
                                       const InterpolationOptions& options,
                                       const Execution& execution,
                                       std::span<const std::uint8_t> has_gradient,
-                                      const MakeTaker& make_taker) const {
+                                      const MakeSink& make_sink) const {
   FirstOutside outside;
   const auto visit = [&](const auto& make_kernel) {
     interpolation::for_each_row(
-        ground_, targets, execution,
-        [&] { return KernelRows(ground_, options, outside, make_kernel()); }, make_taker);
+        prepared_, targets, execution,
+        [&] { return KernelRows(prepared_, options, outside, make_kernel()); }, make_sink);
   };
-  if (ground_.num_vertices() == 0) {
+  if (prepared_.num_vertices() == 0) {
     if (options.outside == Outside::error && !targets.empty()) outside.add(0);
   } else if (options.method == Method::nearest) {
     interpolation::for_each_row(
-        ground_, targets, execution, [&] { return NearestRows(ground_); }, make_taker);
-  } else if (options.method == Method::linear || ground_.triangulation().dimension() < 2) {
-    visit([&] { return LinearKernel(ground_); });
+        prepared_, targets, execution, [&] { return NearestRows(prepared_); }, make_sink);
+  } else if (options.method == Method::linear || prepared_.triangulation().dimension() < 2) {
+    visit([&] { return LinearKernel(prepared_); });
   } else if (options.method == Method::laplace) {
-    visit([&] { return LaplaceKernel(ground_); });
+    visit([&] { return LaplaceKernel(prepared_); });
   } else if (options.method == Method::sibson) {
-    visit([&] { return SibsonKernel(ground_); });
+    visit([&] { return SibsonKernel(prepared_); });
   } else if (options.method == Method::hermite) {
-    visit([&] { return HermiteKernel(ground_, has_gradient, options.normalization); });
+    visit([&] { return HermiteKernel(prepared_, has_gradient, options.normalization); });
   } else {
-    visit([&] { return CubicKernel(ground_, has_gradient, options.normalization); });
+    visit([&] { return CubicKernel(prepared_, has_gradient, options.normalization); });
   }
   if (outside.get() != no_index) {
     throw InvalidInput(
@@ -216,7 +216,7 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
   const system::Call call(execution);
   impl_->validate(targets, options);
   Impl::require_normalization(options);
-  CollectedRows rows(impl_->ground(), options.shared_place);
+  CollectedRows rows(impl_->prepared(), options.shared_place);
   std::shared_ptr<const GradientRows> gradients;
   std::vector<std::uint8_t> has_gradient;
   if (impl_->needs_gradients(options.method)) {
@@ -224,7 +224,7 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
     has_gradient = vertices_with(*gradients);
   }
   impl_->for_each_row(targets, options, execution, has_gradient,
-                      [&] { return WeightsTaker(rows, gradients.get(), options.normalization); });
+                      [&] { return WeightsSink(rows, gradients.get(), options.normalization); });
   Weights weights = rows.joined(targets.size(), execution.threads);
   if (options.hashes) {
     weights.sites_hash = impl_->sites_hash();
@@ -265,10 +265,10 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   impl_->validate(targets, options);
   Impl::require_normalization(options);
   std::vector<double> values(impl_->num_fields("field", field.size()) * targets.size(), nan);
-  const Fields fields = impl_->fields(scalar_fields(field, impl_->ground().num_sites()),
+  const Fields fields = impl_->fields(scalar_fields(field, impl_->prepared().num_sites()),
                                       targets.size(), options, execution);
   impl_->for_each_row(targets, options, execution, fields.has_gradient,
-                      [&] { return ValuesTaker(fields.sums(), values); });
+                      [&] { return ValuesSink(fields.sums(), values); });
   const auto is_huge = [](double value) { return std::abs(value) > huge_value; };
   if (impl_->needs_gradients(options.method) && std::ranges::any_of(field, is_huge)) {
     complete_overflown(*this, field, targets, options, execution, values);
@@ -287,7 +287,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   if (options.method != Method::hermite && options.method != Method::cubic) {
     throw InvalidInput("only hermite and cubic take gradients");
   }
-  const Ground& ground = impl_->ground();
+  const PreparedTriangulation& prepared = impl_->prepared();
   const std::size_t num_fields = impl_->num_fields("field", field.size());
   if (gradients.size() != field.size()) {
     throw InvalidInput("there are " + std::to_string(gradients.size()) + " gradients for " +
@@ -295,27 +295,27 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                        gradients.size());
   }
   std::vector<double> values(num_fields * targets.size(), nan);
-  Fields fields{{ground, scalar_fields(field, ground.num_sites()), options.shared_place,
+  Fields fields{{prepared, scalar_fields(field, prepared.num_sites()), options.shared_place,
                  targets.size(), execution.threads}};
   if (impl_->needs_gradients(options.method)) {
-    fields.gradients.emplace(ground, gradients, options.shared_place, execution.threads);
+    fields.gradients.emplace(prepared, gradients, options.shared_place, execution.threads);
   }
   impl_->for_each_row(targets, options, execution, {},
-                      [&] { return ValuesTaker(fields.sums(), values); });
+                      [&] { return ValuesSink(fields.sums(), values); });
   return values;
 }
 
 Weights Interpolator::gradient(const GradientOptions& options, const Execution& execution) const {
   const system::Call call(execution);
-  const Ground& ground = impl_->ground();
-  if (ground.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients");
+  const PreparedTriangulation& prepared = impl_->prepared();
+  if (prepared.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients");
   Weights weights;
-  if (ground.triangulation().dimension() == 2) {
-    weights = gradient_weights(ground, *impl_->gradient_rows(options, execution.threads),
+  if (prepared.triangulation().dimension() == 2) {
+    weights = gradient_weights(prepared, *impl_->gradient_rows(options, execution.threads),
                                execution.threads);
   } else {
-    weights.offsets.assign(3 * ground.num_sites() + 1, 0);
-    weights.num_columns = ground.num_sites();
+    weights.offsets.assign(3 * prepared.num_sites() + 1, 0);
+    weights.num_columns = prepared.num_sites();
   }
   weights.sites_hash = impl_->sites_hash();
   return weights;
@@ -329,12 +329,12 @@ std::vector<Point> Interpolator::vectors(std::span<const Point> field,
   impl_->validate(targets, options);
   std::vector<Point> vectors(impl_->num_fields("field", field.size()) * targets.size(),
                              Point{nan, nan, nan});
-  const Fields fields = impl_->fields(vector_fields(field, impl_->ground().num_sites()),
+  const Fields fields = impl_->fields(vector_fields(field, impl_->prepared().num_sites()),
                                       targets.size(), options, execution);
   InterpolationOptions homogeneous = options;
   homogeneous.normalization = Normalization::homogeneous;
   impl_->for_each_row(targets, homogeneous, execution, fields.has_gradient,
-                      [&] { return VectorsTaker(fields.sums(), vectors); });
+                      [&] { return VectorsSink(fields.sums(), vectors); });
   return vectors;
 }
 

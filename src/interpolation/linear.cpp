@@ -23,8 +23,8 @@ using Steps = std::array<Vec, 3>;
 // Split unit vectors have errors of 2^-100, and so have steps. With the largest step L and the sum
 // S of the determinants, which is twice the area of the face, weights have errors of 2^-100 L/S.
 // Rounding errors of doubles add about 2^-50 P/S, where P is the product of the two largest steps.
-constexpr double least_sum = 0x1p-46;  // lower bound of S/L
-constexpr double most_elongated = 16;  // upper bound of P/S for doubles
+constexpr double min_sum = 0x1p-46;   // lower bound of S/L
+constexpr double max_elongated = 16;  // upper bound of P/S for doubles
 
 // Returns u.(B x C), u.(C x A) and u.(A x B).
 template <class V>
@@ -40,7 +40,7 @@ double largest_square(const Steps& s) {
 }
 
 bool is_enough(double sum, double largest_step_squared) {
-  return sum > 0 && sum * sum >= least_sum * least_sum * largest_step_squared;
+  return sum > 0 && sum * sum >= min_sum * min_sum * largest_step_squared;
 }
 
 bool are_well_shaped(const Steps& s, const Weights3& w) {
@@ -48,7 +48,7 @@ bool are_well_shaped(const Steps& s, const Weights3& w) {
   const Weights3 squares = {dot(s[0], s[0]), dot(s[1], s[1]), dot(s[2], s[2])};
   const double product =
       std::max({squares[0] * squares[1], squares[1] * squares[2], squares[2] * squares[0]});
-  return product <= (most_elongated * most_elongated) * (sum * sum) &&
+  return product <= (max_elongated * max_elongated) * (sum * sum) &&
          is_enough(sum, std::max({squares[0], squares[1], squares[2]}));
 }
 
@@ -84,27 +84,27 @@ Triple canonical(Triple corners) {
 
 }  // namespace
 
-Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex) {
+Vec exact_step(const PreparedTriangulation& prepared, const LocatedTarget& place, Index vertex) {
   const auto exact =
-      dual::exact_projected_difference(place.point, ground.point(vertex), ground.center());
+      dual::exact_projected_difference(place.point, prepared.point(vertex), prepared.center());
   return exact.length * exact.direction;
 }
 
-void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
+void weigh_on_edge(const PreparedTriangulation& prepared, const LocatedTarget& place, Row& row) {
   Index a = place.location.sites[0];
   Index b = place.location.sites[1];
   // Since the ring may begin with any rank, the order is decided by coordinates.
   const auto coordinates = [&](Index v) {
-    const Point& p = ground.point(v);
+    const Point& p = prepared.point(v);
     return std::tuple(p.x, p.y, p.z);
   };
   if (coordinates(b) < coordinates(a)) std::swap(a, b);
   const Vec u = to_vector(place.unit.hi);
-  double from_a = exact::length_of(cross(u, step(place.unit, ground.unit(a))));
-  double from_b = exact::length_of(cross(u, step(place.unit, ground.unit(b))));
-  if (from_a + from_b < least_sum) {
-    from_a = exact::length_of(cross(u, exact_step(ground, place, a)));
-    from_b = exact::length_of(cross(u, exact_step(ground, place, b)));
+  double from_a = exact::length_of(cross(u, step(place.unit, prepared.unit(a))));
+  double from_b = exact::length_of(cross(u, step(place.unit, prepared.unit(b))));
+  if (from_a + from_b < min_sum) {
+    from_a = exact::length_of(cross(u, exact_step(prepared, place, a)));
+    from_b = exact::length_of(cross(u, exact_step(prepared, place, b)));
   }
   const double sum = from_a + from_b;
   const double share = sum > 0 ? from_b / sum : 0.5;  // both distances may be below the range of
@@ -113,25 +113,26 @@ void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
   row.push_back({b, sum > 0 ? from_a / sum : 0.5});
 }
 
-Weights3 LinearKernel::careful_weights(const TargetPlace& place, const Triple& corners,
+Weights3 LinearKernel::careful_weights(const LocatedTarget& place, const Triple& corners,
                                        double largest_step_squared) const {
   const Weights3 wide = wide_determinants(
-      place.unit, {ground_.unit(corners[0]), ground_.unit(corners[1]), ground_.unit(corners[2])});
+      place.unit,
+      {prepared_.unit(corners[0]), prepared_.unit(corners[1]), prepared_.unit(corners[2])});
   if (is_enough(sum_of(wide), largest_step_squared)) return wide;
   return dual::exact_weights(
-      {ground_.point(corners[0]), ground_.point(corners[1]), ground_.point(corners[2])},
-      place.point, ground_.center());
+      {prepared_.point(corners[0]), prepared_.point(corners[1]), prepared_.point(corners[2])},
+      place.point, prepared_.center());
 }
 
-void LinearKernel::operator()(const TargetPlace& place, Row& row) const {
+void LinearKernel::operator()(const LocatedTarget& place, Row& row) const {
   if (place.location.where == Where::edge) {
-    weigh_on_edge(ground_, place, row);
+    weigh_on_edge(prepared_, place, row);
     return;
   }
   const Triple corners = canonical(place.location.sites);
-  const Steps s = {step(place.unit, ground_.unit(corners[0])),
-                   step(place.unit, ground_.unit(corners[1])),
-                   step(place.unit, ground_.unit(corners[2]))};
+  const Steps s = {step(place.unit, prepared_.unit(corners[0])),
+                   step(place.unit, prepared_.unit(corners[1])),
+                   step(place.unit, prepared_.unit(corners[2]))};
   Weights3 w = determinants(to_vector(place.unit.hi), s);
   if (!are_well_shaped(s, w)) w = careful_weights(place, corners, largest_square(s));
   add_shares(corners, w, row);

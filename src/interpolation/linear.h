@@ -18,7 +18,7 @@
 #include <array>
 
 #include "exact/vector.h"
-#include "interpolation/ground.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 
 namespace rondel::interpolation {
@@ -27,41 +27,42 @@ using Vec = exact::Vector3<double>;
 using Weights3 = std::array<double, 3>;
 
 // Steps between split unit vectors that are shorter than this are not accurate to doubles.
-inline constexpr double least_split_step = 0x1p-45;
+inline constexpr double min_split_step = 0x1p-45;
 
 // Returns x - u. Each coordinate is accurate to a few units in the last place of the step if that
-// is no shorter than least_split_step.
+// is no shorter than min_split_step.
 inline Vec step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
   return {(x.hi.x - u.hi.x) + (x.lo.x - u.lo.x), (x.hi.y - u.hi.y) + (x.lo.y - u.lo.y),
           (x.hi.z - u.hi.z) + (x.lo.z - u.lo.z)};
 }
 // True if the step is long enough for step() to be accurate.
 inline bool is_split_enough(const Vec& step) {
-  return dot(step, step) >= least_split_step * least_split_step;
+  return dot(step, step) >= min_split_step * min_split_step;
 }
 
 // Returns the step from the target to a vertex in another place, accurate to a few units in the
 // last place for any length above 2^-1022.
-Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex);
+Vec exact_step(const PreparedTriangulation& prepared, const LocatedTarget& place, Index vertex);
 // Returns the same step as exact_step(), by doubles where these suffice.
-inline Vec careful_step(const Ground& ground, const TargetPlace& place, Index vertex) {
-  const Vec split = step(place.unit, ground.unit(vertex));
-  return is_split_enough(split) ? split : exact_step(ground, place, vertex);
+inline Vec careful_step(const PreparedTriangulation& prepared, const LocatedTarget& place,
+                        Index vertex) {
+  const Vec split = step(place.unit, prepared.unit(vertex));
+  return is_split_enough(split) ? split : exact_step(prepared, place, vertex);
 }
 
 // Adds the two weights of a target on an edge, in any dimension.
-void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row);
+void weigh_on_edge(const PreparedTriangulation& prepared, const LocatedTarget& place, Row& row);
 
 class LinearKernel {
  public:
-  explicit LinearKernel(const Ground& ground) : ground_(ground) {}
-  void operator()(const TargetPlace& place, Row& row) const;
+  explicit LinearKernel(const PreparedTriangulation& prepared) : prepared_(prepared) {}
+  void operator()(const LocatedTarget& place, Row& row) const;
 
  private:
-  [[nodiscard]] Weights3 careful_weights(const TargetPlace& place, const Triple& corners,
+  [[nodiscard]] Weights3 careful_weights(const LocatedTarget& place, const Triple& corners,
                                          double largest_step_squared) const;
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
 };
 
 }  // namespace rondel::interpolation

@@ -72,7 +72,7 @@ RONDEL_ALWAYS_INLINE inline void add_excess(const Moments& moments, const Soluti
 // they are few.
 void settle_lanes(Fit& fit, const Moments& moments, const LaneExcess& sums, Solution& s) {
   for (std::size_t l = 0; l < lanes; ++l) {
-    if (fit.counts[l] == 0 || !(fit.scale[l] >= least_scale)) {
+    if (fit.counts[l] == 0 || !(fit.scale[l] >= min_scale)) {
       fit.is_found[l] = 0;
       continue;
     }
@@ -97,7 +97,7 @@ void settle_lanes(Fit& fit, const Moments& moments, const LaneExcess& sums, Solu
         of_lane.of_a[k] = sums.of_a[k][l];
         of_lane.of_b[k] = sums.of_b[k][l];
       }
-      if (excess_of_cubic(one, of_lane) <= most_excess && gain(one) <= most_gain) continue;
+      if (excess_of_cubic(one, of_lane) <= max_excess && gain(one) <= max_gain) continue;
     }
     for (std::size_t k = 0; k < num_moments; ++k) one.moments[k] = moments[k][l];
     const std::size_t tried = one.num_terms;
@@ -139,9 +139,9 @@ RONDEL_ALWAYS_INLINE inline void find_in_lanes(Fit& fit) {
 }  // namespace
 }  // namespace fits
 
-void LocalFits::start(std::size_t most_neighbors) {
+void LocalFits::start(std::size_t max_neighbors) {
   // The number is even, because moments are summed up in pairs.
-  points_.assign(most_neighbors + most_neighbors % 2, LaneVectors{});
+  points_.assign(max_neighbors + max_neighbors % 2, LaneVectors{});
   counts_ = {};
   sites_ = {};
 }

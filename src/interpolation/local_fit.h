@@ -17,7 +17,7 @@
 // The plane's coordinates are changed such that the weighted second moments are those of a round
 // cloud. This changes no fit, but makes the fits of thin clouds accurate. The columns of the normal
 // equations, whose entries are 25 moments, are ordered by degree, so that one factorization L D L^T
-// serves all three degrees. A pivot below least_pivot times its diagonal entry ends the
+// serves all three degrees. A pivot below min_pivot times its diagonal entry ends the
 // factorization at the degree before. Rounding errors of weights are therefore below 1e-9 of the
 // largest weight, mostly 1e-13, and polynomials are reproduced to that accuracy.
 //
@@ -44,7 +44,7 @@ class LocalFits {
   static constexpr std::size_t lanes = 8;
   static constexpr std::size_t max_terms = 9;
   static constexpr std::array<std::size_t, 3> terms_of_degree = {2, 5, 9};
-  static constexpr double least_pivot = 0x1p-16;
+  static constexpr double min_pivot = 0x1p-16;
 
   using Vec = exact::Vector3<double>;
   using Lanes = system::PlainArray<double, lanes>;
@@ -54,8 +54,8 @@ class LocalFits {
     Lanes z;
   };
 
-  // Forgets all sites and makes room for `most_neighbors` neighbors of each.
-  void start(std::size_t most_neighbors);
+  // Forgets all sites and makes room for `max_neighbors` neighbors of each.
+  void start(std::size_t max_neighbors);
   // Sets neighbor k of the site of a lane, at the site + step. Precondition: |step| <= sqrt(3).
   void set_neighbor(std::size_t lane, std::size_t k, const Vec& step) {
     LaneVectors& point = points_[k];

@@ -8,14 +8,14 @@
 #include <cstddef>
 
 #include "interpolation/linear.h"
-#include "interpolation/unity.h"
+#include "interpolation/normalize_weights.h"
 
 namespace rondel::interpolation {
 namespace {
 
 // The largest accepted estimate of the error of a weight. Tests find no larger errors
 // (docs/theory).
-constexpr double most_error = 0x1p-45;
+constexpr double max_error = 0x1p-45;
 // The relative errors of steps and of sums and products of them, by arithmetic.
 constexpr double double_unit = 0x1p-53;
 constexpr double wide_unit = 0x1p-98;
@@ -37,12 +37,12 @@ WideVector wide_step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
           difference(u.hi.z, u.lo.z, x.hi.z, x.lo.z)};
 }
 
-bool is_on_contour(const Ground& ground, const Location& location) {
+bool is_on_contour(const PreparedTriangulation& prepared, const Location& location) {
   if (location.where != Where::edge) return false;
-  const topology::Face& face = ground.mesh()[location.face];
+  const topology::Face& face = prepared.mesh()[location.face];
   for (std::size_t i = 0; i < 3; ++i) {
     if (face.vertex[i] == location.sites[0] || face.vertex[i] == location.sites[1]) continue;
-    return !ground.is_solid(topology::face_of(face.opposite[i]));
+    return !prepared.is_solid(topology::face_of(face.opposite[i]));
   }
   return false;
 }
@@ -51,9 +51,9 @@ bool is_on_contour(const Ground& ground, const Location& location) {
 
 // If the cell is not bounded even in arbitrary precision, the target is so near to an edge of the
 // contour that the weights of that edge are correct.
-void NaturalKernel::operator()(const TargetPlace& place, Row& row) {
-  if (is_on_contour(ground_, place.location)) {
-    weigh_on_edge(ground_, place, row);
+void NaturalKernel::operator()(const LocatedTarget& place, Row& row) {
+  if (is_on_contour(prepared_, place.location)) {
+    weigh_on_edge(prepared_, place, row);
     return;
   }
   region_.find(place);
@@ -61,7 +61,7 @@ void NaturalKernel::operator()(const TargetPlace& place, Row& row) {
   if (weigh_in_doubles(place) || weigh_from_split_points(place) || weigh_exactly(place)) {
     add_shares(row);
   } else {
-    LinearKernel{ground_}(place, row);
+    LinearKernel{prepared_}(place, row);
   }
 }
 
@@ -75,38 +75,38 @@ double NaturalKernel::weigh(NaturalCell<T>& cell) {
   return error;
 }
 
-bool NaturalKernel::weigh_in_doubles(const TargetPlace& place) {
+bool NaturalKernel::weigh_in_doubles(const LocatedTarget& place) {
   const TangentBasis basis(place.unit.hi);
   const Vec u = exact::to_vector(place.unit.hi);
   auto& bisectors = cell_.bisectors();
   bisectors.clear();
   double nearest = 1;
   for (const Index v : region_.ring()) {
-    bisectors.push_back(basis.bisector(u, step(place.unit, ground_.unit(v))));
+    bisectors.push_back(basis.bisector(u, step(place.unit, prepared_.unit(v))));
     nearest = std::min(nearest, bisectors.back().s);
   }
-  if (nearest < least_split_step * least_split_step) return false;
-  return weigh(cell_) * double_unit <= most_error;
+  if (nearest < min_split_step * min_split_step) return false;
+  return weigh(cell_) * double_unit <= max_error;
 }
 
-bool NaturalKernel::weigh_from_split_points(const TargetPlace& place) {
+bool NaturalKernel::weigh_from_split_points(const LocatedTarget& place) {
   const TangentBasis basis(place.unit.hi);
   const WideVector u = wide(place.unit);
   auto& bisectors = wide_cell_.bisectors();
   bisectors.clear();
   double nearest = 1;
   for (const Index v : region_.ring()) {
-    bisectors.push_back(basis.bisector(u, wide_step(place.unit, ground_.unit(v))));
+    bisectors.push_back(basis.bisector(u, wide_step(place.unit, prepared_.unit(v))));
     nearest = std::min(nearest, bisectors.back().s.hi);
   }
   const double unit = std::max(wide_unit, split_error / std::sqrt(2 * nearest));
-  return weigh(wide_cell_) * unit <= most_error;
+  return weigh(wide_cell_) * unit <= max_error;
 }
 
-bool NaturalKernel::weigh_exactly(const TargetPlace& place) {
+bool NaturalKernel::weigh_exactly(const LocatedTarget& place) {
   sites_.clear();
-  for (const Index v : region_.ring()) sites_.push_back(ground_.point(v));
-  return exact_natural_weights(method_, place.point, sites_, ground_.center(), region_.faces(),
+  for (const Index v : region_.ring()) sites_.push_back(prepared_.point(v));
+  return exact_natural_weights(method_, place.point, sites_, prepared_.center(), region_.faces(),
                                shares_);
 }
 

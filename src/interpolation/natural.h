@@ -20,31 +20,31 @@
 
 #include <vector>
 
-#include "interpolation/ground.h"
 #include "interpolation/natural_cell.h"
 #include "interpolation/natural_exact.h"
 #include "interpolation/natural_region.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 
 namespace rondel::interpolation {
 
 class NaturalKernel {
  public:
-  NaturalKernel(const Ground& ground, NaturalMethod method)
-      : ground_(ground), method_(method), region_(ground) {}
+  NaturalKernel(const PreparedTriangulation& prepared, NaturalMethod method)
+      : prepared_(prepared), method_(method), region_(prepared) {}
 
-  void operator()(const TargetPlace& place, Row& row);
+  void operator()(const LocatedTarget& place, Row& row);
 
  private:
   template <class T>
   [[nodiscard]] double weigh(NaturalCell<T>& cell);
   // Computes the shares in one arithmetic; each returns false if the error may be too large.
-  [[nodiscard]] bool weigh_in_doubles(const TargetPlace& place);
-  [[nodiscard]] bool weigh_from_split_points(const TargetPlace& place);
-  [[nodiscard]] bool weigh_exactly(const TargetPlace& place);
+  [[nodiscard]] bool weigh_in_doubles(const LocatedTarget& place);
+  [[nodiscard]] bool weigh_from_split_points(const LocatedTarget& place);
+  [[nodiscard]] bool weigh_exactly(const LocatedTarget& place);
   void add_shares(Row& row) const;
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   NaturalMethod method_;
   NaturalRegion region_;
   NaturalCell<double> cell_;
@@ -55,19 +55,21 @@ class NaturalKernel {
 
 class LaplaceKernel : public NaturalKernel {
  public:
-  explicit LaplaceKernel(const Ground& ground) : NaturalKernel(ground, NaturalMethod::laplace) {}
+  explicit LaplaceKernel(const PreparedTriangulation& prepared)
+      : NaturalKernel(prepared, NaturalMethod::laplace) {}
 };
 
 class SibsonKernel : public NaturalKernel {
  public:
-  explicit SibsonKernel(const Ground& ground) : NaturalKernel(ground, NaturalMethod::sibson) {}
+  explicit SibsonKernel(const PreparedTriangulation& prepared)
+      : NaturalKernel(prepared, NaturalMethod::sibson) {}
 };
 
 // Sibson's method in the stereographic plane, for interpolation with gradients (hermite.h).
 class PlanarSibsonKernel : public NaturalKernel {
  public:
-  explicit PlanarSibsonKernel(const Ground& ground)
-      : NaturalKernel(ground, NaturalMethod::planar_sibson) {}
+  explicit PlanarSibsonKernel(const PreparedTriangulation& prepared)
+      : NaturalKernel(prepared, NaturalMethod::planar_sibson) {}
 };
 
 }  // namespace rondel::interpolation

@@ -177,10 +177,10 @@ class NaturalCell {
     return (i > 0 ? i : bisectors_.size()) - 1;
   }
   // Moves the area of the triangle of the origin, `from` and `to` from the share of `giver` to that
-  // of `taker`.
-  void move(const Planar<T>& from, const Planar<T>& to, std::size_t taker, std::size_t giver) {
+  // of `sink`.
+  void move(const Planar<T>& from, const Planar<T>& to, std::size_t sink, std::size_t giver) {
     const T area = cross(from, to);
-    shares_[taker] = shares_[taker] + area;
+    shares_[sink] = shares_[sink] + area;
     shares_[giver] = shares_[giver] - area;
   }
 

@@ -8,14 +8,14 @@
 
 namespace rondel::interpolation {
 
-void NaturalRegion::find(const TargetPlace& place) {
-  const auto horizon = ground_.engine().horizon(place.point, place.location.face, search_);
+void NaturalRegion::find(const LocatedTarget& place) {
+  const auto horizon = prepared_.engine().horizon(place.point, place.location.face, search_);
   const auto first = std::ranges::min_element(horizon, {}, &topology::HorizonEdge::origin);
   ring_.clear();
   for (auto edge = first; edge != horizon.end(); ++edge) ring_.push_back(edge->origin);
   for (auto edge = horizon.begin(); edge != first; ++edge) ring_.push_back(edge->origin);
-  root_ =
-      ground_.mesh()[topology::face_of(first->outside)].opposite[topology::edge_of(first->outside)];
+  root_ = prepared_.mesh()[topology::face_of(first->outside)]
+              .opposite[topology::edge_of(first->outside)];
 }
 
 // Searches from both ends, so that it takes no more steps than the smaller part has: O(k log k) in
@@ -34,7 +34,7 @@ Index NaturalRegion::position_between(Index a, Index b, Index vertex) const {
 // Goes depth first. Edge i of a face runs from corner i+1 to corner i+2, and the apex is opposite
 // to the edge across which the face was entered.
 void NaturalRegion::list_faces() {
-  const topology::Mesh& mesh = ground_.mesh();
+  const topology::Mesh& mesh = prepared_.mesh();
   const auto size = static_cast<Index>(ring_.size());
   faces_.clear();
   stack_.clear();

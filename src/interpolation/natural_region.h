@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "interpolation/ground.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 #include "query/engine.h"
 
@@ -36,10 +36,10 @@ struct RegionFace {
 
 class NaturalRegion {
  public:
-  explicit NaturalRegion(const Ground& ground) : ground_(ground) {}
+  explicit NaturalRegion(const PreparedTriangulation& prepared) : prepared_(prepared) {}
 
   // Finds the ring. Precondition: the target is not at a vertex.
-  void find(const TargetPlace& place);
+  void find(const LocatedTarget& place);
   // Lists the faces, after find() for the same target.
   void list_faces();
 
@@ -57,7 +57,7 @@ class NaturalRegion {
   // Returns the position of a vertex of the ring that lies between positions a and b.
   [[nodiscard]] Index position_between(Index a, Index b, Index vertex) const;
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   query::RegionSearch search_;
   topology::Halfedge root_ = 0;  // the horizon's first edge, seen from inside
   std::vector<Index> ring_;

@@ -3,7 +3,7 @@
 
 // The input and output of a kernel for one target. A kernel is a method of interpolation:
 //
-//     void operator()(const TargetPlace& place, Row& row);
+//     void operator()(const LocatedTarget& place, Row& row);
 //
 // 1. It fills an empty row, or leaves it empty where the method has no value.
 // 2. The order of the entries depends only on the places of the sites: vertices are spatial ranks,
@@ -27,7 +27,7 @@
 namespace rondel::interpolation {
 
 // A target on an edge or in a face.
-struct TargetPlace {
+struct LocatedTarget {
   Point point;             // as given
   exact::SplitPoint unit;  // u, its direction from the center
   Location location;       // with ranks in `sites`
@@ -42,27 +42,27 @@ using Row = std::vector<Share>;
 
 // The weight of the value at a vertex and, as a vector, that of its tangent gradient: the entry
 // contributes weight * value + slope . gradient.
-struct SlopeShare {
+struct GradientShare {
   Index vertex = no_index;
   double weight = 0;
   Point slope{};
 };
-using SlopeRow = std::vector<SlopeShare>;
+using GradientRow = std::vector<GradientShare>;
 
 // A kernel whose rows have weights of values only.
 template <class K>
-concept Kernel = requires(K& kernel, const TargetPlace& place, Row& row) {
+concept Kernel = requires(K& kernel, const LocatedTarget& place, Row& row) {
   kernel(place, row);
 };
 // A kernel that computes K::group targets at once.
 template <class K>
-concept GroupKernel = requires(K& kernel, const TargetPlace& place) {
+concept GroupKernel = requires(K& kernel, const LocatedTarget& place) {
   kernel.begin();
   kernel.expect(K::group, place);
 };
 // A kernel whose rows have weights of gradients too.
 template <class K>
-concept SlopeKernel = requires(K& kernel, const TargetPlace& place, SlopeRow& row) {
+concept GradientKernel = requires(K& kernel, const LocatedTarget& place, GradientRow& row) {
   kernel(place, row);
 };
 

@@ -5,7 +5,7 @@
 // and handles targets that have no value.
 //
 // in    targets, a kernel, what to do outside
-// out   one row for each target, given to a taker (takers.h)
+// out   one row for each target, given to a sink (sinks.h)
 // index targets; vertices by spatial rank
 #pragma once
 
@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "exact/unit_vector.h"
-#include "interpolation/ground.h"
 #include "interpolation/linear.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 #include "query/batch.h"
 #include "rondel/interpolate.h"
@@ -47,25 +47,26 @@ class FirstOutside {
 
 // A lower bound of r. In a face next to which the center lies, smaller values of r are hardly more
 // than rounding errors; natural neighbors beyond 90 degrees can make r negative.
-constexpr double least_r = 0x1p-20;
+constexpr double min_r = 0x1p-20;
 
 // Divides the weights by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2, or clears the row
 // if r is too small.
-inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, Row& row) {
+inline void make_homogeneous(const PreparedTriangulation& prepared, const exact::SplitPoint& u,
+                             Row& row) {
   double lacking = 0;
   for (const auto& [v, weight] : row) {
-    const Vec s = step(u, ground.unit(v));
+    const Vec s = step(u, prepared.unit(v));
     lacking += weight * dot(s, s);
   }
   const double r = 1 - lacking / 2;
-  if (!(r >= least_r)) row.clear();
+  if (!(r >= min_r)) row.clear();
   for (Share& share : row) share.weight /= r;
 }
 // Clears the row if its weights, which the kernel has divided by r, are too large.
-inline void make_homogeneous(const Ground& /*ground*/, const exact::SplitPoint& /*u*/,
-                             SlopeRow& row) {
+inline void make_homogeneous(const PreparedTriangulation& /*prepared*/,
+                             const exact::SplitPoint& /*u*/, GradientRow& row) {
   const bool is_sound = std::ranges::all_of(
-      row, [](const SlopeShare& share) { return std::abs(share.weight) <= 1 / least_r; });
+      row, [](const GradientShare& share) { return std::abs(share.weight) <= 1 / min_r; });
   if (!is_sound) row.clear();
 }
 
@@ -75,11 +76,11 @@ class NearestRows {
   using RowType = Row;
   static constexpr std::size_t group = 1;
 
-  explicit NearestRows(const Ground& ground) : ground_(ground) {}
+  explicit NearestRows(const PreparedTriangulation& prepared) : prepared_(prepared) {}
   void begin() const {}
   void expect(std::size_t /*lane*/, const Point& p, const exact::SplitPoint& /*u*/,
               query::Cursor& cursor) {
-    nearest_ = ground_.engine().nearest(p, cursor);
+    nearest_ = prepared_.engine().nearest(p, cursor);
   }
   void operator()(std::size_t /*lane*/, Index /*target*/, query::Cursor& /*cursor*/,
                   Row& row) const {
@@ -87,7 +88,7 @@ class NearestRows {
   }
 
  private:
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   Index nearest_ = no_index;
 };
 
@@ -100,26 +101,26 @@ inline constexpr std::size_t group_of<K> = K::group;
 template <class K>
 class KernelRows {
  public:
-  using RowType = std::conditional_t<Kernel<K>, Row, SlopeRow>;
+  using RowType = std::conditional_t<Kernel<K>, Row, GradientRow>;
   static constexpr std::size_t group = group_of<K>;
 
-  KernelRows(const Ground& ground, const InterpolationOptions& options, FirstOutside& outside,
-             K kernel)
-      : ground_(ground), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
+  KernelRows(const PreparedTriangulation& prepared, const InterpolationOptions& options,
+             FirstOutside& outside, K kernel)
+      : prepared_(prepared), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
 
   // Call begin(), then expect() for up to `group` targets, then operator() for each of them.
   void begin() {
     if constexpr (GroupKernel<K>) kernel_.begin();
   }
   void expect(std::size_t lane, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor) {
-    TargetPlace& place = places_[lane];
-    place = {p, u, ground_.engine().locate(p, cursor)};
+    LocatedTarget& place = places_[lane];
+    place = {p, u, prepared_.engine().locate(p, cursor)};
     if constexpr (GroupKernel<K>) {
       if (has_weights(place)) kernel_.expect(lane, place);
     }
   }
   void operator()(std::size_t lane, Index target, query::Cursor& cursor, RowType& row) {
-    const TargetPlace& place = places_[lane];
+    const LocatedTarget& place = places_[lane];
     if (place.location.where == Where::vertex) {
       row.push_back({place.location.sites[0], 1});
       return;
@@ -133,58 +134,59 @@ class KernelRows {
       if constexpr (!Kernel<K>) make_finite(place, row);
     }
     if (options_.normalization == Normalization::homogeneous) {
-      make_homogeneous(ground_, place.unit, row);
+      make_homogeneous(prepared_, place.unit, row);
     }
     if (row.empty()) answer_outside(target, place.point, cursor, row);
   }
 
  private:
   // True if the kernel decides: the target is not at a vertex, and not outside.
-  static bool has_weights(const TargetPlace& place) {
+  static bool has_weights(const LocatedTarget& place) {
     return place.location.where == Where::edge || place.location.where == Where::face;
   }
 
   // Where sites are so close that products of slopes leave the range of doubles, replaces the row
   // by linear weights.
-  void make_finite(const TargetPlace& place, SlopeRow& row) const {
+  void make_finite(const LocatedTarget& place, GradientRow& row) const {
     double sum = 0;
-    for (const SlopeShare& share : row) {
+    for (const GradientShare& share : row) {
       sum += share.weight + (share.slope.x + share.slope.y + share.slope.z);
     }
     if (std::isfinite(sum)) return;
     row.clear();
     Row flat;
-    LinearKernel{ground_}(place, flat);
+    LinearKernel{prepared_}(place, flat);
     for (const auto& [vertex, weight] : flat) row.push_back({vertex, weight, {}});
   }
 
   void answer_outside(Index target, const Point& p, query::Cursor& cursor, RowType& row) {
     if (options_.outside == Outside::nearest) {
-      row.push_back({ground_.engine().nearest(p, cursor), 1});
+      row.push_back({prepared_.engine().nearest(p, cursor), 1});
     } else if (options_.outside == Outside::error) {
       outside_.add(target);
     }
   }
 
-  const Ground& ground_;
+  const PreparedTriangulation& prepared_;
   const InterpolationOptions& options_;
   FirstOutside& outside_;
   K kernel_;
-  std::array<TargetPlace, group> places_;
+  std::array<LocatedTarget, group> places_;
 };
 
-// Computes the rows of all targets in parallel. make_rows() and make_taker() are called for each
-// range of targets; taker.expect(target) comes some time before taker.take(target, u, row), and
-// taker.finish() at the end of the range. Precondition: there is a vertex.
-template <class MakeRows, class MakeTaker>
-void for_each_row(const Ground& ground, std::span<const Point> targets, const Execution& execution,
-                  const MakeRows& make_rows, const MakeTaker& make_taker) {
+// Computes the rows of all targets in parallel. make_rows() and make_sink() are called for each
+// range of targets; sink.expect(target) comes some time before sink.take(target, u, row), and
+// sink.finish() at the end of the range. Precondition: there is a vertex.
+template <class MakeRows, class MakeSink>
+void for_each_row(const PreparedTriangulation& prepared, std::span<const Point> targets,
+                  const Execution& execution, const MakeRows& make_rows,
+                  const MakeSink& make_sink) {
   constexpr std::size_t batch_size = 256;
   system::StageProgress progress(execution.progress, "interpolate",
                                  system::num_pieces(targets.size(), query::queries_per_piece));
   const auto answer_range = [&](std::span<const Index> range, query::Cursor& cursor) {
     auto rows = make_rows();
-    auto taker = make_taker();
+    auto sink = make_sink();
     typename decltype(rows)::RowType row;
     std::vector<exact::SplitPoint> units(std::min(batch_size, range.size()));
     constexpr std::size_t group = decltype(rows)::group;
@@ -193,7 +195,7 @@ void for_each_row(const Ground& ground, std::span<const Point> targets, const Ex
       const std::size_t in_batch = k % batch_size;
       if (in_batch == 0) {
         const auto batch = range.subspan(k, std::min(batch_size, range.size() - k));
-        exact::unit_vectors(targets, batch, ground.center(), units.data());
+        exact::unit_vectors(targets, batch, prepared.center(), units.data());
       }
       const auto members = range.subspan(k, std::min(group, range.size() - k));
       rows.begin();
@@ -202,18 +204,18 @@ void for_each_row(const Ground& ground, std::span<const Point> targets, const Ex
       }
       for (std::size_t lane = 0; lane < members.size(); ++lane) {
         const std::size_t ahead = k + lane + system::prefetch_distance;
-        if (ahead < range.size()) taker.expect(range[ahead]);
+        if (ahead < range.size()) sink.expect(range[ahead]);
         row.clear();
         rows(lane, members[lane], cursor, row);
-        taker.take(members[lane], units[in_batch + lane], row);
+        sink.take(members[lane], units[in_batch + lane], row);
       }
     }
-    taker.finish();
+    sink.finish();
     progress.step();
   };
   query::for_each_range(
-      targets, ground.model(), ground.center(), execution.threads,
-      [&ground](const Point& p) { return ground.near(p); }, answer_range);
+      targets, prepared.model(), prepared.center(), execution.threads,
+      [&prepared](const Point& p) { return prepared.near(p); }, answer_range);
 }
 
 }  // namespace rondel::interpolation

@@ -26,7 +26,7 @@ constexpr std::array<std::array<double, 8>, 8> binomials = {{{1},
 constexpr std::size_t highest_excess = 4;
 
 // By degree: the least number of neighbors for a polynomial of one variable.
-constexpr std::array<std::size_t, 4> least_on_line = {0, 1, 4, 6};
+constexpr std::array<std::size_t, 4> min_on_line = {0, 1, 4, 6};
 
 double power(double x, std::size_t n) {
   double result = 1;
@@ -80,9 +80,9 @@ double excess(const SettledFit& fit, std::size_t degree) {
 bool is_determined(const SettledFit& fit) {
   for (std::size_t degree = term_degrees[fit.num_terms - 1] + 1; degree <= highest_excess;
        ++degree) {
-    if (!(excess(fit, degree) <= most_excess)) return false;
+    if (!(excess(fit, degree) <= max_excess)) return false;
   }
-  return gain(fit) <= most_gain;
+  return gain(fit) <= max_gain;
 }
 
 // Solves normal equations of up to five terms by L D L^T; the constructor stops at a pivot that is
@@ -99,7 +99,7 @@ class NormalEquations {
   [[nodiscard]] bool factor() {
     for (std::size_t j = 0; j < size_; ++j) {
       double pivot = rows_[j][j];
-      const double least = LocalFits::least_pivot * pivot;
+      const double least = LocalFits::min_pivot * pivot;
       for (std::size_t k = 0; k < j; ++k) pivot -= rows_[j][k] * rows_[j][k] * pivots_[k];
       if (!(pivot > least)) return false;
       pivots_[j] = pivot;
@@ -210,7 +210,7 @@ void settle_on_line(SettledFit& fit) {
   std::array<double, 8> sums{};
   for (std::size_t n = 2; n < sums.size(); ++n) sums[n] = line_moment(fit, along, n);
   std::size_t degree = 3;
-  while (degree > 1 && fit.num_neighbors < least_on_line[degree]) --degree;
+  while (degree > 1 && fit.num_neighbors < min_on_line[degree]) --degree;
   std::array<double, 5> c{};
   for (; degree > 0; --degree) {
     NormalEquations equations(degree,
@@ -223,8 +223,8 @@ void settle_on_line(SettledFit& fit) {
       too_much += c[i] * sums[i + degree + 2];
       taken += c[i] * mixed_moment(fit, along, across, i + 1);
     }
-    if (degree == 1 || (std::abs(too_much) <= most_excess && std::abs(taken) <= most_slope_across &&
-                        std::sqrt(fit.mean_weight * c[0]) <= most_gain)) {
+    if (degree == 1 || (std::abs(too_much) <= max_excess && std::abs(taken) <= max_slope_across &&
+                        std::sqrt(fit.mean_weight * c[0]) <= max_gain)) {
       break;
     }
   }

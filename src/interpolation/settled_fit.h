@@ -29,7 +29,7 @@
 // squared distances. Around random sites the median of N is 7 and its maximum 50. It is thousands
 // beside the poles of a grid that has no sites there, and beside a track with a site far off it.
 //
-// So the degree is lowered until E is at most most_excess and N at most most_gain. If they are
+// So the degree is lowered until E is at most max_excess and N at most max_gain. If they are
 // larger for the linear fit too, the neighbors do not determine the slope across the line of their
 // greatest extent: it is set to 0, and the slope along that line is that of a polynomial of one
 // variable, of degree up to 3.
@@ -40,10 +40,10 @@
 
 namespace rondel::interpolation {
 
-inline constexpr double most_excess = 1;
-inline constexpr double most_gain = 100;
+inline constexpr double max_excess = 1;
+inline constexpr double max_gain = 100;
 // The slope along a line may take up to this part of a slope across it.
-inline constexpr double most_slope_across = 0.5;
+inline constexpr double max_slope_across = 0.5;
 
 // Sums over the neighbors of weight a^(s-q) b^q, s = 2 ... 7, in the coordinates that make their
 // cloud round.

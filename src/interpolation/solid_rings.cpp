@@ -17,9 +17,9 @@ namespace {
 constexpr std::size_t stars_per_piece = 4096;
 
 // Returns one corner (a halfedge) of each vertex.
-std::vector<topology::Halfedge> corners_of(const Ground& ground) {
-  const topology::Mesh& mesh = ground.mesh();
-  std::vector<topology::Halfedge> corners(ground.num_vertices());
+std::vector<topology::Halfedge> corners_of(const PreparedTriangulation& prepared) {
+  const topology::Mesh& mesh = prepared.mesh();
+  std::vector<topology::Halfedge> corners(prepared.num_vertices());
   for (Index f = 0; f < mesh.num_slots(); ++f) {
     for (unsigned i = 0; i < 3; ++i) corners[mesh[f].vertex[i]] = topology::halfedge(f, i);
   }
@@ -33,15 +33,16 @@ struct StarBlock {
 };
 
 // Appends the other ends of the edges of solid faces around a vertex, counterclockwise.
-void append_star(const Ground& ground, topology::Halfedge first, std::vector<Index>& star) {
-  const topology::Mesh& mesh = ground.mesh();
+void append_star(const PreparedTriangulation& prepared, topology::Halfedge first,
+                 std::vector<Index>& star) {
+  const topology::Mesh& mesh = prepared.mesh();
   topology::Halfedge h = first;
-  bool is_after_solid = ground.is_solid(
+  bool is_after_solid = prepared.is_solid(
       topology::face_of(mesh.previous_around(topology::face_of(h), topology::edge_of(h))));
   do {
     const Index f = topology::face_of(h);
     const unsigned corner = topology::edge_of(h);
-    const bool is_solid = ground.is_solid(f);
+    const bool is_solid = prepared.is_solid(f);
     if (is_solid || is_after_solid) star.push_back(mesh[f].vertex[topology::next_corner[corner]]);
     is_after_solid = is_solid;
     h = mesh.next_around(f, corner);
@@ -50,9 +51,9 @@ void append_star(const Ground& ground, topology::Halfedge first, std::vector<Ind
 
 }  // namespace
 
-SolidStars::SolidStars(const Ground& ground, unsigned threads) {
-  const std::vector<topology::Halfedge> corners = corners_of(ground);
-  const std::size_t n = ground.num_vertices();
+SolidStars::SolidStars(const PreparedTriangulation& prepared, unsigned threads) {
+  const std::vector<topology::Halfedge> corners = corners_of(prepared);
+  const std::size_t n = prepared.num_vertices();
   std::vector<StarBlock> blocks(system::num_pieces(n, stars_per_piece));
   system::parallel_for(threads, n, stars_per_piece, [&](std::size_t begin, std::size_t end) {
     auto& [sizes, ends] = blocks[begin / stars_per_piece];
@@ -60,7 +61,7 @@ SolidStars::SolidStars(const Ground& ground, unsigned threads) {
     ends.reserve(6 * (end - begin) + 6);
     for (std::size_t v = begin; v < end; ++v) {
       const auto size = static_cast<std::ptrdiff_t>(ends.size());
-      append_star(ground, corners[v], ends);
+      append_star(prepared, corners[v], ends);
       std::rotate(ends.begin() + size, std::min_element(ends.begin() + size, ends.end()),
                   ends.end());
       sizes.push_back(static_cast<Index>(ends.size() - static_cast<std::size_t>(size)));

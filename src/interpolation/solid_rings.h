@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "interpolation/ground.h"
+#include "interpolation/prepared_triangulation.h"
 #include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
@@ -27,7 +27,7 @@ namespace rondel::interpolation {
 class SolidStars {
  public:
   // Precondition: dimension 2.
-  SolidStars(const Ground& ground, unsigned threads);
+  SolidStars(const PreparedTriangulation& prepared, unsigned threads);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] std::span<const Index> operator[](Index v) const { return rows_[v]; }

@@ -24,13 +24,13 @@ namespace {
 
 // A sum may differ from the wanted one by the first number, and by the rounding errors of as many
 // areas as it has terms, relative to the area of the cell.
-constexpr double least_tolerance = 1e-9;
+constexpr double min_tolerance = 1e-9;
 constexpr double error_of_area = 8 * std::numbers::pi * 0x1p-52;
 
 double tolerance_of(std::size_t num_entries, const std::vector<double>& areas, std::size_t cell) {
   const double area = areas.empty() ? 0 : areas[cell];
-  if (!(area > 0)) return least_tolerance;
-  return least_tolerance + static_cast<double>(num_entries + 1) * error_of_area / area;
+  if (!(area > 0)) return min_tolerance;
+  return min_tolerance + static_cast<double>(num_entries + 1) * error_of_area / area;
 }
 
 std::string lower_case(std::string text) {
@@ -168,7 +168,7 @@ class WeightChecker {
     const double deviation =
         is_at_most_wanted_ ? std::max(sum - wanted, 0.0) : std::abs(sum - wanted);
     report_.worst_row = std::max(report_.worst_row, deviation);
-    report_.least_row = std::min(report_.least_row.value_or(sum), sum);
+    report_.min_row = std::min(report_.min_row.value_or(sum), sum);
     if (!(deviation <= tolerance)) row_sums_.add("target " + std::to_string(row), sum);
   }
 
@@ -181,7 +181,7 @@ class WeightChecker {
       if (entries_of_column_[c] == 0) continue;
       const double deviation = std::abs(sums[c] - 1);
       report_.worst_row = std::max(report_.worst_row, deviation);
-      if (!(deviation <= least_tolerance)) column_sums_.add("source " + std::to_string(c), sums[c]);
+      if (!(deviation <= min_tolerance)) column_sums_.add("source " + std::to_string(c), sums[c]);
     }
   }
 

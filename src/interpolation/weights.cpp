@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpolation/place_values.h"
+#include "interpolation/vertex_fields.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -107,7 +107,7 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
     }
   }
   const bool is_whole = absolute_missing == 0;
-  const bool is_enough = absolute_missing <= options.most_missing * absolute;
+  const bool is_enough = absolute_missing <= options.max_missing * absolute;
   if (!is_whole && (!is_enough || present == 0)) return options.fill;
   const double share = is_whole ? 1 : all / present;
   return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
@@ -174,8 +174,8 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
   require_rows(weights);
   require_length("the input", in.size(), product(num_fields, weights.num_columns));
   require_length("the output", out.size(), product(num_fields, weights.num_rows()));
-  if (!(options.most_missing >= 0 && options.most_missing <= 1)) {
-    throw InvalidInput("most_missing is " + system::shortest_text(options.most_missing) +
+  if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
+    throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
                        ", not in [0, 1]");
   }
   if (num_fields == 0) require_finite_weights(weights);

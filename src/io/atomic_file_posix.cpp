@@ -67,10 +67,10 @@ Temporaries temporaries;
 
 // Returns the path of the file of that name with symbolic links resolved; the file need not exist.
 std::string resolve_links(const std::string& path) {
-  constexpr int most_links = 40;  // Linux follows as many
+  constexpr int max_links = 40;  // Linux follows as many
   std::filesystem::path target = path;
   std::error_code error;
-  for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+  for (int i = 0; i < max_links && std::filesystem::is_symlink(target, error); ++i) {
     target = target.parent_path() / std::filesystem::read_symlink(target, error);
     if (error) return path;
   }

@@ -30,7 +30,7 @@ void require_diagram(const Triangulation& triangulation, const Diagram& diagram)
 // triangulation.
 void require_sites(const SiteTable& table, const Triangulation& triangulation);
 
-// Returns the tolerance in degrees, at least least_tolerance_deg. Throws InvalidInput unless it is
+// Returns the tolerance in degrees, at least min_tolerance_deg. Throws InvalidInput unless it is
 // positive.
 double checked_tolerance(double tolerance_deg);
 

@@ -23,7 +23,7 @@ void require_sites(const SiteTable& table, const Triangulation& triangulation) {
 }
 
 double checked_tolerance(double tolerance_deg) {
-  if (tolerance_deg > 0) return std::max(tolerance_deg, least_tolerance_deg);
+  if (tolerance_deg > 0) return std::max(tolerance_deg, min_tolerance_deg);
   throw InvalidInput("the tolerance is not positive");
 }
 

@@ -26,8 +26,8 @@ void require_no_zero(std::string_view text, const std::string& what) {
 
 // True if the text is an integer that is no double.
 bool is_wide_integer(std::string_view text) {
-  constexpr std::size_t most_digits = 15;  // 10^15 < 2^53
-  if (text.size() <= most_digits) return false;
+  constexpr std::size_t max_digits = 15;  // 10^15 < 2^53
+  if (text.size() <= max_digits) return false;
   const std::string_view digits = text.substr(text.front() == '-' ? 1 : 0);
   if (digits.find_first_not_of("0123456789") != std::string_view::npos) return false;
   std::uint64_t number = 0;

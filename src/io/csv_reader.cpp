@@ -17,7 +17,7 @@ namespace rondel::io {
 namespace {
 
 // Returns an upper bound: every line may be a site, and a site takes at least four bytes: "1,2\n".
-std::size_t most_sites(std::string_view text) {
+std::size_t max_num_sites(std::string_view text) {
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   return std::min(lines, text.size() / 4 + 1);
 }
@@ -77,7 +77,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
   }
   const std::vector<bool> is_named = named_columns(records.fields());
   SiteCollector collector(table, options);
-  collector.reserve(most_sites(text.substr(records.position())), coordinates.is_lonlat);
+  collector.reserve(max_num_sites(text.substr(records.position())), coordinates.is_lonlat);
   const auto [a, b, c] = coordinates.columns;
   while (records.next()) {
     const auto& fields = records.fields();

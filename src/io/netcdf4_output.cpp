@@ -40,7 +40,7 @@ std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) 
 
 // NetCDF-C keeps back at most this many bytes of a variable: the size of its largest cache of
 // chunks.
-constexpr std::uint64_t most_kept_back = std::uint64_t{1} << 26U;
+constexpr std::uint64_t max_kept_back = std::uint64_t{1} << 26U;
 
 // Returns the number of values in all chunks. Chunks at the end of a dimension are as long as the
 // others, which at most doubles a dimension.
@@ -55,11 +55,12 @@ std::uint64_t values_of_chunks(const std::vector<std::uint64_t>& shape) {
 
 // Returns more than HDF5 takes for definitions: a header, lists of attributes and the trees that
 // say where chunks are.
-std::uint64_t most_bytes_of_definitions(const Netcdf4Definitions& definitions) {
-  constexpr std::uint64_t of_each = std::uint64_t{1} << 14U;
+std::uint64_t max_bytes_of_definitions(const Netcdf4Definitions& definitions) {
+  constexpr std::uint64_t bytes_per_item = std::uint64_t{1} << 14U;
   constexpr std::uint64_t of_attribute = 512;
   constexpr std::uint64_t of_chunk = 256;
-  std::uint64_t size = of_each * (1 + definitions.dimensions.size() + definitions.variables.size());
+  std::uint64_t size =
+      bytes_per_item * (1 + definitions.dimensions.size() + definitions.variables.size());
   const auto add_attributes = [&](const std::vector<NetcdfAttribute>& attributes) {
     for (const NetcdfAttribute& attribute : attributes) {
       size += of_attribute +
@@ -83,7 +84,7 @@ Netcdf4Output::Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definit
   const std::string folder =
       file.is_direct() ? (std::filesystem::temp_directory_path() / "").string() : file.directory();
   try {
-    size_of_definitions_ = most_bytes_of_definitions(definitions);
+    size_of_definitions_ = max_bytes_of_definitions(definitions);
     create(temporary_name(folder));
     define(definitions, deflate);
   } catch (...) {
@@ -129,7 +130,7 @@ void Netcdf4Output::require_room() {
     if (variable.num_bytes_handed == 0) continue;
     const std::uint64_t of_chunk = values_of_chunk * variable.size_of_value;
     kept_back += std::min(
-        {most_kept_back, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
+        {max_kept_back, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
   }
   const std::uint64_t needed = system::size_of(descriptor_) + kept_back;
   if (needed <= size_with_room_) return;

@@ -60,14 +60,14 @@ void for_each_row(const BoxLengths& count, std::span<const std::size_t> order,
 // Returns the lengths of pieces: a chunk, extended from the fastest dimension on as far as there is
 // room.
 BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint64_t> chunk,
-                             std::size_t most_of_piece) {
+                             std::size_t max_per_piece) {
   BoxLengths lengths(count.size());
   for (std::size_t d = 0; d < count.size(); ++d) {
     lengths[d] = static_cast<std::size_t>(std::min<std::uint64_t>(count[d], chunk[d]));
   }
   std::size_t size = num_values_of(lengths);
   for (std::size_t d = count.size(); d-- > 0;) {
-    const std::size_t number = std::max<std::size_t>(most_of_piece / size, 1);
+    const std::size_t number = std::max<std::size_t>(max_per_piece / size, 1);
     size /= lengths[d];
     lengths[d] = std::min(count[d], lengths[d] * number);
     size *= lengths[d];
@@ -80,7 +80,7 @@ BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint6
 
 void read_in_order(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box,
                    std::span<const std::size_t> order, std::span<double> out,
-                   std::size_t most_of_piece) {
+                   std::size_t max_per_piece) {
   const std::size_t rank = order.size();
   if (rank == 0 || out.empty()) {
     file.read_numbers(variable, 0, out);
@@ -91,7 +91,7 @@ void read_in_order(const NetcdfReader& file, const BoxVariable& variable, const 
   const BoxLengths steps_in_order = steps_of(ordered);
   BoxLengths out_steps(rank);
   for (std::size_t w = 0; w < rank; ++w) out_steps[order[w]] = steps_in_order[w];
-  const BoxLengths most = lengths_of_pieces(box.count, file.chunk_of(variable), most_of_piece);
+  const BoxLengths most = lengths_of_pieces(box.count, file.chunk_of(variable), max_per_piece);
   std::vector<double> values;
   NetcdfBox piece{box.start, most};
   std::size_t out_begin = 0;
@@ -147,11 +147,11 @@ class RunReader {
     constexpr std::size_t short_run = 512;
     const bool is_dense = run_ < short_run && steps_[d] <= 2 * short_run;
     const std::size_t together = is_dense ? usual_piece / steps_[d] : 1;
-    const std::size_t of_each = out.size() / box_.count[d];
+    const std::size_t row_size = out.size() / box_.count[d];
     for (std::size_t i = 0; i < box_.count[d]; i += together) {
       const std::size_t number = std::min(together, box_.count[d] - i);
       const std::uint64_t at = begin + (box_.start[d] + i) * steps_[d];
-      const std::span<double> part = out.subspan(i * of_each, number * of_each);
+      const std::span<double> part = out.subspan(i * row_size, number * row_size);
       if (is_dense) {
         read_dense(d, number, at + offset_after(d + 1), part);
       } else {

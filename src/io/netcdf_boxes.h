@@ -20,11 +20,11 @@ inline constexpr std::size_t usual_piece = std::size_t{1} << 20U;
 
 // Reads the numbers of a box with its dimensions in another order: order[k] is the dimension of the
 // variable that comes at position k, and the last one varies fastest in `out`. The box is read in
-// pieces of about `most_of_piece` values, which consist of whole chunks if the file is divided into
+// pieces of about `max_per_piece` values, which consist of whole chunks if the file is divided into
 // chunks. Throws BadValue like NetcdfReader::read_numbers(). Precondition: the box lies in the
 // variable, and `out` has its size.
 void read_in_order(const NetcdfReader& file, const NetcdfReader::Variable& variable,
                    const NetcdfBox& box, std::span<const std::size_t> order, std::span<double> out,
-                   std::size_t most_of_piece = usual_piece);
+                   std::size_t max_per_piece = usual_piece);
 
 }  // namespace rondel::io

@@ -249,10 +249,10 @@ std::vector<double> NetcdfReader::rounded_numbers(const Variable& variable,
 
 // Values of netCDF-4 that were never written take no bytes, and equal ones hardly any. So this
 // bound is wide: it keeps a damaged size from taking all of the memory.
-std::uint64_t NetcdfReader::most_values() const {
-  constexpr unsigned most_packed = 20;  // logarithm of the largest number of values a byte
+std::uint64_t NetcdfReader::max_values() const {
+  constexpr unsigned max_packed = 20;  // logarithm of the largest number of values a byte
   return netcdf4_ == nullptr ? size_
-                             : std::min(size_, ~std::uint64_t{0} >> most_packed) << most_packed;
+                             : std::min(size_, ~std::uint64_t{0} >> max_packed) << max_packed;
 }
 
 std::vector<std::uint64_t> NetcdfReader::chunk_of(const Variable& variable) const {
@@ -267,7 +267,7 @@ void NetcdfReader::require_numbers(const Variable& variable) {
 
 void NetcdfReader::require_room(const Variable& variable) const {
   require_numbers(variable);
-  if (netcdf4_ == nullptr || variable.num_values <= most_values()) return;
+  if (netcdf4_ == nullptr || variable.num_values <= max_values()) return;
   refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
                        std::to_string(size_) + " bytes");
 }

@@ -67,7 +67,7 @@ class NetcdfReader {
   [[nodiscard]] std::uint64_t num_bytes() const { return size_; }
   // Returns an upper bound of the number of values of a variable, given the size of the file and
   // compression.
-  [[nodiscard]] std::uint64_t most_values() const;
+  [[nodiscard]] std::uint64_t max_values() const;
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }

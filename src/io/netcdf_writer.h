@@ -80,17 +80,17 @@ class NetcdfWriter {
     }
   }
 
-  // Writes rows of `of_each` values. Several threads call fill(begin, end, values), which computes
+  // Writes rows of `row_size` values. Several threads call fill(begin, end, values), which computes
   // rows begin ... end - 1; the values are 0 before.
   template <typename T, typename Fill>
-  void write_rows(unsigned threads, std::size_t rows, std::size_t of_each, const Fill& fill) {
-    const std::size_t of_row = std::max<std::size_t>(of_each, 1) * sizeof(T);
+  void write_rows(unsigned threads, std::size_t rows, std::size_t row_size, const Fill& fill) {
+    const std::size_t of_row = std::max<std::size_t>(row_size, 1) * sizeof(T);
     const std::size_t of_piece = std::max<std::size_t>(bytes_per_piece / of_row, 1);
     if (netcdf4_ != nullptr) {
       for (std::size_t begin = 0; begin < rows; begin += of_piece) {
         const std::size_t end = std::min(rows, begin + of_piece);
         std::vector<T>& values = values_of_rows<T>();
-        values.assign((end - begin) * of_each, T{});
+        values.assign((end - begin) * row_size, T{});
         fill(begin, end, values.data());
         write_block(std::span<const T>(values));
       }
@@ -100,12 +100,12 @@ class NetcdfWriter {
     write_in_parallel(file_, threads, rows, of_piece,
                       [&](std::string& text, std::size_t begin, std::size_t end) {
                         std::vector<T>& values = values_of_rows<T>();
-                        values.assign((end - begin) * of_each, T{});
+                        values.assign((end - begin) * row_size, T{});
                         fill(begin, end, values.data());
                         text.resize(values.size() * sizeof(T));
                         store_all(std::span<const T>(values), text.data(), std::endian::big);
                       });
-    count_bytes(static_cast<std::uint64_t>(rows) * of_each * sizeof(T));
+    count_bytes(static_cast<std::uint64_t>(rows) * row_size * sizeof(T));
   }
 
   // Ends the file. Precondition: all values have been written.

@@ -27,7 +27,7 @@ namespace {
 using exact::Word;
 
 // The exponents of numbers from 2^-30 to 2^30, for which 5^s < 2^59 and 10 * 2^(D + 1) < 2^62.
-constexpr int least_exponent = -82;
+constexpr int min_exponent = -82;
 constexpr int greatest_exponent = -23;
 
 // The factor of numbers with one exponent, as above.
@@ -39,16 +39,16 @@ struct Scale {
 
 // The scales of all these exponents, computed by the compiler.
 constexpr auto scales = [] {
-  std::array<Scale, greatest_exponent - least_exponent + 1> all{};
+  std::array<Scale, greatest_exponent - min_exponent + 1> all{};
   Scale scale;
-  for (int e = greatest_exponent; e >= least_exponent; --e) {
+  for (int e = greatest_exponent; e >= min_exponent; --e) {
     scale.fraction = static_cast<unsigned>(-e - scale.decimals);
     while (scale.power_of_5 < Word{1} << scale.fraction) {
       scale.power_of_5 *= 5;
       ++scale.decimals;
       --scale.fraction;
     }
-    all[static_cast<std::size_t>(e - least_exponent)] = scale;
+    all[static_cast<std::size_t>(e - min_exponent)] = scale;
   }
   return all;
 }();
@@ -160,15 +160,15 @@ char* write_number(char* out, double value) {
   constexpr std::uint64_t fraction_mask = (std::uint64_t{1} << 52U) - 1;
   const std::uint64_t fraction = bits & fraction_mask;
   const int e = static_cast<int>(bits >> 52U & 0x7FFU) - 1075;
-  if (e < least_exponent || e > greatest_exponent || fraction == 0) {
+  if (e < min_exponent || e > greatest_exponent || fraction == 0) {
     return std::to_chars(out, out + number_room, value).ptr;
   }
-  const Scale& scale = scales[static_cast<std::size_t>(e - least_exponent)];
+  const Scale& scale = scales[static_cast<std::size_t>(e - min_exponent)];
   Word decimal = shortest_decimal(fraction | (fraction_mask + 1), scale);
   // 10^s v is at least m, so it has 16 or 17 digits.
-  constexpr Word least_of_17 = 10'000'000'000'000'000;
+  constexpr Word min_of_17 = 10'000'000'000'000'000;
   int exponent = num_digits - 1 - scale.decimals;
-  if (decimal < least_of_17) {
+  if (decimal < min_of_17) {
     decimal *= 10;
     --exponent;
   }

@@ -23,7 +23,7 @@ constexpr std::uint32_t wide_end_magic = 0x06064b50;
 constexpr std::size_t end_size = 22;
 constexpr std::uint64_t is_wide = 0xffff'ffff;  // the value is in an extra field
 // Deflate expands a byte to at most 1032 bytes.
-constexpr std::uint64_t most_per_byte = 1032;
+constexpr std::uint64_t max_per_byte = 1032;
 
 // Returns a number at any position of the archive.
 template <typename T>
@@ -113,7 +113,7 @@ std::optional<ZipEntry> find_entry(std::string_view bytes, std::string_view name
 
 // Returns the inflated stream, which may take several calls since zlib counts in 32 bits.
 std::string inflated(std::string_view packed, std::uint64_t size) {
-  if (size / most_per_byte > packed.size()) throw BadValue("the zip archive is damaged");
+  if (size / max_per_byte > packed.size()) throw BadValue("the zip archive is damaged");
   std::string text(size, '\0');
   z_stream stream{};
   if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) throw std::bad_alloc();

@@ -24,7 +24,7 @@ constexpr double longest_merged = 0x1p-30;
 constexpr double short_line = 0x1p-10;
 constexpr double shortest_line = 0x1p-20;
 // A ring with more lines is not bisected, so that a narrow cell cannot fill a file.
-constexpr std::size_t most_lines = 4096;
+constexpr std::size_t max_lines = 4096;
 // Each pass carries points across one more cell in a row of narrow cells, and may add as many
 // points as the pass before. This bounds time and size where rows are longer; docs/theory/map.md
 // has measurements.
@@ -148,9 +148,9 @@ std::map<CellMap::Edge, CellMap::Inner> CellMap::drawn_points(
 }
 
 // Bisects the lines of these pairs that are longer than `shortest` (radians). Returns false if all
-// are shorter, or if the ring has more than most_lines.
+// are shorter, or if the ring has more than max_lines.
 bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
-  if (triangulation_.model() != Model::weighted || trace_.points.size() > most_lines) return false;
+  if (triangulation_.model() != Model::weighted || trace_.points.size() > max_lines) return false;
   std::map<Edge, Inner> drawn = drawn_points(pairs);
   bool has_changed = false;
   for (const auto& [i, j] : pairs) {

@@ -15,7 +15,7 @@ namespace rondel::map {
 namespace {
 
 constexpr double largest_tolerance_deg = 0.01;
-constexpr double least_tolerance_deg = 1e-5;
+constexpr double min_tolerance_deg = 1e-5;
 constexpr std::size_t faces_per_piece = 1024;
 
 // True if no two corners are antipodes up to rounding, so that doubles determine the arcs between
@@ -147,9 +147,9 @@ double FaceMap::tolerance(Index face) const {
   const Point ab = b - a;
   const Point bc = c - b;
   const double longest = std::max({norm(ab), norm(bc), norm(a - c)});
-  if (longest == 0) return least_tolerance_deg;  // the corners are one point after rounding
+  if (longest == 0) return min_tolerance_deg;  // the corners are one point after rounding
   const double height_deg = norm(cross(ab, bc)) / longest * degrees_per_radian;
-  return std::clamp(height_deg / 10, least_tolerance_deg, largest_tolerance_deg);
+  return std::clamp(height_deg / 10, min_tolerance_deg, largest_tolerance_deg);
 }
 
 }  // namespace rondel::map

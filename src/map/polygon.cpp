@@ -129,12 +129,12 @@ void append_loop(const std::vector<LonLat>& loop, Loops& out) {
 // A convex region contains no pair of antipodes, and antipodal regions have the same area in the
 // plane, so it covers at most half of the rectangle. Polygons that cover nearly all of it are the
 // outside of a region no wider than rounding.
-constexpr double most_of_rectangle = 1.5 * 360 * 180;  // twice the area, square degrees
+constexpr double max_per_rectangle = 1.5 * 360 * 180;  // twice the area, square degrees
 
 bool is_outside(const std::vector<LonLatPolygon>& polygons) {
   double doubled = 0;
   for (const LonLatPolygon& polygon : polygons) doubled += doubled_area(polygon.ring);
-  return doubled > most_of_rectangle;
+  return doubled > max_per_rectangle;
 }
 
 // Joins chains along the border into loops. With the region to the left, the border belongs to the
@@ -242,7 +242,7 @@ std::vector<std::vector<LonLat>> drawn_loops(const Trace& trace) {
   std::vector<std::vector<LonLat>> loops = loops_of_chains(trace);
   double doubled = 0;
   for (const std::vector<LonLat>& loop : loops) doubled += doubled_area(loop);
-  if (doubled > most_of_rectangle) loops.emplace_back(corners.rbegin(), corners.rend());
+  if (doubled > max_per_rectangle) loops.emplace_back(corners.rbegin(), corners.rend());
   return loops;
 }
 

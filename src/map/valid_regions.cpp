@@ -24,8 +24,8 @@ constexpr std::size_t regions_per_task = 16;
 constexpr int most_passes = 40;
 // Bounds the changes: so many for each position of the regions, and some more. Lines that are
 // bisected forever would fill the memory.
-constexpr std::size_t most_changes_of_position = 8;
-constexpr std::size_t most_changes_besides = 1 << 12;
+constexpr std::size_t max_changes_of_position = 8;
+constexpr std::size_t max_changes_besides = 1 << 12;
 
 // Knows which regions have a position.
 class PositionOwners {
@@ -92,7 +92,7 @@ class RegionsInPlane {
   std::vector<PolygonsOfRegion> made_valid(bool may_overlap) {
     std::vector<std::size_t> open(regions_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
-    const std::size_t limit = most_changes();
+    const std::size_t limit = max_changes();
     for (int pass = 0; pass < most_passes && num_changes_ <= limit; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
@@ -118,12 +118,12 @@ class RegionsInPlane {
     for (const std::size_t i : open) owners_->add_starts(memories_[i].sides, i);
   }
 
-  [[nodiscard]] std::size_t most_changes() const {
+  [[nodiscard]] std::size_t max_changes() const {
     std::size_t num_positions = 0;
     for (const LoopsOfRegion& loops : regions_) {
       for (const Loop& loop : loops) num_positions += loop.size();
     }
-    return most_changes_of_position * num_positions + most_changes_besides;
+    return max_changes_of_position * num_positions + max_changes_besides;
   }
 
   // Mends the troubles of the open regions, and returns all regions that this changes.
@@ -162,7 +162,7 @@ class RegionsInPlane {
     // Changes without end may have led lines astray, so then the regions are settled as they were
     // given.
     const SharedLines unchanged;
-    const SharedLines& lines = num_changes_ > most_changes() ? unchanged : lines_;
+    const SharedLines& lines = num_changes_ > max_changes() ? unchanged : lines_;
     std::vector<std::vector<DirectedLine>> sides(regions_.size());
     for (std::size_t i = 0; i < regions_.size(); ++i) {
       for (const Loop& loop : regions_[i]) lines.append_sides(loop, sides[i]);

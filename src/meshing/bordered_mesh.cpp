@@ -35,7 +35,7 @@ class BorderedMeshMaker {
                     const Execution& execution)
       : from_(from), options_(options), threads_(execution.threads) {}
 
-  mesh::MeshArrays make() {
+  mesh::VoronoiMesh make() {
     require_options(options_, from_.sites.size());
     from_.sides.set_lists(arrays_);
     arrays_.radius = options_.radius;
@@ -135,7 +135,7 @@ class BorderedMeshMaker {
   const RingsAndSites& from_;
   const mesh::MeshOptions& options_;
   unsigned threads_;
-  mesh::MeshArrays arrays_;
+  mesh::VoronoiMesh arrays_;
 };
 
 }  // namespace
@@ -191,8 +191,8 @@ std::optional<std::pair<Index, Index>> cells_that_differ(const RingsAndSites& fr
   return std::nullopt;
 }
 
-mesh::MeshArrays bordered_mesh(const RingsAndSites& from, const mesh::MeshOptions& options,
-                               const Execution& execution) {
+mesh::VoronoiMesh bordered_mesh(const RingsAndSites& from, const mesh::MeshOptions& options,
+                                const Execution& execution) {
   return BorderedMeshMaker(from, options, execution).make();
 }
 

@@ -47,7 +47,7 @@ std::optional<std::pair<Index, Index>> cells_that_differ(const RingsAndSites& fr
 
 // Makes the mesh. Precondition: rings run around their sites. Throws BadValue if some site is
 // nearer to a corner than the sites of the corner's cells.
-mesh::MeshArrays bordered_mesh(const RingsAndSites& from, const mesh::MeshOptions& options,
-                               const Execution& execution);
+mesh::VoronoiMesh bordered_mesh(const RingsAndSites& from, const mesh::MeshOptions& options,
+                                const Execution& execution);
 
 }  // namespace rondel::meshing

@@ -27,7 +27,7 @@ using Vec = exact::Vector3<double>;
 
 // Returns the corners of a cell on the unit sphere, relative to its site.
 struct Offsets {
-  const mesh::MeshArrays& arrays;
+  const mesh::VoronoiMesh& arrays;
   Point site;
   [[nodiscard]] Vec operator()(std::uint64_t at) const {
     const Point& p = arrays.vertex_points[arrays.vertices_on_cell[at]];
@@ -36,7 +36,7 @@ struct Offsets {
 };
 
 // True if the densities of the cell and its neighbors differ.
-bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
+bool has_densities(const mesh::VoronoiMesh& arrays, std::size_t cell) {
   if (arrays.density.empty()) return false;
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
@@ -48,7 +48,7 @@ bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
 
 // Returns the density that belongs to the mean spacing of the cells around a vertex; spacings are
 // its power -1/4.
-double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
+double density_at_vertex(const mesh::VoronoiMesh& arrays, Index vertex) {
   double sum = 0;
   double count = 0;
   for (const Index cell : arrays.cells_on_vertex[vertex]) {
@@ -63,7 +63,7 @@ double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
 // Returns how far the center of mass moves from that of constant density. The density is linear in
 // each triangle of the site and two corners. The triangles are treated as planar, since the shift
 // itself is small.
-Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
+Vec shift_by_density(const mesh::VoronoiMesh& arrays, std::size_t cell) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);
   const Offsets offset{arrays, site};
@@ -92,7 +92,7 @@ Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
 }
 
 // Sets spacing, energy and offset of the center of mass, which follow from the moment of the cell.
-void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& shape) {
+void add_moment(const mesh::VoronoiMesh& arrays, std::size_t cell, CellShape& shape) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);
   const Offsets offset{arrays, site};
@@ -125,7 +125,7 @@ void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& sha
 }  // namespace
 
 // At the border of a mesh the cell beyond an edge is missing, and so is its spacing.
-double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge) {
+double gradient_of(const mesh::VoronoiMesh& arrays, std::size_t edge) {
   const auto [a, b] = arrays.cells_on_edge[edge];
   if (b == no_index) return 0;
   const double of_a = mesh::spacing_of(arrays.cell_areas[a]);
@@ -133,28 +133,28 @@ double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge) {
   return std::abs(of_a - of_b) / (0.5 * (of_a + of_b));
 }
 
-CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell) {
+CellShape shape_of(const mesh::VoronoiMesh& arrays, std::size_t cell) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   CellShape shape;
   add_moment(arrays, cell, shape);
-  double least_side = infinite;
+  double min_side = infinite;
   double longest_side = 0;
   double nearest = infinite;
   double farthest = 0;
-  shape.least_edge_ratio = infinite;
+  shape.min_edge_ratio = infinite;
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
     const Index e = arrays.edges_on_cell.values[at];
     const double side = arrays.vertex_distances[e];
     const double distance = arrays.cell_distances[e];
-    least_side = std::min(least_side, side);
+    min_side = std::min(min_side, side);
     longest_side = std::max(longest_side, side);
     nearest = std::min(nearest, distance);
     farthest = std::max(farthest, distance);
-    shape.least_edge_ratio = std::min(shape.least_edge_ratio, side / distance);
+    shape.min_edge_ratio = std::min(shape.min_edge_ratio, side / distance);
     shape.gradient = std::max(shape.gradient, gradient_of(arrays, e));
   }
-  shape.side_ratio = least_side / longest_side;
+  shape.side_ratio = min_side / longest_side;
   shape.distance_ratio = farthest / nearest;
   return shape;
 }

@@ -21,7 +21,7 @@ struct CellShape {
       0;              // distance of site and center of mass over the spacing; mass has the density
                       // of the cells
   double energy = 0;  // integral of the squared distance from the site over the cell
-  double least_edge_ratio = 0;
+  double min_edge_ratio = 0;
   double side_ratio = 0;
   double distance_ratio = 0;
   double gradient = 0;
@@ -29,10 +29,10 @@ struct CellShape {
 
 // Returns the shape of a cell. It takes the areas and lengths of the arrays, and its moment from
 // the corners.
-CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell);
+CellShape shape_of(const mesh::VoronoiMesh& arrays, std::size_t cell);
 
 // Returns the difference of the spacings of the two cells of an edge over their mean; 0 at the
 // border.
-double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge);
+double gradient_of(const mesh::VoronoiMesh& arrays, std::size_t edge);
 
 }  // namespace rondel::meshing

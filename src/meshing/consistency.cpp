@@ -52,9 +52,9 @@ void require_indices(const char* name, unsigned threads, const std::vector<Row>&
                      std::size_t end, None none = None::refused) {
   constexpr std::size_t grain = 65536;
   static_assert(sizeof(Index) == 4);
-  constexpr std::size_t of_each = sizeof(Row) / 4;
+  constexpr std::size_t row_size = sizeof(Row) / 4;
   const auto numbers =
-      std::span<const Index>(reinterpret_cast<const Index*>(rows.data()), rows.size() * of_each);
+      std::span<const Index>(reinterpret_cast<const Index*>(rows.data()), rows.size() * row_size);
   system::parallel_for(threads, numbers.size(), grain, [&](std::size_t first, std::size_t last) {
     Index most = 0;
     for (std::size_t i = first; i < last; ++i) {
@@ -108,7 +108,7 @@ bool is_on_sphere(const Point& p, double radius) {
   return std::abs(norm(exact::to_vector(p)) - radius) <= 1e-3 * radius;
 }
 
-void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads) {
+void require_possible_numbers(const mesh::VoronoiMesh& arrays, unsigned threads) {
   constexpr double turn = 2 * std::numbers::pi;
   const PossibleNumbers areas{0, 2 * turn * arrays.radius * arrays.radius, false};
   const PossibleNumbers distances{0, turn * arrays.radius, false};
@@ -128,7 +128,7 @@ void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads) 
                   });
 }
 
-void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
+void require_consistent(const mesh::VoronoiMesh& arrays, unsigned threads) {
   const std::size_t cells = arrays.num_cells();
   const std::size_t edges = arrays.num_edges();
   const std::size_t vertices = arrays.num_vertices();

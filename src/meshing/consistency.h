@@ -25,7 +25,7 @@ bool is_at_border(const Cells& cells) {
   return std::ranges::find(cells, no_index) != cells.end();
 }
 // True if an edge of the mesh has only one cell.
-inline bool has_border(const mesh::MeshArrays& arrays) {
+inline bool has_border(const mesh::VoronoiMesh& arrays) {
   return std::ranges::any_of(arrays.cells_on_edge,
                              [](const auto& cells) { return cells[1] == no_index; });
 }
@@ -35,14 +35,14 @@ inline bool has_border(const mesh::MeshArrays& arrays) {
 // than a turn, a number that is not finite. An edge may have length 0; at the border a distance may
 // be 0, and the area of a triangle is a sum of kites, which may be negative. The message has the
 // name that MPAS gives to the array.
-void require_possible_numbers(const mesh::MeshArrays& arrays, unsigned threads);
+void require_possible_numbers(const mesh::VoronoiMesh& arrays, unsigned threads);
 
 // Throws InvalidInput where a number is not that of the mesh's points, by far more than programs
 // differ in: dcEdge, dvEdge, angleEdge between two cells and away from the poles, areaCell.
 // Precondition: the lists fit together, with edges turned and rings counterclockwise.
-void require_measures_of_points(const mesh::MeshArrays& arrays, unsigned threads);
+void require_measures_of_points(const mesh::VoronoiMesh& arrays, unsigned threads);
 
 // Throws InvalidInput where a size or an index does not fit, or a number is not possible.
-void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
+void require_consistent(const mesh::VoronoiMesh& arrays, unsigned threads);
 
 }  // namespace rondel::meshing

@@ -34,7 +34,7 @@ std::size_t number_kept(std::vector<Index>& numbers) {
 // The arrays before and after. The maps from old to new numbers are a part of the result.
 class Culler {
  public:
-  Culler(const MeshArrays& arrays, std::span<const std::uint8_t> is_removed, unsigned threads)
+  Culler(const VoronoiMesh& arrays, std::span<const std::uint8_t> is_removed, unsigned threads)
       : from_(arrays), is_removed_(is_removed), threads_(threads), to_(culled_.arrays) {}
 
   Culled cull() {
@@ -162,11 +162,11 @@ class Culler {
     });
   }
 
-  const MeshArrays& from_;
+  const VoronoiMesh& from_;
   std::span<const std::uint8_t> is_removed_;
   unsigned threads_;
   Culled culled_;
-  MeshArrays& to_;
+  VoronoiMesh& to_;
   std::size_t num_cells_ = 0;
   std::size_t num_edges_ = 0;
   std::size_t num_vertices_ = 0;
@@ -174,7 +174,7 @@ class Culler {
 
 }  // namespace
 
-Culled cull(const MeshArrays& arrays, std::span<const std::uint8_t> is_removed,
+Culled cull(const VoronoiMesh& arrays, std::span<const std::uint8_t> is_removed,
             const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);

@@ -24,7 +24,7 @@ constexpr double springs_half_width = 0.5 * (1 - softest_spring);
 // The wall between two cells is the chord of the two circumcenters; densities are masses over
 // squared spacings. Each site stores the springs at it, so that a pass over the sites needs no
 // locks.
-void EdgeSprings::measure(const MovingSurface& surface, std::span<const Point> sites,
+void EdgeSprings::measure(const KineticDelaunay& surface, std::span<const Point> sites,
                           std::span<const SiteSums> sums) {
   const std::size_t n = sites.size();
   const auto faces = surface.faces();

@@ -28,8 +28,8 @@
 #include <span>
 #include <vector>
 
+#include "meshing/kinetic_delaunay.h"
 #include "meshing/scvt_energy.h"
-#include "meshing/scvt_surface.h"
 #include "meshing/tangent.h"
 
 namespace rondel::mesh {
@@ -39,7 +39,7 @@ class EdgeSprings {
   explicit EdgeSprings(unsigned threads) : threads_(threads) {}
 
   // Computes the springs of the tessellation.
-  void measure(const MovingSurface& surface, std::span<const Point> sites,
+  void measure(const KineticDelaunay& surface, std::span<const Point> sites,
                std::span<const SiteSums> sums);
 
   // Replaces forces by displacements, approximately S^-1 times the forces. `axes` are those of

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t weights_grain = 4096;
 
 // Returns the kite of a vertex that belongs to a cell.
-double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
+double kite_of(const mesh::VoronoiMesh& arrays, Index vertex, Index cell) {
   const Triple& cells = arrays.cells_on_vertex[vertex];
   const std::size_t i = cells[0] == cell ? 0 : cells[1] == cell ? 1 : 2;
   return arrays.kite_areas[vertex][i];
@@ -32,7 +32,7 @@ double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
 }  // namespace
 
 // The row of an edge has the other edges of its one or two cells.
-std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
+std::size_t num_weights(const mesh::VoronoiMesh& arrays, std::size_t edge) {
   std::size_t count = 0;
   for (const Index cell : arrays.cells_on_edge[edge]) {
     if (cell == no_index) continue;
@@ -43,7 +43,7 @@ std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
   return count;
 }
 
-void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<Index> edges,
+void write_weights(const mesh::VoronoiMesh& arrays, std::size_t edge, std::span<Index> edges,
                    std::span<double> weights) {
   std::size_t out = 0;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -77,7 +77,7 @@ void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<I
 
 namespace rondel::mesh {
 
-TangentialWeights tangential_weights(const MeshArrays& arrays, const Execution& execution) {
+TangentialWeights tangential_weights(const VoronoiMesh& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   TangentialWeights result;

@@ -24,7 +24,7 @@ struct FaceCenter {
 
 // Differences of coordinates that are known to 2^-100 have a relative error of u/2 as long as their
 // square is above this bound.
-constexpr double least_square = 0x1p-90;
+constexpr double min_square = 0x1p-90;
 
 // Computes flat faces and faces of very close sites from the exact normal, where p = n.(b x c) /
 // |D| with b x c = b x D.
@@ -53,7 +53,7 @@ FaceCenter center_of(const dual::SplitSites& sites, const Triple& corners) {
   const std::array<double, 3> squares = {dot(d, d), dot(to_c, to_c), dot(to_b, to_b)};
   const double n2 = dot(n, n);
   if (!dual::is_accurate(squares[2], squares[1], n2, true) ||
-      std::min({squares[0], squares[1], squares[2]}) < least_square) {
+      std::min({squares[0], squares[1], squares[2]}) < min_square) {
     return careful_center(sites, corners);
   }
   const std::array<double, 3> products = {dot(to_b, to_c), -dot(to_b, d), dot(to_c, d)};

@@ -15,7 +15,7 @@
 namespace rondel::mesh {
 namespace {
 
-// MovingSurface accepts lengths within 3 * 2^-53 of 1; the square adds a rounding error.
+// KineticDelaunay accepts lengths within 3 * 2^-53 of 1; the square adds a rounding error.
 bool is_unit(const Point& p) { return std::abs(dot(p, p) - 1) <= 4 * 0x1p-53; }
 
 // Returns the places as unit vectors; those that are unit vectors already stay bit by bit.
@@ -84,7 +84,7 @@ std::vector<Index> take_nearest(std::vector<Point>& sites, std::span<const Point
         taken.push_back(*at);
         break;
       }
-      // The remaining sites are duplicates, which relaxed() refuses.
+      // The remaining sites are duplicates, which relax() refuses.
       if (k >= num_vertices) throw InvalidInput("the sites have duplicates");
     }
   }

@@ -177,7 +177,7 @@ void LaplacianSolver::cycle(std::size_t number) {
   smooth(level);
 }
 
-int LaplacianSolver::solve(std::span<const double> right, double tolerance, int most_steps,
+int LaplacianSolver::solve(std::span<const double> right, double tolerance, int max_steps,
                            std::vector<double>& solution) {
   GraphLevel& finest = levels_.front();
   std::vector<double> rest(right.begin(), right.end());
@@ -187,7 +187,7 @@ int LaplacianSolver::solve(std::span<const double> right, double tolerance, int 
   std::vector<double> image(rest.size());
   const double goal = tolerance * std::sqrt(dot_of(threads_, rest, rest));
   double last = 1;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     if (std::sqrt(dot_of(threads_, rest, rest)) <= goal) return step;
     finest.right = rest;
     cycle(0);
@@ -205,7 +205,7 @@ int LaplacianSolver::solve(std::span<const double> right, double tolerance, int 
     }
     last = now;
   }
-  return most_steps;
+  return max_steps;
 }
 
 }  // namespace rondel::mesh

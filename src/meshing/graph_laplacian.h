@@ -38,9 +38,9 @@ class LaplacianSolver {
   LaplacianSolver(WeightedGraph graph, unsigned threads);
 
   // Solves until the residual is `tolerance` times as long as the right-hand side, or for
-  // `most_steps` steps, and returns the number of steps. The mean of the right-hand side is
+  // `max_steps` steps, and returns the number of steps. The mean of the right-hand side is
   // subtracted first; the solution has mean 0.
-  int solve(std::span<const double> right, double tolerance, int most_steps,
+  int solve(std::span<const double> right, double tolerance, int max_steps,
             std::vector<double>& solution);
 
  private:

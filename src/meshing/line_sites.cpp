@@ -35,10 +35,10 @@ constexpr double whole_step = 1;
 constexpr double half_step = 0.5;
 constexpr double row_offset = 0.43301270189221935;  // sqrt(3) / 4
 // The least distances, in units of the spacing, from a site to other sites and to stations.
-constexpr double least_site_distance = 0.7;
-constexpr double least_station_distance = 0.3;
+constexpr double min_site_distance = 0.7;
+constexpr double min_station_distance = 0.3;
 constexpr std::size_t fewest_stations = 6;
-constexpr int most_fits = 8;
+constexpr int max_fits = 8;
 
 // Places along a line at which the dividers stand, and the spacings there.
 struct Stations {
@@ -124,15 +124,15 @@ Stations fitted_stations(const LineWalk& line, double step, std::size_t multiple
   const auto unit = static_cast<double>(multiple);
   double stretch = 1;
   Stations best;
-  double least_gap = 2;
-  for (int fit = 0; fit < most_fits; ++fit) {
+  double min_gap = 2;
+  for (int fit = 0; fit < max_fits; ++fit) {
     Stations found = line.walk(stretch * step, most);
     const double wanted = unit * std::floor(found.steps / unit + 0.5);
     if (wanted < static_cast<double>(fewest)) return {};
     const double gap = std::abs(found.steps - wanted);
     stretch *= found.steps / wanted;
-    if (gap >= least_gap) continue;
-    least_gap = gap;
+    if (gap >= min_gap) continue;
+    min_gap = gap;
     found.places.resize(std::min(found.places.size(), static_cast<std::size_t>(wanted)));
     found.spacings.resize(found.places.size());
     best = std::move(found);
@@ -185,7 +185,7 @@ LineSites sites_apart(const LineCandidates& candidates, const Execution& executi
     const std::vector<Index> nearest = Locator(of_stations).nearest(candidates.sites, quietly);
     for (std::size_t i = 0; i < n; ++i) {
       const double away = norm(candidates.sites[i] - candidates.stations[nearest[i]]);
-      if (away < least_station_distance * candidates.spacings[i]) is_left_out[i] = 1;
+      if (away < min_station_distance * candidates.spacings[i]) is_left_out[i] = 1;
     }
   }
   std::fill_n(is_left_out.begin(), candidates.num_certain, 0);
@@ -193,7 +193,7 @@ LineSites sites_apart(const LineCandidates& candidates, const Execution& executi
     const Point& site = candidates.sites[i];
     if (i >= candidates.num_certain && is_left_out[i] == 0) {
       const std::vector<Index> near =
-          sites.within(site, least_site_distance * candidates.spacings[i]);
+          sites.within(site, min_site_distance * candidates.spacings[i]);
       const bool is_taken = std::ranges::any_of(
           near, [&](Index other) { return other < i && is_left_out[other] == 0; });
       if (is_taken) is_left_out[i] = 1;

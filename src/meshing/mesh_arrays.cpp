@@ -39,7 +39,7 @@ constexpr std::size_t mesh_grain = 4096;
 
 // For edges shorter than this, predicates decide whether their length is 0, since circumcenters
 // have errors of 4u and sums of arcs less.
-constexpr double least_certain_arc = 0x1p-48;
+constexpr double min_certain_arc = 0x1p-48;
 
 // Makes the arrays, each in parallel.
 class MeshMaker {
@@ -53,7 +53,7 @@ class MeshMaker {
         execution_(execution),
         sites_(triangulation, execution.threads) {}
 
-  MeshArrays make() {
+  VoronoiMesh make() {
     arrays_.radius = options_.radius;
     arrays_.density.assign(options_.density.begin(), options_.density.end());
     measures_.resize(faces_.size());
@@ -178,7 +178,7 @@ class MeshMaker {
     const Index b = sites_.corners(f)[second];
     arrays_.cell_distances[edge] = options_.radius * meshing::distance_of(sites_, a, b);
     const double arc = measures_[f].arcs[i] + measures_[g].arcs[other % 3];
-    const bool has_length = arc > least_certain_arc || !is_cocircular(f, g, other % 3);
+    const bool has_length = arc > min_certain_arc || !is_cocircular(f, g, other % 3);
     arrays_.vertex_distances[edge] = has_length ? options_.radius * std::max(arc, 0.0) : 0;
     const meshing::EdgePlace place =
         meshing::edge_place(dual::to_vector(sites_[a].hi), dual::to_vector(sites_[b].hi));
@@ -263,7 +263,7 @@ class MeshMaker {
   LargeVector<meshing::FaceMeasures> measures_;
   LargeVector<Index> edges_of_;
   std::size_t num_edges_ = 0;
-  MeshArrays arrays_;
+  VoronoiMesh arrays_;
 };
 
 // Throws InvalidInput for a triangulation that has no mesh.
@@ -286,7 +286,7 @@ void require_mesh(const Triangulation& triangulation, const MeshOptions& options
 
 }  // namespace
 
-std::size_t MeshArrays::max_edges() const {
+std::size_t VoronoiMesh::max_edges() const {
   std::uint64_t most = 0;
   for (std::size_t i = 0; i < edges_on_cell.size(); ++i) {
     most = std::max<std::uint64_t>(most, edges_on_cell[i].size());
@@ -294,8 +294,8 @@ std::size_t MeshArrays::max_edges() const {
   return static_cast<std::size_t>(most);
 }
 
-MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options,
-                  const Execution& execution) {
+VoronoiMesh make_mesh(const Triangulation& triangulation, const MeshOptions& options,
+                      const Execution& execution) {
   const system::Call call(execution);
   require_mesh(triangulation, options);
   return MeshMaker(triangulation, options, execution).make();
@@ -306,7 +306,7 @@ MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options
 namespace rondel::meshing {
 
 void require_options(const mesh::MeshOptions& options, std::size_t num_sites) {
-  if (!(options.radius >= mesh::least_radius && options.radius <= mesh::largest_radius)) {
+  if (!(options.radius >= mesh::min_radius && options.radius <= mesh::largest_radius)) {
     throw InvalidInput("the radius " + system::shortest_text(options.radius) +
                        " of the sphere is not from 1e-30 to 1e30");
   }

@@ -19,10 +19,10 @@
 namespace rondel::meshing {
 
 // Returns how many entries the row of an edge has.
-std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge);
+std::size_t num_weights(const mesh::VoronoiMesh& arrays, std::size_t edge);
 
 // Writes the row of an edge to the first num_weights() elements; either span may be empty.
-void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<Index> edges,
+void write_weights(const mesh::VoronoiMesh& arrays, std::size_t edge, std::span<Index> edges,
                    std::span<double> weights);
 
 // Throws InvalidInput if the radius is not positive and finite, or the densities are not one

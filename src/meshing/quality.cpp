@@ -25,11 +25,11 @@ constexpr std::size_t histogram_steps = 80;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Keeps the smallest value and where it is; of equals the first.
-void keep_least(Worst& worst, double value, std::size_t where) {
+void keep_least(Extremum& worst, double value, std::size_t where) {
   if (value < worst.value) worst = {value, static_cast<Index>(where)};
 }
 // Keeps the largest value and where it is; of equals the first.
-void keep_most(Worst& worst, double value, std::size_t where) {
+void keep_most(Extremum& worst, double value, std::size_t where) {
   if (value > worst.value) worst = {value, static_cast<Index>(where)};
 }
 
@@ -100,7 +100,7 @@ void join(PieceQuality& all, const PieceQuality& next) {
 // Computes the report of a mesh.
 class QualityFinder {
  public:
-  QualityFinder(const MeshArrays& arrays, const Execution& execution)
+  QualityFinder(const VoronoiMesh& arrays, const Execution& execution)
       : arrays_(arrays), execution_(execution), spacings_(arrays.num_cells()) {}
 
   Quality find() {
@@ -243,7 +243,7 @@ class QualityFinder {
     for (const double spacing : spacings_) count_in(result.spacings, spacing / median);
   }
 
-  const MeshArrays& arrays_;
+  const VoronoiMesh& arrays_;
   const Execution& execution_;
   std::vector<double> spacings_;  // by cell: spacing times density^(1/4)
   PieceQuality all_;
@@ -251,13 +251,13 @@ class QualityFinder {
 
 }  // namespace
 
-Quality quality(const MeshArrays& arrays, const Execution& execution) {
+Quality quality(const VoronoiMesh& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   return QualityFinder(arrays, execution).find();
 }
 
-CellQuality cell_quality(const MeshArrays& arrays, const Execution& execution) {
+CellQuality cell_quality(const VoronoiMesh& arrays, const Execution& execution) {
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   const std::size_t size = arrays.num_cells();
@@ -271,7 +271,7 @@ CellQuality cell_quality(const MeshArrays& arrays, const Execution& execution) {
                          for (std::size_t i = begin; i < end; ++i) {
                            const meshing::CellShape shape = meshing::shape_of(arrays, i);
                            result.centroid_offset[i] = shape.centroid_offset;
-                           result.edge_ratio[i] = shape.least_edge_ratio;
+                           result.edge_ratio[i] = shape.min_edge_ratio;
                            result.side_ratio[i] = shape.side_ratio;
                            result.distance_ratio[i] = shape.distance_ratio;
                            result.gradient[i] = shape.gradient;

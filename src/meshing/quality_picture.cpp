@@ -74,7 +74,7 @@ std::vector<Index> largest(const std::vector<double>& values, std::size_t count,
 }
 
 // Returns a dot for each cell on the map, in the plane of longitude and latitude.
-std::string dots(const MeshArrays& arrays, const std::vector<Index>& cells, const char* color,
+std::string dots(const VoronoiMesh& arrays, const std::vector<Index>& cells, const char* color,
                  double radius) {
   constexpr double turn = 2 * std::numbers::pi;
   std::string svg = std::string(R"(<g fill="none" stroke=")") + color + "\">\n";
@@ -105,8 +105,8 @@ std::string map_lines() {
 
 }  // namespace
 
-std::string quality_picture(const MeshArrays& arrays, const Quality& quality, std::size_t num_worst,
-                            const Execution& execution) {
+std::string quality_picture(const VoronoiMesh& arrays, const Quality& quality,
+                            std::size_t num_worst, const Execution& execution) {
   const CellQuality cells = cell_quality(arrays, execution);
   const double third = (picture_width - margin) / 3;
   std::string svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width=")" + fixed(picture_width) +

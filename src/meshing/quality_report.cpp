@@ -18,20 +18,20 @@ struct ReportEntry {
   const char* key;
   const char* what;
   const char* place;  // "cell", "edge" or "vertex"; null for a number of the whole mesh
-  Worst (*worst)(const Quality&);
+  Extremum (*worst)(const Quality&);
 };
 
 // These three read one number of the report, with the element where it is found, if there is one.
 template <double Quality::*member>
-Worst number(const Quality& quality) {
+Extremum number(const Quality& quality) {
   return {quality.*member, no_index};
 }
-template <Worst Quality::*member>
-Worst worst(const Quality& quality) {
+template <Extremum Quality::*member>
+Extremum worst(const Quality& quality) {
   return quality.*member;
 }
 template <std::size_t i>
-Worst range(const Quality& quality) {
+Extremum range(const Quality& quality) {
   return {quality.spacing_range[i], no_index};
 }
 
@@ -126,7 +126,7 @@ std::string quality_text(const Quality& quality) {
   text += "edges of cells: " + sides_text(quality) + '\n';
   text += "obtuse triangles: " + std::to_string(quality.num_obtuse) + '\n';
   for (const ReportEntry& entry : entries) {
-    const Worst found = entry.worst(quality);
+    const Extremum found = entry.worst(quality);
     if (std::isnan(found.value)) continue;
     text += std::string(entry.what) + ": " + short_number(found.value);
     if (entry.place != nullptr) {
@@ -145,7 +145,7 @@ std::string quality_json(const Quality& quality) {
                      ", \"sides\": " + sides_json(quality) +
                      ", \"num_obtuse\": " + std::to_string(quality.num_obtuse);
   for (const ReportEntry& entry : entries) {
-    const Worst found = entry.worst(quality);
+    const Extremum found = entry.worst(quality);
     text += std::string(", \"") + entry.key + "\": ";
     if (entry.place == nullptr) {
       text += number_of(found.value);

@@ -51,9 +51,9 @@ constexpr std::array poles = {
 // This angle is far larger than the rounding errors of azimuths.
 constexpr double azimuth_margin = 1e-9;
 constexpr std::size_t points_at_a_time = 256;
-constexpr std::size_t most_bins = 1U << 16U;
+constexpr std::size_t max_bins = 1U << 16U;
 // The first edge decides, unless the region is extremely thin there.
-constexpr std::size_t most_edges_tried = 100;
+constexpr std::size_t max_edges_tried = 100;
 
 // How an edge changes the depth along the arc from q to p.
 enum class ArcCrossing : std::uint8_t { none, leaves_left, enters_left, through_q, unclear };
@@ -148,7 +148,7 @@ class RegionSites {
 
   // Lists for each bin the edges that reach into it, in compressed rows.
   void sort_by_azimuth() {
-    num_bins_ = std::clamp<std::size_t>(edges_.size(), 1, most_bins);
+    num_bins_ = std::clamp<std::size_t>(edges_.size(), 1, max_bins);
     std::vector<std::array<std::size_t, 2>> spans;  // first bin and number of bins
     spans.reserve(edges_.size());
     system::RowPlaces places(num_bins_);
@@ -235,7 +235,7 @@ class RegionSites {
   // Returns 1 if region k contains the pole, else 0. The depths of two points beside one of its
   // edges differ by one.
   static int depth_of_pole(std::span<const RegionEdge> edges, std::size_t k) {
-    const std::size_t step = 1 + edges.size() / most_edges_tried;
+    const std::size_t step = 1 + edges.size() / max_edges_tried;
     for (const double away : {1e-3, 1e-6, 1e-1}) {
       for (std::size_t e = 0; e < edges.size(); e += step) {
         const RegionEdge& edge = edges[e];

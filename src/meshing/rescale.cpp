@@ -11,7 +11,7 @@
 
 namespace rondel::mesh {
 
-void rescale(MeshArrays& arrays, double radius) {
+void rescale(VoronoiMesh& arrays, double radius) {
   meshing::require_options({.radius = arrays.radius}, arrays.num_cells());
   meshing::require_options({.radius = radius}, arrays.num_cells());
   const double factor = radius / arrays.radius;

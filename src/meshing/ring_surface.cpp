@@ -68,7 +68,7 @@ Index RingSides::find_opposite(Index side) const {
   return no_index;
 }
 
-void RingSides::set_lists(mesh::MeshArrays& arrays) const {
+void RingSides::set_lists(mesh::VoronoiMesh& arrays) const {
   arrays.edges_on_cell.offsets = cells_.rings;
   arrays.vertices_on_cell.assign(num_sides(), no_index);
   for (Index corner = 0; corner + 1 < begins_.size(); ++corner) add_vertices(corner, arrays);
@@ -81,7 +81,7 @@ void RingSides::set_lists(mesh::MeshArrays& arrays) const {
 
 // Counterclockwise around a corner, the cell across the side that ends there comes after a cell,
 // and the cell across the side that begins there comes before it.
-void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
+void RingSides::add_vertices(Index corner, mesh::VoronoiMesh& arrays) const {
   const auto sides = std::span(ending_).subspan(begins_[corner], degree(corner));
   if (sides.size() > 3) refuse_corner(cell_of(sides.front()), "of more than three cells");
   std::size_t left = sides.size();
@@ -107,7 +107,7 @@ void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
   if (left > 0) add(sides.front());
 }
 
-void RingSides::add_vertex(Index first, std::size_t count, mesh::MeshArrays& arrays) const {
+void RingSides::add_vertex(Index first, std::size_t count, mesh::VoronoiMesh& arrays) const {
   const auto vertex = static_cast<Index>(arrays.vertex_points.size());
   arrays.vertex_points.push_back(cells_.points[corner(first)]);
   Triple cells = {no_index, no_index, no_index};
@@ -121,7 +121,7 @@ void RingSides::add_vertex(Index first, std::size_t count, mesh::MeshArrays& arr
 }
 
 // Numbers edges in the order of the first of their two vertices.
-void RingSides::number_edges(mesh::MeshArrays& arrays) const {
+void RingSides::number_edges(mesh::VoronoiMesh& arrays) const {
   arrays.edges_on_cell.values.assign(num_sides(), no_index);
   arrays.edges_on_vertex.assign(arrays.num_vertices(), {no_index, no_index, no_index});
   std::vector<Index> first_sides(arrays.num_vertices(), no_index);

@@ -51,7 +51,7 @@ class RingSides {
   // Sets the lists of a mesh with a border; vertices are numbered in the order of the corners. A
   // corner at which parts of the mesh touch without a common edge becomes one vertex for each part.
   // Throws BadValue for a corner of more than three cells.
-  void set_lists(mesh::MeshArrays& arrays) const;
+  void set_lists(mesh::VoronoiMesh& arrays) const;
 
  private:
   // Sets opposite_ for all sides.
@@ -62,11 +62,11 @@ class RingSides {
   // 1].
   [[nodiscard]] Index degree(Index corner) const { return begins_[corner + 1] - begins_[corner]; }
   // Adds the vertices of a corner: one for each connected part of the cells around it.
-  void add_vertices(Index corner, mesh::MeshArrays& arrays) const;
+  void add_vertices(Index corner, mesh::VoronoiMesh& arrays) const;
   // Adds a vertex whose `count` cells follow counterclockwise from the cell of side `first`.
-  void add_vertex(Index first, std::size_t count, mesh::MeshArrays& arrays) const;
+  void add_vertex(Index first, std::size_t count, mesh::VoronoiMesh& arrays) const;
   // Numbers the edges and sets the lists of cells and vertices of edges.
-  void number_edges(mesh::MeshArrays& arrays) const;
+  void number_edges(mesh::VoronoiMesh& arrays) const;
 
   const CellRings& cells_;
   std::vector<Index> cell_of_;

@@ -116,7 +116,7 @@ class Levels {
                                       : (past_work_ + part * work) / all_work_);
       result.last = {minimizer.sites().size(), iteration, report.energy, report.mean_offset,
                      report.largest_offset,    done_};
-      if (options_.seen) options_.seen(result.last);
+      if (options_.on_step) options_.on_step(result.last);
       return execution_.stop == nullptr || !execution_.stop->load();
     };
     const bool goes_on = see(0, minimizer.report());
@@ -248,7 +248,7 @@ Scvt scvt(const ScvtOptions& options, const Execution& execution) {
   return Levels(options, execution).solve(count);
 }
 
-Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
+Scvt relax(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   Scvt result;
   require_places(sites, "a site");

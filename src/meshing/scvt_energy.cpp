@@ -36,7 +36,8 @@ double arc_over_sine(double square, double cosine) {
 
 // M = 1/2 sum (t / sin t) n x n'. Computed as (n' + n)/2 x (n' - n), n x n' has small rounding
 // errors.
-CellSums uniform_cell(const MovingSurface& surface, const Vector& z, std::span<const Index> ring) {
+CellSums uniform_cell(const KineticDelaunay& surface, const Vector& z,
+                      std::span<const Index> ring) {
   const auto centers = surface.centers();
   Vector moment{0, 0, 0};
   Vector last = exact::to_vector(centers[ring.back()]);
@@ -51,7 +52,7 @@ CellSums uniform_cell(const MovingSurface& surface, const Vector& z, std::span<c
 }
 
 // Adds up the cells [begin, begin + cells.size()) with a constant density.
-void add_uniform_cells(const MovingSurface& surface, std::span<const Point> sites,
+void add_uniform_cells(const KineticDelaunay& surface, std::span<const Point> sites,
                        std::size_t begin, std::span<CellSums> cells) {
   std::vector<Index> ring;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -62,7 +63,7 @@ void add_uniform_cells(const MovingSurface& surface, std::span<const Point> site
 
 // Adds up the cells [begin, begin + cells.size()) with a density: their triangles follow each other
 // in lanes.
-void add_cells(const MovingSurface& surface, std::span<const Point> sites, std::size_t begin,
+void add_cells(const KineticDelaunay& surface, std::span<const Point> sites, std::size_t begin,
                const SizeFunction& size, std::span<CellSums> cells) {
   DensityNodes nodes(size);
   std::array<std::size_t, DensityNodes::lanes> owners{};
@@ -111,7 +112,7 @@ double CentroidalEnergy::noise(double energy) const {
   return size_ == nullptr ? 0x1p-49 : 0x1p-44 * energy;
 }
 
-EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
+EnergyReport CentroidalEnergy::operator()(const KineticDelaunay& surface,
                                           std::span<const Point> sites,
                                           std::span<const std::uint8_t> axes,
                                           std::span<SiteSums> sums,

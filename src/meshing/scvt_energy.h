@@ -26,7 +26,7 @@
 #include <span>
 #include <vector>
 
-#include "meshing/scvt_surface.h"
+#include "meshing/kinetic_delaunay.h"
 #include "meshing/tangent.h"
 #include "rondel/mesh_size.h"
 
@@ -55,7 +55,7 @@ class CentroidalEnergy {
 
   // Returns the energy and sets the sums of each site. Where `is_fixed` is not 0, the gradient is 0
   // and the offset does not count; it is empty if no site is fixed. `axes` are those of tangent.h.
-  EnergyReport operator()(const MovingSurface& surface, std::span<const Point> sites,
+  EnergyReport operator()(const KineticDelaunay& surface, std::span<const Point> sites,
                           std::span<const std::uint8_t> axes, std::span<SiteSums> sums,
                           std::span<const std::uint8_t> is_fixed = {}) const;
 

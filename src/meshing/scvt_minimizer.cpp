@@ -17,7 +17,7 @@ namespace {
 constexpr double sufficient_fall = 1e-4;
 // No site moves by more than this part of its spacing in one step.
 constexpr double longest_move = 0.5;
-constexpr int most_trials = 12;
+constexpr int max_trials = 12;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
       surface_(threads),
       springs_(threads) {
   std::ranges::transform(sites_, axes_.begin(), far_axis);
-  if (!surface_.follow(sites_)) {
+  if (!surface_.update(sites_)) {
     throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere");
   }
   report_ = energy_(surface_, sites_, axes_, sums_, is_fixed_);
@@ -83,7 +83,7 @@ double Minimizer::slope() const {
 }
 
 // Returns the longest step of a site in units of the spacing of its cell.
-double Minimizer::most_relative_step() const {
+double Minimizer::max_relative_step() const {
   std::vector<double> most(system::num_pieces(sites_.size(), terms_at_a_time));
   system::parallel_for(
       threads_, sites_.size(), terms_at_a_time, [&](std::size_t begin, std::size_t end) {
@@ -101,15 +101,15 @@ double Minimizer::most_relative_step() const {
 bool Minimizer::search() {
   const double along = slope();
   if (!(along < 0)) return false;
-  double length = std::min(1.0, longest_move / most_relative_step());
-  for (int trial = 0; trial < most_trials; ++trial) {
+  double length = std::min(1.0, longest_move / max_relative_step());
+  for (int trial = 0; trial < max_trials; ++trial) {
     for_all([&](std::size_t i) {
       tried_sites_[i] = is_fixed(i) ? sites_[i]
                                     : moved(sites_[i], axes_[i],
                                             {length * direction_[i].u, length * direction_[i].v});
     });
     double shorter = 0.5;
-    if (surface_.follow(tried_sites_)) {
+    if (surface_.update(tried_sites_)) {
       tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_, is_fixed_);
       const double rise = tried_report_.energy - report_.energy;
       if (rise <= sufficient_fall * length * along + energy_.noise(report_.energy)) {
@@ -134,7 +134,7 @@ bool Minimizer::search_anew() {
   return search();
 }
 
-MinimizerEnd Minimizer::run(const MinimizerLimits& limits, const StepSeen& seen) {
+MinimizerEnd Minimizer::run(const MinimizerLimits& limits, const StepCallback& on_step) {
   for (int i = 0;; ++i) {
     if (report_.mean_offset <= limits.mean_offset &&
         report_.largest_offset <= limits.largest_offset) {
@@ -144,11 +144,11 @@ MinimizerEnd Minimizer::run(const MinimizerLimits& limits, const StepSeen& seen)
     const double before = report_.energy;
     direct(limits.lloyd);
     if (!search() && (memory_.size() == 0 || !search_anew())) {
-      if (!surface_.follow(sites_)) throw std::logic_error("sites lost their triangulation");
+      if (!surface_.update(sites_)) throw std::logic_error("sites lost their triangulation");
       return MinimizerEnd::stuck;
     }
     ++iterations_;
-    if (!seen(iterations_, report_)) return MinimizerEnd::stopped;
+    if (!on_step(iterations_, report_)) return MinimizerEnd::stopped;
     if (before - report_.energy <= limits.energy_change * report_.energy &&
         limits.energy_change > 0) {
       return MinimizerEnd::converged;

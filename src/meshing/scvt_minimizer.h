@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "meshing/edge_springs.h"
+#include "meshing/kinetic_delaunay.h"
 #include "meshing/scvt_energy.h"
-#include "meshing/scvt_surface.h"
 #include "meshing/step_memory.h"
 #include "meshing/tangent.h"
 #include "rondel/types.h"
@@ -40,7 +40,7 @@ struct MinimizerLimits {
 enum class MinimizerEnd : std::uint8_t { converged, iterations, stopped, stuck };
 
 // A function that is called after every step; it returns false to end the work.
-using StepSeen = std::function<bool(int iteration, const EnergyReport& report)>;
+using StepCallback = std::function<bool(int iteration, const EnergyReport& report)>;
 
 // The state of a minimization: the sites with their triangulation, energy and gradient.
 class Minimizer {
@@ -49,12 +49,12 @@ class Minimizer {
   Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads,
             std::vector<std::uint8_t> is_fixed = {});
 
-  // Takes steps until a limit is reached, `seen` returns false, or no step lowers the energy
+  // Takes steps until a limit is reached, `on_step` returns false, or no step lowers the energy
   // further.
-  MinimizerEnd run(const MinimizerLimits& limits, const StepSeen& seen);
+  MinimizerEnd run(const MinimizerLimits& limits, const StepCallback& on_step);
 
   [[nodiscard]] const std::vector<Point>& sites() const { return sites_; }
-  [[nodiscard]] const MovingSurface& surface() const { return surface_; }
+  [[nodiscard]] const KineticDelaunay& surface() const { return surface_; }
   [[nodiscard]] const EnergyReport& report() const { return report_; }
   [[nodiscard]] int iterations() const { return iterations_; }
 
@@ -71,7 +71,7 @@ class Minimizer {
   // Returns the derivative of the energy along direction_.
   [[nodiscard]] double slope() const;
   // Returns the longest step of a site in units of its spacing.
-  [[nodiscard]] double most_relative_step() const;
+  [[nodiscard]] double max_relative_step() const;
   // Moves the sites along direction_ such that the energy falls enough; returns false if no length
   // is found.
   bool search();
@@ -90,7 +90,7 @@ class Minimizer {
   EnergyReport tried_report_;
   std::vector<TangentVector> direction_;
   StepMemory memory_;
-  MovingSurface surface_;
+  KineticDelaunay surface_;
   EdgeSprings springs_;
   int iterations_ = 0;
 };

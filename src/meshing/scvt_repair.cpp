@@ -11,7 +11,7 @@
 #include <span>
 
 #include "exact/vector.h"
-#include "meshing/scvt_surface.h"
+#include "meshing/kinetic_delaunay.h"
 #include "system/parallel.h"
 
 namespace rondel::mesh {
@@ -64,12 +64,12 @@ class Repair {
 
   ScvtRepair run() {
     ScvtRepair done;
-    if (!surface_.follow(sites_)) return done;
+    if (!surface_.update(sites_)) return done;
     done.before = done.after = find();
     for (const double reach : reaches) {
       if (bounds_.empty()) break;
       improve(reach, done);
-      if (!surface_.follow(sites_)) break;
+      if (!surface_.update(sites_)) break;
       done.after = find();
     }
     for (std::size_t i = 0; i < sites_.size(); ++i) done.moved += sites_[i] == start_[i] ? 0U : 1U;
@@ -85,7 +85,7 @@ class Repair {
       for (int pass = 0; pass < passes_of_a_round; ++pass) {
         for (const Bound& bound : bounds_) meet(bound, reach);
       }
-      if (!surface_.follow(sites_)) break;
+      if (!surface_.update(sites_)) break;
       ++rounds_;
       const ScvtDefects found = find();
       if (!is_better(found, done)) continue;
@@ -111,8 +111,7 @@ class Repair {
     return found.odd_cells <= done.before.odd_cells &&
            found.short_edges <= done.before.short_edges &&
            found.obtuse_triangles <= done.before.obtuse_triangles &&
-           found.least_edge_ratio >= done.before.least_edge_ratio &&
-           total(found) < total(done.after);
+           found.min_edge_ratio >= done.before.min_edge_ratio && total(found) < total(done.after);
   }
 
   // Returns the cotangent of the angle at a corner, in the plane of the three sites.
@@ -206,13 +205,13 @@ class Repair {
                              look_at(static_cast<Index>(f), piece);
                            }
                          });
-    ScvtDefects found{.least_edge_ratio = std::numeric_limits<double>::infinity()};
+    ScvtDefects found{.min_edge_ratio = std::numeric_limits<double>::infinity()};
     bounds_.clear();
     for (const FacesLookedAt& piece : pieces) {
       bounds_.insert(bounds_.end(), piece.bounds.begin(), piece.bounds.end());
       found.short_edges += piece.short_edges;
       found.obtuse_triangles += piece.obtuse;
-      found.least_edge_ratio = std::min(found.least_edge_ratio, piece.least);
+      found.min_edge_ratio = std::min(found.min_edge_ratio, piece.least);
     }
     for (Index v = 0; v < degrees_.size(); ++v) {
       if (!is_odd(degrees_[v])) continue;
@@ -269,7 +268,7 @@ class Repair {
   std::span<const std::uint8_t> is_fixed_;
   int rounds_ = 0;
   unsigned threads_;
-  MovingSurface surface_;
+  KineticDelaunay surface_;
   std::vector<int> degrees_;
   std::vector<Bound> bounds_;
   std::vector<Index> ring_;

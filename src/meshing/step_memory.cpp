@@ -48,8 +48,8 @@ void StepMemory::remember(double length, std::span<const TangentVector> directio
     return sum;
   });
   if (!(curvature > 0)) return;
-  newest_ = (newest_ + 1) % most_pairs;
-  num_pairs_ = std::min(num_pairs_ + 1, most_pairs);
+  newest_ = (newest_ + 1) % max_pairs;
+  num_pairs_ = std::min(num_pairs_ + 1, max_pairs);
   Pair& pair = pairs_[newest_];
   pair.curvature = curvature;
   pair.step.resize(n);

@@ -21,7 +21,7 @@ namespace rondel::mesh {
 
 class StepMemory {
  public:
-  static constexpr std::size_t most_pairs = 7;
+  static constexpr std::size_t max_pairs = 7;
 
   explicit StepMemory(unsigned threads) : threads_(threads) {}
 
@@ -29,7 +29,7 @@ class StepMemory {
   void forget() { num_pairs_ = 0; }
 
   // Keeps the step length * direction if the slope along it has grown, in place of the oldest step
-  // if there are most_pairs; otherwise changes nothing.
+  // if there are max_pairs; otherwise changes nothing.
   void remember(double length, std::span<const TangentVector> direction,
                 std::span<const SiteSums> before, std::span<const SiteSums> after);
 
@@ -46,12 +46,12 @@ class StepMemory {
   };
   // Returns the pair of an age; the latest one has the age 0.
   [[nodiscard]] const Pair& pair(std::size_t age) const {
-    return pairs_[(newest_ + most_pairs - age) % most_pairs];
+    return pairs_[(newest_ + max_pairs - age) % max_pairs];
   }
 
   unsigned threads_;
-  std::array<Pair, most_pairs> pairs_;
-  std::array<double, most_pairs> alpha_{};
+  std::array<Pair, max_pairs> pairs_;
+  std::array<double, max_pairs> alpha_{};
   std::size_t num_pairs_ = 0;
   std::size_t newest_ = 0;
 };

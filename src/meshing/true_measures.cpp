@@ -34,7 +34,7 @@ constexpr std::size_t measure_grain = 4096;
 // Checks one edge or cell at a time.
 class MeasureCheck {
  public:
-  explicit MeasureCheck(const mesh::MeshArrays& arrays) : arrays_(arrays) {}
+  explicit MeasureCheck(const mesh::VoronoiMesh& arrays) : arrays_(arrays) {}
 
   void check_edge(std::size_t e) const {
     const auto [first, second] = arrays_.cells_on_edge[e];
@@ -91,7 +91,7 @@ class MeasureCheck {
 
   // East has no meaning at a pole, and turns by as much as an edge point is away beside it.
   void require_angle(std::size_t e, const Point& a, const Point& b) const {
-    constexpr double most_apart = 0.5;
+    constexpr double max_apart = 0.5;
     constexpr double distances_from_pole = 2;
     const Point middle = normalized(a + b);
     const double from_axis = std::sqrt(middle.x * middle.x + middle.y * middle.y);
@@ -99,7 +99,7 @@ class MeasureCheck {
     const double angle = edge_place(exact::to_vector(a), exact::to_vector(b)).normal_angle;
     const double given = arrays_.normal_angles[e];
     const double apart = std::abs(std::remainder(given - angle, 2 * std::numbers::pi));
-    if (apart <= most_apart) return;
+    if (apart <= max_apart) return;
     const auto [first, second] = arrays_.cells_on_edge[e];
     refuse_measure("angleEdge", e, given,
                    "the normal from cell " + std::to_string(first) + " to cell " +
@@ -107,12 +107,12 @@ class MeasureCheck {
                        system::shortest_text(angle));
   }
 
-  const mesh::MeshArrays& arrays_;
+  const mesh::VoronoiMesh& arrays_;
 };
 
 }  // namespace
 
-void require_measures_of_points(const mesh::MeshArrays& arrays, unsigned threads) {
+void require_measures_of_points(const mesh::VoronoiMesh& arrays, unsigned threads) {
   const MeasureCheck check(arrays);
   system::parallel_for(threads, arrays.num_edges(), measure_grain,
                        [&](std::size_t begin, std::size_t end) {

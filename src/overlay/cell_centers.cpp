@@ -17,7 +17,7 @@
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "system/arithmetic.h"
 
 namespace rondel {

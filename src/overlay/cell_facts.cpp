@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "overlay/cell_set_data.h"
-#include "overlay/graticule.h"
+#include "overlay/prepared_grid.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/remap.h"
 #include "system/job.h"
 

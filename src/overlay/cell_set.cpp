@@ -81,15 +81,16 @@ CellSetData::CellSetData(Subdivision subdivision, std::vector<Index> whole, unsi
   // Cells that turn counterclockwise and meet another cell at each edge cover the sphere, once or
   // several times; the area tells how often.
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
-  is_cover_ = !all_whole_.empty() ||
-              (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
-  are_apart_ = are_apart || (is_cover_ && all_whole_.empty());
+  covers_sphere_ =
+      !all_whole_.empty() ||
+      (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
+  are_apart_ = are_apart || (covers_sphere_ && all_whole_.empty());
 }
 
-CellSetData::CellSetData(Graticule grid)
+CellSetData::CellSetData(PreparedGrid grid)
     : subdivision_({}, false, 1),
       grid_(std::move(grid)),
-      is_cover_(grid_->is_cover()),
+      covers_sphere_(grid_->covers_sphere()),
       are_apart_(true),
       areas_(grid_->areas()),
       moments_(grid_->moments()),
@@ -302,7 +303,7 @@ CellSet CellSet::lonlat_grid(const LonLatGrid& grid, GridSides sides, const Exec
   const system::Call call(execution);
   const auto data = sides == GridSides::great_circles
                         ? data_of_apart(overlay::rings_of(grid), execution)
-                        : std::make_shared<CellSetData>(overlay::Graticule(grid));
+                        : std::make_shared<CellSetData>(overlay::PreparedGrid(grid));
   data->keep_lines(grid);
   CellFacts facts;
   facts.axes = {middles(grid.lon_deg), middles(grid.lat_deg)};
@@ -343,6 +344,6 @@ CellRings CellSet::given_rings() const {
 }
 const LonLatGrid* CellSet::lines() const { return data_->lines(); }
 bool CellSet::has_parallels() const { return data_->grid() != nullptr; }
-bool CellSet::is_cover() const { return data_->is_cover(); }
+bool CellSet::covers_sphere() const { return data_->covers_sphere(); }
 
 }  // namespace rondel

@@ -14,8 +14,8 @@
 #include <optional>
 #include <vector>
 
-#include "overlay/graticule.h"
 #include "overlay/pieces.h"
+#include "overlay/prepared_grid.h"
 #include "overlay/subdivision.h"
 #include "rondel/cell_set.h"
 #include "rondel/regions.h"
@@ -29,7 +29,7 @@ class CellSetData {
   // caller knows that no cells overlap.
   CellSetData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
               bool are_apart = false);
-  explicit CellSetData(Graticule grid);
+  explicit CellSetData(PreparedGrid grid);
 
   [[nodiscard]] static const CellSetData& of(const CellSet& cells) { return *cells.data_; }
   // Returns cells that are known not to overlap each other or themselves, as they are.
@@ -39,7 +39,7 @@ class CellSetData {
   }
 
   // Returns the grid, or null if the cells are not between meridians and parallels.
-  [[nodiscard]] const Graticule* grid() const { return grid_ ? &*grid_ : nullptr; }
+  [[nodiscard]] const PreparedGrid* grid() const { return grid_ ? &*grid_ : nullptr; }
   // The lines of a grid, whatever the sides of its cells are; null for other cells.
   [[nodiscard]] const LonLatGrid* lines() const { return lines_ ? &*lines_ : nullptr; }
   void keep_lines(const LonLatGrid& lines) { lines_ = lines; }
@@ -48,7 +48,7 @@ class CellSetData {
   // Returns the first cell that is the whole sphere, or no_index.
   [[nodiscard]] Index whole() const { return all_whole_.empty() ? no_index : all_whole_.front(); }
   [[nodiscard]] const std::vector<Index>& all_whole() const { return all_whole_; }
-  [[nodiscard]] bool is_cover() const { return is_cover_; }
+  [[nodiscard]] bool covers_sphere() const { return covers_sphere_; }
   // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
   // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
@@ -64,10 +64,10 @@ class CellSetData {
 
  private:
   Subdivision subdivision_;
-  std::optional<Graticule> grid_;
+  std::optional<PreparedGrid> grid_;
   std::optional<LonLatGrid> lines_;
   std::vector<Index> all_whole_;
-  bool is_cover_ = false;
+  bool covers_sphere_ = false;
   bool are_apart_ = false;
   mutable std::once_flag are_overlaps_known_;
   mutable std::vector<CrossingCells> overlaps_;

@@ -7,13 +7,13 @@
 // out   the edges of the cover that the arc crosses, in order, and the cell that has its end
 // index cells and halfedges of the cover
 //
-// All decisions are exact, with the cover perturbed (signs.h).
+// All decisions are exact, with the cover perturbed (perturbed_predicates.h).
 #pragma once
 
 #include <algorithm>
 #include <bit>
 
-#include "overlay/signs.h"
+#include "overlay/perturbed_predicates.h"
 #include "overlay/subdivision.h"
 
 namespace rondel::overlay {
@@ -43,7 +43,7 @@ class CoverWalk {
 
  private:
   // The corners that are tested at once: most cells of diagrams have no more.
-  static constexpr Index most_at_once = 8;
+  static constexpr Index max_at_once = 8;
 
   // Returns the halfedge by which the line leaves a convex cell: its origin is right of the line
   // and its end is left of it. `in` is the halfedge by which the line entered the cell, or
@@ -51,11 +51,11 @@ class CoverWalk {
   [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell, Halfedge in) const {
     const Index begin = cover_.begin_of(cell);
     const Index size = cover_.end_of(cell) - begin;
-    if (size <= most_at_once) {
+    if (size <= max_at_once) {
       // One bit for each corner is computed without a branch, which would be unpredictable.
       unsigned left = 0;
       unsigned sure = 0;
-      for (Index k = 0; k < most_at_once; ++k) {
+      for (Index k = 0; k < max_at_once; ++k) {
         const double value = line.rough_side(cover_.origin(begin + std::min(k, size - 1)));
         sure |= static_cast<unsigned>(line.is_sure(value)) << k;
         left |= static_cast<unsigned>(value > 0) << k;

@@ -36,7 +36,7 @@ Point direction_of(const Vec& v) {
 // end. Where they are nearly parallel, rounding may produce a point on the line that is not on the
 // edge; then the nearer end of the edge is on both.
 Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
-  constexpr double least_sine = 0x1p-20;
+  constexpr double min_sine = 0x1p-20;
   const Point& from = line.from();
   const Point& to = line.to();
   const Point& y = edge.start();
@@ -50,7 +50,7 @@ Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   if (!(part >= 0)) part = 0;  // both distances are 0
   if (part > 1) part = 1;
   const Point p = direction_of(exact::to_vector(from) + part * line.step());
-  if (drop * drop > least_sine * least_sine * edge.squared_length() * dot(line.step(), line.step()))
+  if (drop * drop > min_sine * min_sine * edge.squared_length() * dot(line.step(), line.step()))
     return p;
   if (edge.is_on_circle(from) && edge.is_on_circle(to)) {
     if (is_within(edge, from)) return from;

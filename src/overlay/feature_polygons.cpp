@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "overlay/border_rings.h"
-#include "overlay/cell_sets.h"
 #include "overlay/disjoint_cells.h"
 #include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
+#include "overlay/single_cells.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
@@ -256,7 +256,7 @@ class FeatureCells {
   // Throws FileError for a ring that is not closed, that has a side around a pole, or that is more
   // than ten turns of the globe away.
   void require_turns(std::size_t feature) const {
-    constexpr double most_turns = 10;
+    constexpr double max_turns = 10;
     const std::vector<map::LonLatRing>& rings = features_.rings[feature];
     for (Index r = 0; r < rings.size(); ++r) {
       const std::vector<LonLat>& positions = rings[r].positions;
@@ -269,7 +269,7 @@ class FeatureCells {
       }
       if (const auto side = lone_long_side(positions)) refuse_long_side(feature, r, *side);
       for (const LonLat& p : positions) {
-        if (std::abs(p.lon_deg) > most_turns * 360) {
+        if (std::abs(p.lon_deg) > max_turns * 360) {
           refuse(feature, ring_name(rings, r) + ": longitude " + text_of_place(p) +
                               " is more than ten turns of the globe away");
         }

@@ -18,7 +18,7 @@ namespace rondel::overlay {
 // stamp is that of the time since the last clear(), so that clear() takes constant time.
 class IndexNumbers {
  public:
-  IndexNumbers() : slots_(least_slots) {}
+  IndexNumbers() : slots_(min_slots) {}
 
   // Returns the number of a key, and assigns the next number to a new key.
   Index operator()(Index key) {
@@ -41,7 +41,7 @@ class IndexNumbers {
   }
 
  private:
-  static constexpr std::size_t least_slots = 64;
+  static constexpr std::size_t min_slots = 64;
 
   struct NumberedIndex {
     Index key = 0;

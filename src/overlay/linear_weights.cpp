@@ -12,7 +12,7 @@
 
 #include "exact/vector.h"
 #include "overlay/index_numbers.h"
-#include "overlay/ranks.h"
+#include "overlay/small_sort.h"
 #include "system/row_assembly.h"
 
 namespace rondel::overlay {
@@ -72,8 +72,8 @@ class LinearRowMaker {
       rows.columns[begin + place] = sources[number];
       rows.values[begin + place] = sums_[number];
     };
-    if (sources.size() <= Ranks::most) {
-      const Ranks ranks(sources.size(), [&](std::size_t k) { return sources[k]; });
+    if (sources.size() <= SmallSort::most) {
+      const SmallSort sorted(sources.size(), [&](std::size_t k) { return sources[k]; });
       for (std::size_t k = 0; k < sources.size(); ++k) put(ranks[k], k);
       return;
     }

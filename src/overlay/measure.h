@@ -127,9 +127,9 @@ void drop_rounding(std::vector<Piece>& pieces, double area, double length) {
     dropped += std::max(piece.area, 0.0);
   }
   if (num_small == 0) return;
-  const double least_share = area / 1024;
-  if (dropped > least_share && area > area_of_rounding(length)) {
-    const double least = least_share / static_cast<double>(pieces.size());
+  const double min_share = area / 1024;
+  if (dropped > min_share && area > area_of_rounding(length)) {
+    const double least = min_share / static_cast<double>(pieces.size());
     std::erase_if(pieces, [&](const Piece& piece) { return piece.area <= least; });
     return;
   }

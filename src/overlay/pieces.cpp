@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "exact/eft.h"
-#include "overlay/arcs.h"
 #include "overlay/crossings.h"
-#include "overlay/filling.h"
+#include "overlay/gap_triangulation.h"
 #include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
+#include "overlay/piece_boundaries.h"
 #include "system/prefetch.h"
 #include "system/row_assembly.h"
 
@@ -52,8 +52,8 @@ class PieceMaker {
     system::prefetch(&sizes_.areas[name]);
     system::prefetch(&sizes_.lengths[name]);
     pieces_.clear();
-    const std::span<const PieceArc> arcs = arcs_(cell);
-    const std::span<const PieceArc> owned = owners_.empty() ? arcs : arcs_of_owners(arcs);
+    const std::span<const BoundaryArc> arcs = arcs_(cell);
+    const std::span<const BoundaryArc> owned = owners_.empty() ? arcs : arcs_of_owners(arcs);
     if (owned.size() > many || !add_all(owned, cells_.centers[cell])) {
       pieces_.clear();
       add_by_piece(arcs);
@@ -78,9 +78,9 @@ class PieceMaker {
 
   // Returns the arcs with owners instead of cells of the cover, without those that have the same
   // owner on both sides.
-  std::span<const PieceArc> arcs_of_owners(std::span<const PieceArc> arcs) {
+  std::span<const BoundaryArc> arcs_of_owners(std::span<const BoundaryArc> arcs) {
     owned_.clear();
-    for (PieceArc arc : arcs) {
+    for (BoundaryArc arc : arcs) {
       arc.left = owners_[arc.left];
       if (arc.right != no_index) arc.right = owners_[arc.right];
       if (arc.left != arc.right) owned_.push_back(arc);
@@ -91,13 +91,13 @@ class PieceMaker {
   // Adds the triangle of each arc and the cell's center to the pieces on both sides of the arc, and
   // returns false if a triangle is large. The rounding of a triangle that is not large is less than
   // that of the corners.
-  bool add_all(std::span<const PieceArc> arcs, const Point& center) {
+  bool add_all(std::span<const BoundaryArc> arcs, const Point& center) {
     const LocalAxes axes(center);
     const auto points = arcs_.points();
     places_.clear();
     for (const Point& p : points) places_.push_back(axes.place_of(p));
     bool is_any_large = false;
-    for (const PieceArc& arc : arcs) {
+    for (const BoundaryArc& arc : arcs) {
       const Triangle triangle(places_[arc.from], places_[arc.to]);
       is_any_large |= triangle.is_large();
       const double area = triangle.area();
@@ -129,9 +129,9 @@ class PieceMaker {
   }
 
   // Measures each piece by itself.
-  void add_by_piece(std::span<const PieceArc> arcs) {
+  void add_by_piece(std::span<const BoundaryArc> arcs) {
     sides_.clear();
-    for (const PieceArc& arc : arcs) {
+    for (const BoundaryArc& arc : arcs) {
       const Point& from = arcs_.points()[arc.from];
       const Point& to = arcs_.points()[arc.to];
       sides_.push_back({arc.left, {from, to}});
@@ -177,8 +177,8 @@ class PieceMaker {
   CellSizes sizes_;
   std::span<const Index> names_;
   std::span<const Index> owners_;
-  ArcMaker arcs_;
-  std::vector<PieceArc> owned_;
+  PieceBoundaries arcs_;
+  std::vector<BoundaryArc> owned_;
   bool has_moments_;
   std::array<Index, 64> known_{};
   std::vector<Place> places_;
@@ -198,10 +198,9 @@ PieceRows pieces(const Subdivision& cells, const CellSizes& sizes, const Subdivi
 
 PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
                           const Subdivision& others, bool has_moments, const Execution& execution) {
-  const Filling filling = filling_of(others, execution);
+  const GapTriangulation gaps = triangulate_gaps(others, execution);
   return gathered_rows(cells, others.names, has_moments, execution, [&](Index first, Index end) {
-    return PieceMaker(cells, sizes, filling.cover, others.names, filling.owners, first, end,
-                      has_moments);
+    return PieceMaker(cells, sizes, gaps.cover, others.names, gaps.owners, first, end, has_moments);
   });
 }
 

@@ -43,9 +43,9 @@ class LineDivider {
   // line.
   void append_between(const LonLat& from, const Point& p, const LonLat& to, const Point& q,
                       unsigned depth) const {
-    constexpr unsigned most_halvings = 30;
+    constexpr unsigned max_halvings = 30;
     const LonLat middle = middle_of(from, to);
-    if (depth == most_halvings || is_straight(from, p, to, q, middle)) {
+    if (depth == max_halvings || is_straight(from, p, to, q, middle)) {
       positions_.push_back(from);
       return;
     }
@@ -57,10 +57,10 @@ class LineDivider {
  private:
   [[nodiscard]] bool is_straight(const LonLat& from, const Point& p, const LonLat& to,
                                  const Point& q, const LonLat& middle) const {
-    constexpr double most_degrees = 90;
+    constexpr double max_degrees = 90;
     if (p == q && std::abs(from.lat_deg) == 90) return true;
-    if (std::abs(to.lon_deg - from.lon_deg) > most_degrees ||
-        std::abs(to.lat_deg - from.lat_deg) > most_degrees)
+    if (std::abs(to.lon_deg - from.lon_deg) > max_degrees ||
+        std::abs(to.lat_deg - from.lat_deg) > max_degrees)
       return false;
     if (from.lon_deg == to.lon_deg) return true;
     const Point m = normalized(p + q);
@@ -98,8 +98,8 @@ double bulge_deg(const LonLat& west, const LonLat& east) {
   const double far = std::max(std::abs(west.lat_deg), std::abs(east.lat_deg));
   const bool meets_equator = west.lat_deg * east.lat_deg < 0;
   const auto [sine, cosine] = exact::sine_cosine_of_degrees(far);
-  const double most_cosine = meets_equator ? 1 : exact::sine_cosine_of_degrees(near).cosine;
-  const double level = width * width / 8 * std::min({0.5, sine, most_cosine});
+  const double max_cosine = meets_equator ? 1 : exact::sine_cosine_of_degrees(near).cosine;
+  const double level = width * width / 8 * std::min({0.5, sine, max_cosine});
   const double slope = cosine > height ? sine / cosine * height * height / 4 : height;
   return 2 * (level + std::min(slope, height)) / rad_per_deg;
 }

@@ -34,7 +34,7 @@ namespace {
 
 constexpr std::size_t cells_per_block = 64;
 constexpr double radian = std::numbers::pi / 180;
-constexpr unsigned most_halvings = 12;
+constexpr unsigned max_halvings = 12;
 
 double sine_of(double degrees) { return exact::sine_cosine_of_degrees(degrees).sine; }
 
@@ -155,7 +155,7 @@ SidePlace place_of(const PlaneSide& side) {
 // Returns how often the sides of a cell are to be halved.
 unsigned halvings_for(double excess_ratio) {
   unsigned count = 0;
-  for (; excess_ratio > 1 && count < most_halvings; excess_ratio /= 4) ++count;
+  for (; excess_ratio > 1 && count < max_halvings; excess_ratio /= 4) ++count;
   return count;
 }
 
@@ -210,7 +210,7 @@ class AreaKeeper {
     for (std::size_t k = 0; k < cells.size(); ++k) {
       if (of_cells[k] == 0) continue;
       for (std::size_t s = begins_[cells[k]]; s < begins_[cells[k] + 1]; ++s) {
-        const unsigned times = std::min(of_cells[k], most_halvings - num_halvings_[s]);
+        const unsigned times = std::min(of_cells[k], max_halvings - num_halvings_[s]);
         if (times == 0 || sides_[s].from.lon_deg == sides_[s].to.lon_deg) continue;
         found.emplace_back(place_of(sides_[s]), static_cast<std::uint8_t>(times));
       }

@@ -21,11 +21,11 @@ namespace rondel::overlay {
 
 // The largest share of a cell's area by which arcs may change it. If arcs may be `tolerance`
 // radians from their lines, it is the share for a cell that is a tenth of a degree wide and lies
-// along such arcs, at most most_area_share.
-constexpr double most_area_share = 1e-3;
+// along such arcs, at most max_area_share.
+constexpr double max_area_share = 1e-3;
 constexpr double area_share(double tolerance) {
   constexpr double tenth_of_degree = std::numbers::pi / 1800;
-  return std::min(most_area_share, tolerance / tenth_of_degree);
+  return std::min(max_area_share, tolerance / tenth_of_degree);
 }
 
 // Divides the sides until the area of each cell differs from the area between its straight lines by

@@ -29,8 +29,8 @@ constexpr double whole_area = 4 * std::numbers::pi;
 // bound where the triangles are small, s^2 + c^2 = 16.
 RingArea area_around(std::span<const Point> ring, const Point& origin) {
   constexpr double factor = 64 * predicates::unit_roundoff;
-  constexpr double most_square = 4;
-  constexpr double least_square = 1e-20;
+  constexpr double max_square = 4;
+  constexpr double min_square = 1e-20;
   RingArea result;
   exact::DoubleDouble sum{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -41,7 +41,7 @@ RingArea area_around(std::span<const Point> ring, const Point& origin) {
     const double below = 1 + dot(origin, p) + dot(p, q) + dot(q, origin);
     const double angle = 2 * exact::argument(std::abs(above), below);
     add_term(above < 0 ? -angle : angle, sum);
-    const double square = std::clamp(above * above + below * below, least_square, most_square);
+    const double square = std::clamp(above * above + below * below, min_square, max_square);
     result.rounding += factor * rough_length(p, q) / square;
   }
   result.area = std::remainder(sum.hi + sum.lo, whole_area);
@@ -64,8 +64,8 @@ RingArea best_area_of_ring(std::span<const Point> ring) {
 // Returns a bound for the error of area_on_left().
 double unsure_area(std::size_t num_corners) {
   constexpr double of_any = 1e-9;
-  constexpr double of_each = 1e-14;
-  return of_any + of_each * static_cast<double>(num_corners);
+  constexpr double per_corner = 1e-14;
+  return of_any + per_corner * static_cast<double>(num_corners);
 }
 
 }  // namespace

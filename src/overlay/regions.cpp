@@ -10,15 +10,15 @@
 #include <string>
 #include <utility>
 
-#include "overlay/arcs.h"
 #include "overlay/border_rings.h"
 #include "overlay/cell_set_data.h"
-#include "overlay/cell_sets.h"
 #include "overlay/disjoint_cells.h"
-#include "overlay/filling.h"
+#include "overlay/gap_triangulation.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
+#include "overlay/piece_boundaries.h"
 #include "overlay/region_area.h"
+#include "overlay/single_cells.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -27,18 +27,18 @@
 namespace rondel {
 namespace {
 
-using overlay::ArcMaker;
+using overlay::BoundaryArc;
 using overlay::CellSetData;
 using overlay::Halfedge;
 using overlay::KeyedArc;
-using overlay::PieceArc;
+using overlay::PieceBoundaries;
 using overlay::Subdivision;
 
 constexpr std::size_t cells_per_block = 64;
 constexpr double sphere_area = 4 * std::numbers::pi;
 // A cell without a border is empty or the whole sphere. Two cells larger than this have at least
 // half of the sphere in common, so then it is the sphere.
-constexpr double most_of_sphere = 3 * std::numbers::pi;
+constexpr double max_per_sphere = 3 * std::numbers::pi;
 
 // An arc on the border of a piece, with the piece to its left: the indices in the input of the cell
 // and of the region that have it.
@@ -66,12 +66,12 @@ class NamedArcMaker {
     };
     std::size_t next = 0;  // the next corner of the cell
     Index region_before = no_index;
-    const std::span<const PieceArc> arcs_of_cell = make_(cell);
+    const std::span<const BoundaryArc> arcs_of_cell = make_(cell);
     if (!make_.is_consistent()) {
       refuse_or_skip(cell);
       return;
     }
-    for (const PieceArc& arc : arcs_of_cell) {
+    for (const BoundaryArc& arc : arcs_of_cell) {
       const Point& from = make_.points()[arc.from];
       const Point& to = make_.points()[arc.to];
       const Index region = beyond_[arc.left];
@@ -112,7 +112,7 @@ class NamedArcMaker {
 
   const Subdivision& cells_;
   std::span<const Index> beyond_;
-  ArcMaker make_;
+  PieceBoundaries make_;
 };
 
 // Returns the arcs of all pieces of the cells in a cover.
@@ -141,13 +141,13 @@ std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover
 // Returns the arcs of all pieces of the cells in others that need not cover the sphere.
 std::vector<NamedArc> arcs_of_parts(const Subdivision& cells, const Subdivision& others,
                                     const Execution& execution) {
-  const overlay::Filling filling = overlay::filling_of(others, execution);
+  const overlay::GapTriangulation gaps = overlay::triangulate_gaps(others, execution);
   std::vector<Index> beyond;
-  beyond.reserve(filling.owners.size());
-  for (const Index owner : filling.owners) {
+  beyond.reserve(gaps.owners.size());
+  for (const Index owner : gaps.owners) {
     beyond.push_back(owner < others.num_cells() ? others.names[owner] : no_index);
   }
-  return arcs_of(cells, filling.cover, beyond, execution);
+  return arcs_of(cells, gaps.cover, beyond, execution);
 }
 
 // Returns the sides of all cells, with the cell that is the whole sphere as the region.
@@ -178,7 +178,7 @@ void exchange(std::vector<NamedArc>& arcs) {
 std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
   std::vector<Index> whole;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    if (cells.cells[i] == cells.cells[i + 1] && covered(i) > most_of_sphere) {
+    if (cells.cells[i] == cells.cells[i + 1] && covered(i) > max_per_sphere) {
       whole.push_back(static_cast<Index>(i));
     }
   }
@@ -206,11 +206,11 @@ std::vector<NamedArc> overlay_of(const CellSetData& cells, const CellSetData& re
     exchange(arcs);
   } else if (regions.whole() != no_index) {
     arcs = arcs_within(cells.subdivision(), regions.whole());
-  } else if (cells.is_cover()) {
+  } else if (cells.covers_sphere()) {
     const Subdivision& cover = cells.subdivision();
     arcs = arcs_of(regions.subdivision(), cover, cover.names, execution);
     exchange(arcs);
-  } else if (regions.is_cover()) {
+  } else if (regions.covers_sphere()) {
     const Subdivision& cover = regions.subdivision();
     arcs = arcs_of(cells.subdivision(), cover, cover.names, execution);
   } else {
@@ -290,7 +290,7 @@ RegionPieces intersection(const CellSet& cells, const CellSet& regions,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (all.cells[k] == all.cells[k + 1]) {
       if (std::min(CellSetData::of(cells).areas()[pairs[k].first],
-                   CellSetData::of(regions).areas()[pairs[k].second]) <= most_of_sphere)
+                   CellSetData::of(regions).areas()[pairs[k].second]) <= max_per_sphere)
         continue;
       result.rings.whole.push_back(static_cast<Index>(result.cells.size()));
     }

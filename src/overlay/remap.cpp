@@ -13,8 +13,8 @@
 
 #include "exact/vector.h"
 #include "overlay/cell_set_data.h"
-#include "overlay/filling.h"
-#include "overlay/graticule_pieces.h"
+#include "overlay/gap_triangulation.h"
+#include "overlay/grid_pieces.h"
 #include "overlay/linear_weights.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
@@ -78,11 +78,11 @@ PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool 
   if (target.grid() != nullptr) {
     return transposed(pieces(source, *target.grid(), has_moments, execution), num_targets);
   }
-  if (source.is_cover()) {
+  if (source.covers_sphere()) {
     return pieces(target.subdivision(), target.sizes(), source.subdivision(), has_moments,
                   execution);
   }
-  if (target.is_cover()) {
+  if (target.covers_sphere()) {
     return transposed(
         pieces(source.subdivision(), source.sizes(), target.subdivision(), has_moments, execution),
         num_targets);

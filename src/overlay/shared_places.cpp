@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "exact/vector.h"
-#include "overlay/cell_sets.h"
 #include "overlay/overlaps.h"
+#include "overlay/single_cells.h"
 #include "overlay/tidy_rings.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"

@@ -59,10 +59,10 @@ class SideTable {
   [[nodiscard]] std::size_t slot_of(Index from, Index to) const {
     constexpr std::uint64_t odd = 0x9e37'79b9'7f4a'7c15;  // 2^64 over the golden ratio
     constexpr std::size_t of_point = 12;
-    constexpr std::size_t most_steps = 16;
+    constexpr std::size_t max_steps = 16;
     const std::size_t last = slots_.size() - 1;
     std::size_t slot = (from * of_point + (to * odd >> 61U)) & last;
-    for (std::size_t k = 0; k < most_steps; ++k) {
+    for (std::size_t k = 0; k < max_steps; ++k) {
       if (is_place_of(slot, from, to)) return slot;
       slot = (slot + 1) & last;
     }

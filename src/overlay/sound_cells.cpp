@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "overlay/border_rings.h"
-#include "overlay/cell_sets.h"
-#include "overlay/filling.h"
+#include "overlay/gap_triangulation.h"
 #include "overlay/overlaps.h"
+#include "overlay/single_cells.h"
 #include "overlay/snapped_sides.h"
 #include "overlay/tidy_rings.h"
 #include "rondel/regions.h"
@@ -84,12 +84,12 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
 
 Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
                         const Execution& execution) {
-  constexpr int most_times = 4;  // a corner may then be on another side
+  constexpr int max_times = 4;  // a corner may then be on another side
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   Subdivision sound(cells, false, execution.threads);
   std::optional<CellRings> changed = tidied(cells, sound);
   if (changed) sound = Subdivision(*changed, false, execution.threads);
-  for (int time = 0; time < most_times; ++time) {
+  for (int time = 0; time < max_times; ++time) {
     std::optional<CellRings> next = with_corners_on_sides(changed ? *changed : cells, sound, told);
     if (!next) break;
     changed = std::move(next);

@@ -53,7 +53,7 @@ Point center_of(const CellRings& input, std::size_t cell) {
 }
 
 // Returns the position in `corners` of the ring's corner with the least coordinates.
-std::size_t least_corner(const CellRings& input, std::uint64_t ring) {
+std::size_t min_corner(const CellRings& input, std::uint64_t ring) {
   const auto begin = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring]);
   const auto end = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring + 1]);
   const auto least = std::ranges::min_element(
@@ -65,7 +65,7 @@ std::size_t least_corner(const CellRings& input, std::uint64_t ring) {
 void sort_equals(const CellRings& input, order::KeyedIndices& sorted) {
   const auto first_coordinates = [&](Index i) {
     if (input.cells[i] == input.cells[i + 1]) return std::tuple(2.0, 0.0, 0.0);
-    return coordinates(input.points[input.corners[least_corner(input, input.cells[i])]]);
+    return coordinates(input.points[input.corners[min_corner(input, input.cells[i])]]);
   };
   const std::size_t n = sorted.keys.size();
   for (std::size_t i = 0; i < n;) {
@@ -125,7 +125,7 @@ void Subdivision::take_rings(const CellRings& input) {
     for (std::uint64_t r = input.cells[i]; r < input.cells[i + 1]; ++r) {
       const std::size_t begin = input.rings[r];
       const std::size_t size = input.rings[r + 1] - begin;
-      const std::size_t start = least_corner(input, r);
+      const std::size_t start = min_corner(input, r);
       given_starts.push_back(static_cast<Index>(start - begin));
       for (std::size_t k = 0; k < size; ++k) {
         const Index p = input.corners[begin + (start - begin + k) % size];

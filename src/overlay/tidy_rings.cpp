@@ -13,9 +13,9 @@
 
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
-#include "overlay/cell_sets.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
+#include "overlay/single_cells.h"
 #include "overlay/snapped_sides.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"

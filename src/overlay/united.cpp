@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "overlay/cell_sets.h"
 #include "overlay/disjoint_cells.h"
 #include "overlay/overlaps.h"
+#include "overlay/single_cells.h"
 #include "rondel/error.h"
 
 namespace rondel::overlay {

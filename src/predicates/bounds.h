@@ -71,11 +71,11 @@ inline constexpr double power_bound = 6 * unit_roundoff;
 inline constexpr double within_power_bound = 10 * unit_roundoff;
 
 // Sums of products below this may have lost bits to underflow.
-inline constexpr double least_product = 1e-270;
+inline constexpr double min_product = 1e-270;
 
 // The filters of exact data accept a determinant of three vectors only if the square of each length
 // exceeds this. Overflow makes them unsure; docs/theory/filters.md shows that underflow is
 // harmless then.
-inline constexpr double least_squared_length = 1e-80;
+inline constexpr double min_squared_length = 1e-80;
 
 }  // namespace rondel::predicates

@@ -46,7 +46,7 @@ inline Sign compare_power_filter(const Vector& a, const Vector& b, const Vector&
   const double z = ray.z * ba.z;
   const double size = std::abs(x) + std::abs(y) + std::abs(z);
   const double value = x + y + z;
-  return unless_unsure(value, size > least_product && std::abs(value) > power_bound * size);
+  return unless_unsure(value, size > min_product && std::abs(value) > power_bound * size);
 }
 
 // In balls.

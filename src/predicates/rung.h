@@ -73,7 +73,7 @@ inline double max_squared_length(const Vector& a, const Vector& b, const Vector&
 // Whether |value| exceeds bound |a||b||c|, given the squared lengths. No where a product could lose
 // bits at either end of the range (docs/theory/filters.md).
 inline bool is_beyond(double value, double bound, double a2, double b2, double c2) {
-  return std::min(std::min(a2, b2), c2) > least_squared_length &&
+  return std::min(std::min(a2, b2), c2) > min_squared_length &&
          value * value > (bound * bound) * ((a2 * b2) * c2);
 }
 

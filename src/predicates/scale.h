@@ -17,7 +17,7 @@
 
 namespace rondel::predicates {
 
-inline constexpr int most_exponent = 1000;
+inline constexpr int max_exponent = 1000;
 
 inline double longest_coordinate(const Vector& v) {
   return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
@@ -43,7 +43,7 @@ inline Vector operator*(double factor, const Vector& v) {
 // none among the doubles. Other coordinates may become subnormal or 0: off by 2^-1074.
 inline double factor_to_one(const Vector& v) {
   const int exponent = exponent_of(v);
-  return std::abs(exponent) <= most_exponent ? power_of_two(-exponent) : 0;
+  return std::abs(exponent) <= max_exponent ? power_of_two(-exponent) : 0;
 }
 
 // Whether the ray to some point has a coordinate, other than 0, so small against another one that

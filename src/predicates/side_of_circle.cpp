@@ -59,7 +59,7 @@ struct ExtendedStep {
 Sign side_of_circle_extended(const SplitPoint& b, const SplitPoint& c, const SplitPoint& d,
                              const SplitPoint& p) {
   constexpr long double bound = 128 * exact::extended_unit_roundoff;
-  constexpr long double least_squared_distance = 0x1p-72L;
+  constexpr long double min_squared_distance = 0x1p-72L;
   if (!exact::has_extended_precision()) return Sign::zero;
   const Coordinates along = coordinates(p.hi);
   const auto longer = [&](unsigned i, unsigned j) {
@@ -73,7 +73,7 @@ Sign side_of_circle_extended(const SplitPoint& b, const SplitPoint& c, const Spl
   const long double value = pb.squared * (pc.x * pd.y - pc.y * pd.x) +
                             pc.squared * (pd.x * pb.y - pd.y * pb.x) +
                             pd.squared * (pb.x * pc.y - pb.y * pc.x);
-  if (!(m > least_squared_distance && std::abs(value) > bound * (m * m))) return Sign::zero;
+  if (!(m > min_squared_distance && std::abs(value) > bound * (m * m))) return Sign::zero;
   return (value > 0) == (along[last] > 0) ? Sign::positive : Sign::negative;
 }
 

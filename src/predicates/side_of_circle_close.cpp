@@ -48,7 +48,7 @@ std::optional<FourRays> comparable_rays(GivenPoints& points, const Point& center
     exponents[i] = exponent_of(rays[i].v);
   }
   const auto [lowest, highest] = std::ranges::minmax(exponents);
-  if (lowest < -most_exponent || highest > most_exponent) return std::nullopt;
+  if (lowest < -max_exponent || highest > max_exponent) return std::nullopt;
   const bool are_similar = highest - lowest <= 1;
   if (!are_similar && center != Point{}) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -62,9 +62,9 @@ std::optional<FourRays> comparable_rays(GivenPoints& points, const Point& center
 
 // Empty where points are too close for doubles to tell.
 std::optional<Step> step_between(const Vector& difference, const Ray& p, const Ray& q) {
-  constexpr int least_exponent = -900;
+  constexpr int min_exponent = -900;
   const int exponent = exponent_of(difference);
-  if (exponent < least_exponent) return std::nullopt;
+  if (exponent < min_exponent) return std::nullopt;
   const Vector d = power_of_two(-exponent) * difference;
   const double t = dot(d, p.v + q.v) / (p.length * (p.length + q.length));
   const Vector e = d - t * p.v;
@@ -135,7 +135,7 @@ Sign side_of_circle_close(const Quad& q, const Point& center) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Step& e = rows[i].step;
     const double to_unit =
-        power_of_two(std::max(e.exponent - highest, -most_exponent)) / (*rays)[order[i]].length;
+        power_of_two(std::max(e.exponent - highest, -max_exponent)) / (*rays)[order[i]].length;
     rows[i].sum = to_unit * e.along;
     rows[i].breadth = to_unit * e.length;
   }
@@ -151,8 +151,8 @@ Sign side_of_circle_close(const Quad& q, const Point& center) {
     error += e->relative_error;
     break;
   }
-  constexpr double most_error = 1.0 / 16;
-  return error < most_error ? sign_of_rows(rows, (*rays)[order[3]].v, error) : Sign::zero;
+  constexpr double max_error = 1.0 / 16;
+  return error < max_error ? sign_of_rows(rows, (*rays)[order[3]].v, error) : Sign::zero;
 }
 
 }  // namespace rondel::predicates

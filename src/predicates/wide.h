@@ -49,7 +49,7 @@ struct Floating {
   [[nodiscard]] double size() const { return std::abs(value); }
   // In units of 2^unit. What is far below them is off by less than 2^-990.
   [[nodiscard]] double in(int unit) const {
-    return value * power_of_two(std::max(exponent - unit, -most_exponent));
+    return value * power_of_two(std::max(exponent - unit, -max_exponent));
   }
 
   friend Floating operator*(const Floating& a, const Floating& b) {
@@ -94,7 +94,7 @@ Wide det_of_rows(const exact::Vector3<Number>& a, const exact::Vector3<Number>& 
   std::array<double, 6> values{};
   std::array<double, 6> sizes{};
   const auto multiply = [&](std::size_t i, const Number& x, const Number& y, const Number& z) {
-    const double unit = power_of_two(std::max(exponents[i] - highest, -most_exponent));
+    const double unit = power_of_two(std::max(exponents[i] - highest, -max_exponent));
     values[i] = unit * (x.value * y.value * z.value);
     sizes[i] = unit * (x.size() * y.size() * z.size());
   };

@@ -29,7 +29,9 @@ class PerturbedSites {
   PerturbedSites(std::span<const Point> sites, const SitesByPlace& places, Model model,
                  const Sphere& sphere);
 
-  [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
+  [[nodiscard]] const Point& point(Index place) const {
+    return sites_[places_.representative[place]];
+  }
 
   [[nodiscard]] const Point& center() const { return sphere_.center; }
   // The unit vector of a place; in the projected model.

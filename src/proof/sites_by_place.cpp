@@ -153,10 +153,10 @@ SitesByPlace group_by_place(std::span<const Point> sites, Model model, const Sph
     group_cell(places, all.subspan(i, j - i), sites, model, sphere);
   }
 
-  places.speaker = places.first;
+  places.representative = places.first;
   for (Index i = 0; i < n; ++i) {
-    Index& speaker = places.speaker[places.first[i]];
-    if (is_lexicographically_less(sites[i], sites[speaker])) speaker = i;
+    Index& representative = places.representative[places.first[i]];
+    if (is_lexicographically_less(sites[i], sites[representative])) representative = i;
   }
   return places;
 }

@@ -22,7 +22,7 @@ struct SitesByPlace {
   std::vector<Index> first;
   // By the lowest index of a place: the site there with the lexicographically smallest
   // coordinates, which speaks for the place in ties.
-  std::vector<Index> speaker;
+  std::vector<Index> representative;
 };
 
 SitesByPlace group_by_place(std::span<const Point> sites, Model model, const Sphere& sphere);

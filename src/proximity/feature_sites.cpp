@@ -30,7 +30,7 @@
 
 #include "exact/angles.h"
 #include "exact/vector.h"
-#include "proximity/other_features.h"
+#include "proximity/feature_distance.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "system/job.h"

@@ -11,8 +11,8 @@
 #include <span>
 #include <utility>
 
-#include "proximity/chords.h"
-#include "proximity/lunes.h"
+#include "proximity/relative_neighborhood.h"
+#include "proximity/site_distances.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "system/disjoint_sets.h"
@@ -24,7 +24,7 @@
 namespace rondel {
 namespace {
 
-using proximity::Chords;
+using proximity::SiteDistances;
 using Edge = std::array<Index, 2>;
 
 constexpr std::size_t edges_per_piece = 1024;
@@ -65,7 +65,8 @@ std::vector<NearPair> face_candidates(const Triangulation& triangulation) {
 // Returns the arcs between neighbors around the great circle, for a triangulation of dimension
 // below 2. An arc of 180 degrees or more is left out: its cap has another vertex. The cap of a
 // shorter arc has none.
-std::vector<NearPair> ring_candidates(const Triangulation& triangulation, const Chords& chords) {
+std::vector<NearPair> ring_candidates(const Triangulation& triangulation,
+                                      const SiteDistances& distances) {
   const auto ring = triangulation.ring();
   std::vector<NearPair> found;
   const std::size_t count = ring.size() < 3 ? ring.size() / 2 : ring.size();
@@ -73,7 +74,7 @@ std::vector<NearPair> ring_candidates(const Triangulation& triangulation, const 
     const Index a = ring[j];
     const Index b = ring[(j + 1) % ring.size()];
     const Index next = ring[(j + 2) % ring.size()];
-    if (ring.size() > 2 && chords.is_in_cap(a, b, next)) continue;
+    if (ring.size() > 2 && distances.is_in_cap(a, b, next)) continue;
     found.push_back({{std::min(a, b), std::max(a, b)}, {no_index, no_index}});
   }
   return found;
@@ -97,24 +98,25 @@ void keep_if(std::vector<NearPair>& candidates, const Execution& execution, cons
 }
 
 // True if the edge is in no solid face longer than both other sides.
-bool is_in_urquhart(const Chords& chords, const NearPair& candidate) {
+bool is_in_urquhart(const SiteDistances& distances, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {
-    return c != no_index && chords.is_shorter(p, c, p, q) && chords.is_shorter(q, c, p, q);
+    return c != no_index && distances.is_shorter(p, c, p, q) && distances.is_shorter(q, c, p, q);
   });
 }
 
 // True if no corner across the edge is in the cap with the edge as diameter.
-bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
+bool is_in_gabriel(const SiteDistances& distances, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {
-    return c != no_index && chords.is_in_cap(p, q, c);
+    return c != no_index && distances.is_in_cap(p, q, c);
   });
 }
 
 // Reduces the candidates to the shortest spanning tree by Kruskal's algorithm. Precondition: the
 // candidates contain the tree. Edges of equal length are taken in lexicographic order.
-void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair>& candidates) {
+void keep_tree(const SiteDistances& distances, std::size_t num_sites,
+               std::vector<NearPair>& candidates) {
   struct Keyed {
     exact::DoubleDouble square;
     NearPair candidate;
@@ -122,12 +124,12 @@ void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair
   std::vector<Keyed> keyed;
   keyed.reserve(candidates.size());
   for (const NearPair& c : candidates) {
-    keyed.push_back({chords.squared(c.edge[0], c.edge[1]), c});
+    keyed.push_back({distances.squared(c.edge[0], c.edge[1]), c});
   }
   std::ranges::sort(keyed, [&](const Keyed& x, const Keyed& y) {
     const Edge& e = x.candidate.edge;
     const Edge& f = y.candidate.edge;
-    const Sign sign = chords.compare(e[0], e[1], x.square, f[0], f[1], y.square);
+    const Sign sign = distances.compare(e[0], e[1], x.square, f[0], f[1], y.square);
     return sign != Sign::zero ? sign == Sign::negative : e < f;
   });
   system::DisjointSets components(num_sites);
@@ -140,26 +142,26 @@ void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair
 }
 
 // Reduces the candidates, all Delaunay edges, to the edges of a graph of this kind.
-void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKind kind,
+void keep_kind(const Triangulation& triangulation, const SiteDistances& distances, GraphKind kind,
                std::vector<NearPair>& candidates, const Execution& execution) {
   if (kind == GraphKind::delaunay) return;
   if (kind == GraphKind::gabriel) {
     keep_if(candidates, execution,
-            [&] { return [&](const NearPair& c) { return is_in_gabriel(chords, c); }; });
+            [&] { return [&](const NearPair& c) { return is_in_gabriel(distances, c); }; });
     return;
   }
   keep_if(candidates, execution,
-          [&] { return [&](const NearPair& c) { return is_in_urquhart(chords, c); }; });
+          [&] { return [&](const NearPair& c) { return is_in_urquhart(distances, c); }; });
   if (kind == GraphKind::relative) {
     const CompressedRows<Index> adjacency =
         proximity::adjacency_of(triangulation.num_sites(), edges(triangulation));
     keep_if(candidates, execution, [&] {
-      return [search = proximity::LuneSearch(chords, adjacency)](const NearPair& c) mutable {
+      return [search = proximity::LuneSearch(distances, adjacency)](const NearPair& c) mutable {
         return search.is_empty(c.edge);
       };
     });
   }
-  if (kind == GraphKind::spanning_tree) keep_tree(chords, triangulation.num_sites(), candidates);
+  if (kind == GraphKind::spanning_tree) keep_tree(distances, triangulation.num_sites(), candidates);
 }
 
 // Sorts the candidates lexicographically: by counting for the lower end, then by comparing the few
@@ -189,11 +191,11 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("weighted sites have no graphs of distances");
   }
-  const Chords chords(triangulation, execution);
+  const SiteDistances distances(triangulation, execution);
   std::vector<NearPair> candidates = triangulation.dimension() < 2
-                                         ? ring_candidates(triangulation, chords)
+                                         ? ring_candidates(triangulation, distances)
                                          : face_candidates(triangulation);
-  keep_kind(triangulation, chords, kind, candidates, execution);
+  keep_kind(triangulation, distances, kind, candidates, execution);
   sort_by_edge(triangulation.num_sites(), candidates);
   SiteGraph graph;
   graph.edges.resize(candidates.size());
@@ -203,7 +205,7 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                          for (std::size_t i = begin; i < end; ++i) {
                            const Edge edge = candidates[i].edge;
                            graph.edges[i] = edge;
-                           graph.lengths[i] = chords.angle(edge[0], edge[1]);
+                           graph.lengths[i] = distances.angle(edge[0], edge[1]);
                          }
                        });
   return graph;

@@ -41,7 +41,7 @@ Built::Built(const Triangulation& triangulation, std::span<const Index> ids, Ord
       is_ring_(triangulation.dimension() < 2) {
   list_vertices(triangulation, order_ties);
   models::with_model(model_, [&]<class T> {
-    const T& model = points_.emplace<T>(sites_.points(), speakers_, center_);
+    const T& model = points_.emplace<T>(sites_.points(), representatives_, center_);
     if (!is_ring_) link_faces(triangulation, model);
   });
   if (!ids.empty()) rename(ids);
@@ -62,13 +62,13 @@ void Built::list_vertices(const Triangulation& triangulation, OrderTies order_ti
   if (is_ring_) {
     for (const Index i : sorted.indices) at_key_.push_back(vertex_of_[i]);
   }
-  speakers_ = names_;
+  representatives_ = names_;
   for (const auto& [site, representative] : triangulation.duplicates()) {
     const Index v = vertex_of_[representative];
     vertex_of_[site] = v;
     if (v == no_index) continue;
-    Index& speaker = speakers_[v];
-    if (predicates::is_lexicographically_less(sites_[site], sites_[speaker])) speaker = site;
+    Index& first_site = representatives_[v];
+    if (predicates::is_lexicographically_less(sites_[site], sites_[first_site])) first_site = site;
   }
 }
 
@@ -101,8 +101,8 @@ AnyGraph Built::graph(std::span<const Index> names) const {
         if (!is_ring_) {
           return SurfaceGraph<T>{model, mesh_, kinds_, corner_of_, names, solid_face_, entry_face_};
         }
-        return RingGraph<T>{model, names,
-                            RingLocation(system::gather(sites_.points(), speakers_), center_)};
+        return RingGraph<T>{
+            model, names, RingLocation(system::gather(sites_.points(), representatives_), center_)};
       },
       points_);
 }

@@ -47,8 +47,8 @@ class RONDEL_API Built {
   [[nodiscard]] Index vertex_of(Index site) const { return vertex_of_[site]; }
   // These return for each vertex its name outside, and the site whose coordinates count.
   [[nodiscard]] std::span<const Index> names() const { return names_; }
-  [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
-  [[nodiscard]] const Point& point(Index v) const { return sites_.points()[speakers_[v]]; }
+  [[nodiscard]] std::span<const Index> representatives() const { return representatives_; }
+  [[nodiscard]] const Point& point(Index v) const { return sites_.points()[representatives_[v]]; }
   // In dimension 2: the faces as the triangulation numbers them.
   [[nodiscard]] const topology::Mesh& mesh() const { return mesh_; }
   // A vertex close to p. Precondition: there is a vertex.
@@ -67,8 +67,9 @@ class RONDEL_API Built {
   Point center_;
   bool is_ring_;
 
-  std::vector<Index> names_;         // of each vertex
-  std::vector<Index> speakers_;      // the site whose coordinates count: of duplicates the smallest
+  std::vector<Index> names_;  // of each vertex
+  std::vector<Index>
+      representatives_;              // the site whose coordinates count: of duplicates the smallest
   std::vector<Index> vertex_of_;     // the vertex of each site
   std::vector<std::uint64_t> keys_;  // sorted
   std::vector<Index> at_key_;        // their vertices; empty: 0, 1, 2 ...

@@ -15,22 +15,24 @@ namespace rondel::query {
 namespace {
 
 // Returns, for a representative, which of the sites in its place has the coordinates that count.
-class SpeakerOf {
+class RepresentativeOf {
  public:
-  explicit SpeakerOf(const Triangulation& triangulation) {
+  explicit RepresentativeOf(const Triangulation& triangulation) {
     if (triangulation.duplicates().empty()) return;
-    speakers_.resize(triangulation.num_sites());
-    std::iota(speakers_.begin(), speakers_.end(), Index{0});
+    representatives_.resize(triangulation.num_sites());
+    std::iota(representatives_.begin(), representatives_.end(), Index{0});
     const Sites& sites = triangulation.sites();
     for (const auto& [site, representative] : triangulation.duplicates()) {
-      Index& speaker = speakers_[representative];
-      if (predicates::is_lexicographically_less(sites[site], sites[speaker])) speaker = site;
+      Index& first_site = representatives_[representative];
+      if (predicates::is_lexicographically_less(sites[site], sites[first_site])) first_site = site;
     }
   }
-  Index operator()(Index name) const { return speakers_.empty() ? name : speakers_[name]; }
+  Index operator()(Index name) const {
+    return representatives_.empty() ? name : representatives_[name];
+  }
 
  private:
-  std::vector<Index> speakers_;
+  std::vector<Index> representatives_;
 };
 
 // Orders the indices of equal keys by what else there is to places: until here they are in the order
@@ -51,7 +53,7 @@ void order_ties(order::KeyedIndices& sorted, const RestOf& rest_of) {
 }  // namespace
 
 void order_ties_by_place(const Triangulation& triangulation, order::KeyedIndices& sorted) {
-  const SpeakerOf speaker_of(triangulation);
+  const RepresentativeOf speaker_of(triangulation);
   order_ties(sorted, [&](Index i) {
     const Point& p = triangulation.sites()[speaker_of(i)];
     return std::tuple(order::place_key(p, triangulation.model(), triangulation.sphere().center).low,

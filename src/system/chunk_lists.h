@@ -23,8 +23,8 @@ class ChunkLists {
 
   // Room for `capacity` elements in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)
-      : elements_(system::make_large_array<T>(most_chunks(num_lists, capacity) * chunk_size)),
-        previous_(most_chunks(num_lists, capacity)),
+      : elements_(system::make_large_array<T>(max_chunks(num_lists, capacity) * chunk_size)),
+        previous_(max_chunks(num_lists, capacity)),
         lists_(num_lists) {}
 
   void append(std::size_t list, const T& element) {
@@ -62,7 +62,7 @@ class ChunkLists {
   };
 
   // With one that nothing is written to but asked for.
-  static std::size_t most_chunks(std::size_t num_lists, std::size_t capacity) {
+  static std::size_t max_chunks(std::size_t num_lists, std::size_t capacity) {
     return capacity / chunk_size + num_lists + 1;
   }
 

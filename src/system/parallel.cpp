@@ -26,7 +26,7 @@ namespace rondel::system {
 namespace {
 
 // More than a machine has that the library was tried on; few enough for what is made for each.
-constexpr unsigned most_threads = 1U << 10;
+constexpr unsigned max_threads = 1U << 10;
 
 #if defined(RONDEL_HAS_TBB)
 
@@ -158,7 +158,7 @@ StopScope::StopScope(const std::atomic<bool>* stop) noexcept : before_(current_s
 StopScope::~StopScope() { current_stop = before_; }
 
 unsigned num_threads(unsigned threads) {
-  return threads != 0 && has_threads ? std::min(threads, most_threads) : num_cores();
+  return threads != 0 && has_threads ? std::min(threads, max_threads) : num_cores();
 }
 
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,

@@ -14,7 +14,7 @@ namespace rondel::system {
 
 namespace {
 
-constexpr int most_digits = 17;  // that tell any two doubles apart
+constexpr int max_digits = 17;  // that tell any two doubles apart
 
 std::string printed(const char* format, int precision, double value) {
   std::array<char, 400> buffer{};  // 1.8e308 in full
@@ -31,9 +31,9 @@ std::string shortest_text_without_tables(double value) {
   std::string scientific;
   do {
     scientific = printed("%.*e", decimals++, value);
-  } while (decimals < most_digits && std::strtod(scientific.c_str(), nullptr) != value);
+  } while (decimals < max_digits && std::strtod(scientific.c_str(), nullptr) != value);
   const int exponent = std::atoi(scientific.c_str() + scientific.find('e') + 1);
-  if (std::abs(exponent) > most_digits + 8) return scientific;  // longer otherwise
+  if (std::abs(exponent) > max_digits + 8) return scientific;  // longer otherwise
   const std::string fixed = printed("%.*f", std::max(0, decimals - 1 - exponent), value);
   return fixed.size() <= scientific.size() ? fixed : scientific;
 }

@@ -60,7 +60,7 @@ COMMANDS = {
         [],
         {"--output": ".nc", "--graph": "", "--report": ""},
     ),
-    "mesh partition": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
+    "mesh equal-area": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "mesh convert": ("{INPUT}", ["INPUT"], {"--output": ".nc", "--graph": "", "--report": ""}),
     "mesh cull": (
         "{INPUT} --mask {--mask}",

@@ -13,8 +13,8 @@
 #include "rondel/delaunay.h"
 #include "rondel/mesh.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/mesh_io.h"
-#include "rondel/mesh_partition.h"
+#include "rondel/mesh_equal_area.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/point_sets.h"
@@ -25,15 +25,15 @@ namespace {
 
 const Execution one_thread{.threads = 1};
 
-mesh::MeshArrays small_mesh() {
-  return mesh::arrays(delaunay(mesh::icosahedral_points(1, one_thread), {}, one_thread), {},
-                      one_thread);
+mesh::VoronoiMesh small_mesh() {
+  return mesh::make_mesh(delaunay(mesh::icosahedral_points(1, one_thread), {}, one_thread), {},
+                         one_thread);
 }
 
 TEST(allocation_of_meshes, arrays_and_their_quality) {
   const Triangulation built = delaunay(mesh::icosahedral_points(1));
-  expect_result_or_bad_alloc([&] { return mesh::arrays(built, {}, one_thread); });
-  const mesh::MeshArrays arrays = small_mesh();
+  expect_result_or_bad_alloc([&] { return mesh::make_mesh(built, {}, one_thread); });
+  const mesh::VoronoiMesh arrays = small_mesh();
   expect_result_or_bad_alloc([&] {
     const mesh::TangentialWeights rows = mesh::tangential_weights(arrays, one_thread);
     return std::tuple(rows.edges.offsets, rows.edges.values, rows.weights);
@@ -51,12 +51,12 @@ TEST(allocation_of_meshes, tessellations_and_areas) {
   };
   expect_result_or_bad_alloc([&] {
     return made_of(
-        mesh::relaxed(start, {.mean_tolerance = 0.05, .largest_tolerance = 1}, one_thread));
+        mesh::relax(start, {.mean_tolerance = 0.05, .largest_tolerance = 1}, one_thread));
   });
   expect_result_or_bad_alloc(
       [&] { return made_of(mesh::scvt({.count = 42, .max_iterations = 1}, one_thread)); });
   expect_result_or_bad_alloc([&] {
-    const mesh::AreaPartition made = mesh::area_partition(start, {}, {}, one_thread);
+    const mesh::EqualArea made = mesh::equal_area(start, {}, {}, one_thread);
     return std::tuple(made.weights, made.areas, made.end);
   });
 }
@@ -79,7 +79,7 @@ constexpr std::array formats = {mesh::MeshFormat::mpas, mesh::MeshFormat::ugrid,
                                 mesh::MeshFormat::exodus};
 
 TEST(allocation_of_meshes, files_are_written_or_bad_alloc) {
-  const mesh::MeshArrays arrays = small_mesh();
+  const mesh::VoronoiMesh arrays = small_mesh();
   for (const mesh::MeshFormat format : formats) {
     expect_file_or_bad_alloc(".nc", [&](const std::string& path) {
       mesh::write(path, arrays, {.format = format}, one_thread);
@@ -94,7 +94,7 @@ TEST(allocation_of_meshes, files_are_read_or_bad_alloc) {
   const std::string path = directory.file("mesh.nc");
   for (const mesh::MeshFormat format : formats) {
     if (format == mesh::MeshFormat::exodus) continue;
-    const mesh::MeshArrays whole = small_mesh();
+    const mesh::VoronoiMesh whole = small_mesh();
     std::vector<std::uint8_t> is_removed(whole.num_cells(), 0);
     is_removed[1] = 1;
     for (const auto& arrays : {whole, mesh::cull(whole, is_removed, one_thread).arrays}) {

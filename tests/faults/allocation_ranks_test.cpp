@@ -42,7 +42,7 @@ TEST(Allocation, ranks) {
           const auto sites =
               std::span(set.sites).subspan(r * 10, r == 0 ? 10 : set.sites.size() - 10);
           const auto part = delaunay(
-              rank, sites, {.most_bucket_sites = 5, .most_dealt_sites = 4, .keep_points = true},
+              rank, sites, {.max_bucket_sites = 5, .max_scattered_sites = 4, .keep_points = true},
               {.sphere = set.sphere}, {.threads = 1});
           num_done += areas(rank, part, {.threads = 1}).size() == sites.size();
         });

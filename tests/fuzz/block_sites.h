@@ -19,7 +19,7 @@ using test::SiteSet;
 using test::operator+;
 using test::operator*;
 
-inline constexpr std::size_t most_sites = 260;
+inline constexpr std::size_t max_num_sites = 260;
 
 // A place (u, v) on one of the six faces of the cube.
 inline Point on_cube(unsigned face, double u, double v) {
@@ -105,7 +105,7 @@ inline void add_sites(ByteSource& source, std::vector<Point>& sites) {
   const std::uint8_t b = source.byte();
   const std::size_t count = 1 + source.below(128);
   Instruction instruction = {kind, face, a, b, Random(source.byte())};
-  for (std::size_t i = 0; i < count && sites.size() < most_sites; ++i) {
+  for (std::size_t i = 0; i < count && sites.size() < max_num_sites; ++i) {
     const Point p = next_point(instruction, sites);
     if (is_finite(p)) sites.push_back(p);
   }
@@ -130,7 +130,7 @@ inline SiteSet block_sites(ByteSource& source, Model model) {
   SiteSet set;
   ByteSource center = source;
   source.byte();
-  while (!source.is_empty() && set.sites.size() < most_sites) add_sites(source, set.sites);
+  while (!source.is_empty() && set.sites.size() < max_num_sites) add_sites(source, set.sites);
   move_center(center, set);
   std::erase_if(set.sites, [](const Point& p) { return !is_finite(p); });
   if (model == Model::projected) remove_center(set.sites, set.sphere);

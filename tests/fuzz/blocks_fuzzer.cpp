@@ -63,10 +63,10 @@ void test_divide(const SiteSet& set, Model model) {
     part.sites.push_back(p);
     const Point d = p + -1.0 * set.sphere.center;
     const double size = std::hypot(d.x, d.y, d.z);
-    extent = {std::min(extent.least_size, size * (1 - 0x1p-40)),
-              std::max(extent.most_size, size * (1 + 0x1p-40))};
+    extent = {std::min(extent.min_size, size * (1 - 0x1p-40)),
+              std::max(extent.max_size, size * (1 + 0x1p-40))};
   }
-  const bool is_in_range = extent.least_size > 1e-100 && extent.most_size < 1e100;
+  const bool is_in_range = extent.min_size > 1e-100 && extent.max_size < 1e100;
   if (model == Model::weighted && !is_in_range) return;
   const auto divided = model == Model::weighted
                            ? divide_and_compare<models::WeightedPoints>(part, extent)
@@ -85,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Model model = mode % 2 == 0 ? Model::weighted : Model::projected;
   const test::SiteSet set = fuzz::block_sites(source, model);
   fuzz::test_divide(set, model);
-  const bulk::SeamRule tree = {.least_sites = 0, .is_every_square = true};
+  const bulk::SeamRule tree = {.min_sites = 0, .is_every_square = true};
   fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1, mode % 4 < 2,
                     mode % 8 < 4 ? tree : bulk::SeamRule());
   return 0;

@@ -17,8 +17,8 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::size_t most_steps = 48;
-constexpr std::size_t most_sites = 32;
+constexpr std::size_t max_steps = 48;
+constexpr std::size_t max_num_sites = 32;
 
 // What the sites around each vertex must be, by position in the snapshot.
 std::map<Index, std::vector<Index>> expected_neighbors(const Triangulation& built) {
@@ -58,7 +58,7 @@ class Script {
 
   void run() {
     for (std::size_t n = 1 + source_.below(16); n > 0; --n) add_to_pool();
-    for (std::size_t step = 1; step <= most_steps && !source_.is_empty(); ++step) {
+    for (std::size_t step = 1; step <= max_steps && !source_.is_empty(); ++step) {
       do_step(source_.byte() % 14);
       if (step % steps_between_ == 0) compare();
     }
@@ -98,7 +98,7 @@ class Script {
 
   void do_step(unsigned what) {
     if (live_.empty() && what > 4) what = 0;
-    if (what <= 5 && live_.size() >= most_sites) what = 6;
+    if (what <= 5 && live_.size() >= max_num_sites) what = 6;
     switch (what) {
       case 0:
       case 1:

@@ -21,7 +21,7 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::size_t most_targets = 5;
+constexpr std::size_t max_targets = 5;
 
 struct Question {
   std::vector<Point> sites;
@@ -34,7 +34,7 @@ struct Question {
 // The directions of which most is known: those of sites, between two and three of them, opposite.
 void add_targets(ByteSource& source, Question& q, Scales scales) {
   const Point& o = q.options.sphere.center;
-  for (std::size_t n = 1 + source.below(most_targets); n > 0; --n) {
+  for (std::size_t n = 1 + source.below(max_targets); n > 0; --n) {
     Point p = next_site(source, q.targets.empty() ? q.sites : q.targets, scales);
     const std::size_t kind = source.below(5);
     if (kind > 0 && !q.sites.empty()) {

@@ -19,7 +19,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 
 namespace rondel::fuzz {
@@ -31,7 +31,7 @@ const ScratchFolder& folder() {
 }
 
 // What takes any mesh.
-void use(const mesh::MeshArrays& arrays) {
+void use(const mesh::VoronoiMesh& arrays) {
   const mesh::Quality quality = mesh::quality(arrays, {.threads = 1});
   require(quality.num_edges == arrays.num_edges(), "a report has all edges");
   require(quality.num_vertices == arrays.num_vertices(), "a report has all vertices");
@@ -46,12 +46,12 @@ void use(const mesh::MeshArrays& arrays) {
 
 void expect_mesh_or_message(const std::string& path) {
   try {
-    const mesh::MeshArrays arrays = mesh::read_mesh(path);
+    const mesh::VoronoiMesh arrays = mesh::read_mesh(path);
     use(arrays);
     std::vector<std::uint8_t> every_other(arrays.num_cells());
     for (std::size_t i = 1; i < every_other.size(); i += 2) every_other[i] = 1;
     use(mesh::cull(arrays, every_other).arrays);
-    mesh::MeshArrays larger = arrays;
+    mesh::VoronoiMesh larger = arrays;
     mesh::rescale(larger, 2 * arrays.radius);
     mesh::rescale(larger, arrays.radius);
     require(larger.cell_areas == arrays.cell_areas, "powers of 2 are exact");
@@ -68,7 +68,7 @@ void expect_mesh_or_message(const std::string& path) {
 }
 
 // A mesh with a border, or none.
-void test_part(const mesh::MeshArrays& arrays, std::string_view bytes) {
+void test_part(const mesh::VoronoiMesh& arrays, std::string_view bytes) {
   std::vector<std::uint8_t> is_removed(arrays.num_cells());
   for (std::size_t i = 0; i < is_removed.size() && i < 8 * bytes.size(); ++i) {
     is_removed[i] = static_cast<std::uint8_t>(bytes[i / 8]) >> (i % 8) & 1U;
@@ -125,9 +125,9 @@ void test_sites(std::string_view bytes) {
     sites.push_back(
         {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2])});
   }
-  mesh::MeshArrays arrays;
+  mesh::VoronoiMesh arrays;
   try {
-    arrays = mesh::arrays(delaunay(sites), {.radius = 2, .allow_zero_edges = true});
+    arrays = mesh::make_mesh(delaunay(sites), {.radius = 2, .allow_zero_edges = true});
   } catch (const InvalidInput&) {
     return;
   }

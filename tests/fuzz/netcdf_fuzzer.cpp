@@ -21,7 +21,7 @@ using io::NetcdfReader;
 using io::NetcdfType;
 
 // So many values are written again: a small file may have a thousand variables that are the same bytes.
-constexpr std::size_t most_values = 1 << 16;
+constexpr std::size_t max_values = 1 << 16;
 
 void require_numbers(const NetcdfReader::Variable& variable, const std::vector<double>& values) {
   std::uint64_t size = 1;
@@ -58,7 +58,7 @@ void test(const std::string& path, std::string_view bytes) {
   for (const NetcdfReader::Variable& variable : reader.variables()) {
     if (variable.type == NetcdfType::text) continue;
     num_values += variable.num_values;
-    if (num_values > most_values) return;
+    if (num_values > max_values) return;
     const std::vector<double> values = reader.numbers(variable);
     require_numbers(variable, values);
     if (num_values == variable.num_values) test_round_trip(path, variable, values);

@@ -40,18 +40,18 @@ struct Ended {};
 
 OutOfCoreReport run(const std::string& sites, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const distributed::RunLimits& limits,
-                    const Options& options, unsigned most_calls) {
+                    const Options& options, unsigned max_calls) {
   const io::NpyRows rows(sites, false);
   system::Job job{options, {.threads = 1}};
   unsigned num_calls = 0;
   job.progress = [&](std::string_view, double) {
-    if (++num_calls > most_calls) throw Ended();
+    if (++num_calls > max_calls) throw Ended();
   };
   return distributed::run(rows, files, out_of_core, limits, job);
 }
 
 void test_run(const SiteSet& set, const Options& options, const distributed::RunLimits& limits,
-              unsigned most_calls) {
+              unsigned max_calls) {
   const ScratchFolder folder;
   const std::string sites = folder.file("sites.npy");
   const OutOfCoreFiles files = {folder.file("faces.npy"), folder.file("neighbors.npy"),
@@ -62,7 +62,7 @@ void test_run(const SiteSet& set, const Options& options, const distributed::Run
   write_sites(sites, set.sites);
   OutOfCoreReport report;
   try {
-    report = run(sites, files, out_of_core, limits, options, most_calls);
+    report = run(sites, files, out_of_core, limits, options, max_calls);
   } catch (const Ended&) {
     require(!std::filesystem::exists(files.faces), "a run that ends early writes nothing");
     out_of_core.resume = true;
@@ -92,12 +92,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t mode = source.byte();
   constexpr std::uint64_t no_limit = std::uint64_t{1} << 40U;
   distributed::RunLimits limits;
-  limits.most_bucket_sites = 5 + source.below(200);
-  limits.most_sites = limits.most_open_sites = no_limit;
+  limits.max_bucket_sites = 5 + source.below(200);
+  limits.max_num_sites = limits.max_open_sites = no_limit;
   limits.piece_sites = 10 + source.below(150);
-  const unsigned most_calls = source.byte();
+  const unsigned max_calls = source.byte();
   const Model model = mode % 2 == 0 ? Model::weighted : Model::projected;
   const test::SiteSet set = fuzz::block_sites(source, model);
-  fuzz::test_run(set, {.model = model, .sphere = set.sphere}, limits, most_calls);
+  fuzz::test_run(set, {.model = model, .sphere = set.sphere}, limits, max_calls);
   return 0;
 }

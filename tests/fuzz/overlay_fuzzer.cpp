@@ -55,7 +55,7 @@ void test_arrays(const Remap& remap, const CellSet& source, const CellSet& targe
 
 // Of diagrams, whose cells may be narrower than rounding.
 void test_diagrams(const CellSet& source, const CellSet& target) {
-  const bool is_sound = source.is_cover() && target.is_cover() &&
+  const bool is_sound = source.covers_sphere() && target.covers_sphere() &&
                         std::abs(sum_of(source.areas()) - 4 * std::numbers::pi) < 1e-9 &&
                         std::abs(sum_of(target.areas()) - 4 * std::numbers::pi) < 1e-9;
   if (!is_sound) return;
@@ -109,7 +109,7 @@ void test_grid(const CellSet& cells, ByteSource& source) {
   const CellSet grid = CellSet::lonlat_grid(lines);
   require(grid.has_parallels() && !cells.has_parallels(), "the grid has no rings");
   const bool is_sound =
-      cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9;
+      cells.covers_sphere() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9;
   if (!is_sound) return;
   const RemapOptions covered{.order = 2, .norm = RemapNorm::fracarea};
   const Remap there = remap(cells, grid, covered);
@@ -166,7 +166,7 @@ void test_file(const RegionPieces& pieces) {
 // Whether no cell is the whole sphere, which has no border, and nothing is lost.
 bool has_borders(const CellSet& cells) {
   constexpr double nearly_whole = 12;
-  return cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9 &&
+  return cells.covers_sphere() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9 &&
          std::ranges::all_of(cells.areas(), [](double area) { return area < nearly_whole; });
 }
 
@@ -337,7 +337,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_grid(cells, source);
     fuzz::test_parts(cells, others, source);
     const CellSet triangles = CellSet::triangles(t);
-    if (others.is_cover()) {
+    if (others.covers_sphere()) {
       const Remap of_triangles = remap(triangles, others);
       fuzz::require(of_triangles.source_areas.size() == triangles.num_cells(), "an area for each");
       fuzz::test_any_cells(fuzz::next_rings(source, t), others);

@@ -156,7 +156,7 @@ void test_directions(Random& random) {
 
 // Rays through points of a small grid, at any distance: circles with very many ties.
 void test_grid(Random& random) {
-  const std::int64_t most = random.between(1, static_cast<int>(test::most_for_roots));
+  const std::int64_t most = random.between(1, static_cast<int>(test::max_for_roots));
   Quadruple q;
   for (IntegerRay& a : q) a = any_ray(random, most);
   if (random.below(16) == 0) {

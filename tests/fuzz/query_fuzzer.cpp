@@ -21,7 +21,7 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::size_t most_queries = 5;
+constexpr std::size_t max_queries = 5;
 
 // Sites, their triangulation, and queries, which are finite and not the center.
 struct Scene {
@@ -59,7 +59,7 @@ Point next_query(ByteSource& source, const Scene& scene, Scales scales) {
 }
 
 void add_queries(ByteSource& source, Scene& scene, Scales scales) {
-  for (std::size_t n = 1 + source.below(most_queries); n > 0; --n) {
+  for (std::size_t n = 1 + source.below(max_queries); n > 0; --n) {
     const Point p = next_query(source, scene, scales);
     const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     if (is_finite && p != scene.options.sphere.center) scene.queries.push_back(p);
@@ -79,14 +79,15 @@ void test_conflicts(const Locator& locator, const Scene& scene, const Point& que
     return;
   }
   const test::Places places = test::distinct_places(scene.sites, t.model(), t.sphere());
-  std::vector<Point> speaker(scene.sites.size());
+  std::vector<Point> representative(scene.sites.size());
   for (std::size_t i = 0; i < places.index.size(); ++i) {
-    speaker[places.index[i]] = places.speaker[i];
+    representative[places.index[i]] = places.representative[i];
   }
   std::vector<Index> expected;
   for (Index f = 0; f < t.num_faces(); ++f) {
     const auto& [a, b, c] = t.faces()[f];
-    if (is_in_conflict(speaker[a], speaker[b], speaker[c], query, t.model(), t.sphere())) {
+    if (is_in_conflict(representative[a], representative[b], representative[c], query, t.model(),
+                       t.sphere())) {
       expected.push_back(f);
     }
   }

@@ -22,8 +22,8 @@ namespace {
 // Hands all to another communicator, and fails when so many phases have begun.
 class FailingRanks final : public Communicator {
  public:
-  FailingRanks(Communicator& ranks, unsigned most_phases, bool& has_failed)
-      : ranks_(ranks), most_phases_(most_phases), has_failed_(has_failed) {}
+  FailingRanks(Communicator& ranks, unsigned max_phases, bool& has_failed)
+      : ranks_(ranks), max_phases_(max_phases), has_failed_(has_failed) {}
 
   [[nodiscard]] int rank() const override { return ranks_.rank(); }
   [[nodiscard]] int size() const override { return ranks_.size(); }
@@ -33,14 +33,14 @@ class FailingRanks final : public Communicator {
   }
   void begin(std::string_view phase) override {
     ranks_.begin(phase);
-    if (num_phases_++ != most_phases_) return;
+    if (num_phases_++ != max_phases_) return;
     has_failed_ = true;
     throw std::runtime_error("as it was told");
   }
 
  private:
   Communicator& ranks_;
-  unsigned most_phases_;
+  unsigned max_phases_;
   bool& has_failed_;
   unsigned num_phases_ = 0;
 };
@@ -49,7 +49,7 @@ struct Shares {
   std::vector<std::size_t> begin;  // of each rank, and behind the last one
   DistributedOptions options;
   unsigned failing_rank;
-  unsigned most_phases;  // of that one
+  unsigned max_phases;  // of that one
 };
 
 template <class T>
@@ -129,7 +129,7 @@ void test_ranks(const SiteSet& set, const Options& options, const Shares& shares
   test::SimulatedRanks ranks(static_cast<int>(num_ranks));
   const auto errors = ranks.run([&](Communicator& of_rank) {
     const auto r = static_cast<std::size_t>(of_rank.rank());
-    FailingRanks rank(of_rank, r == shares.failing_rank ? shares.most_phases : 1000, has_failed);
+    FailingRanks rank(of_rank, r == shares.failing_rank ? shares.max_phases : 1000, has_failed);
     const auto mine =
         std::span(set.sites).subspan(shares.begin[r], shares.begin[r + 1] - shares.begin[r]);
     try {
@@ -161,9 +161,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t num_ranks = 1 + source.below(6);
   shares.options = {1 + source.below(300), 1 + source.below(60), true};
   shares.failing_rank = source.byte();  // mostly none of them
-  shares.most_phases = static_cast<unsigned>(source.below(8));
+  shares.max_phases = static_cast<unsigned>(source.below(8));
   std::vector<std::size_t> cuts;
-  for (std::size_t i = 1; i < num_ranks; ++i) cuts.push_back(source.below(fuzz::most_sites));
+  for (std::size_t i = 1; i < num_ranks; ++i) cuts.push_back(source.below(fuzz::max_num_sites));
   const Model model = mode % 2 == 0 ? Model::weighted : Model::projected;
   const test::SiteSet set = fuzz::block_sites(source, model);
   for (std::size_t& cut : cuts) cut = std::min(cut, set.sites.size());

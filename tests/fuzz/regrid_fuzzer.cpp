@@ -77,13 +77,13 @@ void test_bilinear_row(const LonLatAxes& grid, const LonLat& target, std::span<c
   require(std::abs(sum - 1) <= 0x1p-52 * static_cast<double>(weights.size()),
           "weights add up to 1");
   const auto [south, north] = std::ranges::minmax(grid.lat_deg);
-  const double most_apart = 2 * rounding_of(grid);
-  if (target.lat_deg < south - most_apart || target.lat_deg > north + most_apart)
+  const double max_apart = 2 * rounding_of(grid);
+  if (target.lat_deg < south - max_apart || target.lat_deg > north + max_apart)
     return;  // to a pole
   require(weights.size() <= 4, "a rectangle has four places");
-  require(std::abs(lat - target.lat_deg) <= most_apart, "latitudes are reproduced");
+  require(std::abs(lat - target.lat_deg) <= max_apart, "latitudes are reproduced");
   if (widest_gap(grid) >= 180) return;  // the shorter way may lead around
-  require(std::abs(east) <= most_apart, "longitudes are reproduced");
+  require(std::abs(east) <= max_apart, "longitudes are reproduced");
 }
 
 // Any axes and targets: an InvalidInput, or rows with these laws, in either direction of the axes.

@@ -13,8 +13,8 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "rondel/error.h"
+#include "rondel/mesh_equal_area.h"
 #include "rondel/mesh_lines.h"
-#include "rondel/mesh_partition.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/point_sets.h"
 #include "rondel/scvt.h"
@@ -36,7 +36,7 @@ void test_fixed(const std::vector<Point>& sites) {
     const mesh::Scvt made = mesh::scvt(options, {.threads = 1});
     require(made.fixed.size() == some.size(), "a site for each fixed place");
     const mesh::Scvt again =
-        mesh::relaxed(made.sites, {.max_iterations = 5, .fixed = made.sites}, {.threads = 1});
+        mesh::relax(made.sites, {.max_iterations = 5, .fixed = made.sites}, {.threads = 1});
     require(again.last.iteration == 0, "nothing moves where all is fixed");
   } catch (const InvalidInput&) {
   }
@@ -59,11 +59,11 @@ void test_sites(ByteSource& source) {
   try {
     double last = 0;
     mesh::ScvtOptions options{.max_iterations = 20};
-    options.seen = [&](const mesh::ScvtStep& step) {
+    options.on_step = [&](const mesh::ScvtStep& step) {
       require(step.iteration == 0 || step.energy <= last + 1e-12, "the energy does not grow");
       last = step.energy;
     };
-    const mesh::Scvt made = mesh::relaxed(sites, options, {.threads = 1});
+    const mesh::Scvt made = mesh::relax(sites, options, {.threads = 1});
     require(made.sites.size() == sites.size(), "a site for each");
     require(!mesh::name_of(made.end).empty(), "an end");
     require(mesh::energy_over_hexagons(made.last.energy, sites.size()) > 0, "an energy");
@@ -80,8 +80,8 @@ void test_sites(ByteSource& source) {
       for (const double target : targets) sum += target;
       for (double& target : targets) target *= 12.566370614359172 / sum;
     }
-    const mesh::AreaPartition made =
-        mesh::area_partition(sites, targets, {.max_steps = 20}, {.threads = 1});
+    const mesh::EqualArea made =
+        mesh::equal_area(sites, targets, {.max_steps = 20}, {.threads = 1});
     require(made.weights.size() == sites.size(), "a weight for each");
     require(!mesh::name_of(made.end).empty(), "an end");
   } catch (const InvalidInput&) {

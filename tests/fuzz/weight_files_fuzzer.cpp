@@ -19,7 +19,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/io.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/remap.h"
 #include "rondel/weight_check.h"
 #include "rondel/weight_files.h"
@@ -61,10 +61,10 @@ void test_corners(std::string_view bytes) {
   std::vector<LonLat> corners;
   for (std::size_t i = 0; i < numbers.size(); i += 2)
     corners.push_back({numbers[i], numbers[i + 1]});
-  const std::size_t of_each = 1 + static_cast<unsigned char>(bytes.front()) % 6;
+  const std::size_t corners_per_cell = 1 + static_cast<unsigned char>(bytes.front()) % 6;
   try {
-    const CellRings cells = cells_of_corners(corners, of_each);
-    require(cells.num_cells() == corners.size() / of_each, "corners make their cells");
+    const CellRings cells = cells_of_corners(corners, corners_per_cell);
+    require(cells.num_cells() == corners.size() / corners_per_cell, "corners make their cells");
     const std::vector<LonLat> centers(
         corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(cells.num_cells()));
     const CentersOutside outside = centers_outside(cells, centers);
@@ -74,11 +74,12 @@ void test_corners(std::string_view bytes) {
   } catch (const InvalidInput&) {
   }
   try {
-    const std::size_t rows = corners.size() / of_each;
-    const std::size_t num_cells = rows == 0 ? 0 : (rows - 1) * (of_each - 1);
+    const std::size_t rows = corners.size() / corners_per_cell;
+    const std::size_t num_cells = rows == 0 ? 0 : (rows - 1) * (corners_per_cell - 1);
     const std::vector<LonLat> centers(num_cells, corners.front());
-    require(corners_of_grid(corners, {rows, of_each}, centers, {of_each - 1, rows - 1}).size() ==
-                4 * num_cells,
+    require(corners_of_grid(corners, {rows, corners_per_cell}, centers,
+                            {corners_per_cell - 1, rows - 1})
+                    .size() == 4 * num_cells,
             "four corners for each cell");
   } catch (const InvalidInput&) {
   }

@@ -64,7 +64,7 @@ void compare(Communicator& ranks, std::span<const Point> sites, const Options& o
              const std::string& name) {
   const auto part =
       delaunay(ranks, share(sites, ranks),
-               {.most_bucket_sites = 1000, .most_dealt_sites = 500, .keep_points = true}, options,
+               {.max_bucket_sites = 1000, .max_scattered_sites = 500, .keep_points = true}, options,
                {.threads = 1});
   std::vector<GlobalTriple> own;
   const auto keep = [&](std::span<const GlobalTriple> rows) {

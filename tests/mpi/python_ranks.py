@@ -39,7 +39,7 @@ def results(folder):
     for points in clouds():
         for model in ("projected", "weighted"):
             part = rondel.distributed.delaunay(
-                share(points), model=model, most_bucket_sites=500, threads=1
+                share(points), model=model, max_bucket_sites=500, threads=1
             )
             expected = rondel.delaunay(points, model)._triangulation
             for name in ("faces", "neighbors", "ghost_faces", "ring", "duplicates"):
@@ -67,7 +67,7 @@ def results(folder):
 
 def pieces():
     """Messages of all lengths, which say where they come from."""
-    calls = MpiCalls(WORLD, most_bytes=7)
+    calls = MpiCalls(WORLD, max_bytes=7)
     for length in (0, 1, 6, 7, 8, 40):
 
         def message(source, target, length=length):

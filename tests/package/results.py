@@ -72,7 +72,7 @@ class Alone:
         return messages
 
 
-part = rondel.distributed.delaunay(cloud, Alone(), most_bucket_sites=10000)
+part = rondel.distributed.delaunay(cloud, Alone(), max_bucket_sites=10000)
 say("rank", part.faces, part.neighbors, part.owned_sites)
 with tempfile.TemporaryDirectory() as folder:
     sites, faces, neighbors, scratch = (

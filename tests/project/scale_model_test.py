@@ -28,13 +28,13 @@ def run_of(n, ranks):
     for name in scale_model.WORK:
         share = 1e-7 * math.sqrt(n / ranks) if name == "number" else 1e-9 * n / ranks
         first, most = (joined, 0.0) if name == "join" else (share, share)
-        sent = 28 * n / ranks * (1 - 1 / ranks) if name == "deal" else 0
+        sent = 28 * n / ranks * (1 - 1 / ranks) if name == "scatter" else 0
         if name == "join":
             sent = 1000 * math.sqrt(n * ranks) * (1 - 1 / ranks)
-        phases.append({"phase": name, "first_seconds": first, "most_seconds": most,
+        phases.append({"phase": name, "first_seconds": first, "max_seconds": most,
                        "all_seconds": first + most * (ranks - 1), "first_bytes": sent,
-                       "most_bytes": sent if name == "deal" else 0,
-                       "all_bytes": sent * (ranks if name == "deal" else 1), "calls": 2})
+                       "max_bytes": sent if name == "scatter" else 0,
+                       "all_bytes": sent * (ranks if name == "scatter" else 1), "calls": 2})
     return {"sites": n, "ranks": ranks, "open_sites": 11 * math.sqrt(n * ranks),
             "seconds_in_memory": 4e-9 * n, "phases": phases}
 
@@ -88,7 +88,7 @@ class Ranks(unittest.TestCase):
         self.assertAlmostEqual(slow - free, sent / 1e9, places=6)
 
     def test_one_rank_sends_nothing(self):
-        self.assertEqual(self.model.network_seconds("deal", 10**6, 1, Network(1, 1)), 0)
+        self.assertEqual(self.model.network_seconds("scatter", 10**6, 1, Network(1, 1)), 0)
 
 
 class Threads(unittest.TestCase):

@@ -22,8 +22,8 @@
 
 #include "rondel/delaunay.h"
 #include "rondel/mesh.h"
-#include "rondel/mesh_io.h"
-#include "rondel/mesh_partition.h"
+#include "rondel/mesh_equal_area.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/point_sets.h"
 #include "rondel/scvt.h"
@@ -35,7 +35,7 @@ namespace rondel::test {
 namespace {
 
 using Lines = std::vector<std::string>;
-using mesh::MeshArrays;
+using mesh::VoronoiMesh;
 
 // What differs between turns of threads is there twice, and fails.
 template <class HashWith>
@@ -111,7 +111,7 @@ void add_scvt(Hash& hash, const mesh::Scvt& made) {
   add_text(hash, std::string(mesh::name_of(made.end)));
   for (const double number :
        {made.last.energy, made.last.mean_offset, made.last.largest_offset,
-        made.repair.before.least_edge_ratio, made.repair.after.least_edge_ratio}) {
+        made.repair.before.min_edge_ratio, made.repair.after.min_edge_ratio}) {
     add_number(hash, number);
   }
   for (const std::size_t number :
@@ -133,14 +133,13 @@ void add_tessellations(Lines& lines) {
   // Of so many sites that threads share the sums; from poles and an equator that have not the density.
   const std::vector<Point> start = mesh::reduced_gaussian_points(32);
   record(lines, "scvt-steps", [&](Hash& hash, const Execution& execution) {
-    add_scvt(hash, mesh::relaxed(start, {.max_iterations = 4}, execution));
+    add_scvt(hash, mesh::relax(start, {.max_iterations = 4}, execution));
   });
   record(lines, "scvt-density", [&](Hash& hash, const Execution& execution) {
-    add_scvt(hash, mesh::relaxed(start, {.size = size, .max_iterations = 4}, execution));
+    add_scvt(hash, mesh::relax(start, {.size = size, .max_iterations = 4}, execution));
   });
   record(lines, "scvt-repair", [&](Hash& hash, const Execution& execution) {
-    add_scvt(hash,
-             mesh::relaxed(start, {.mean_tolerance = 0.01, .largest_tolerance = 1}, execution));
+    add_scvt(hash, mesh::relax(start, {.mean_tolerance = 0.01, .largest_tolerance = 1}, execution));
   });
   record(lines, "scvt-lloyd", [&](Hash& hash, const Execution& execution) {
     add_scvt(hash, mesh::scvt({.count = 200,
@@ -155,7 +154,7 @@ void add_tessellations(Lines& lines) {
   lines.push_back("scvt-levels " + hash.text());
 }
 
-void add_arrays(Hash& hash, const MeshArrays& arrays) {
+void add_arrays(Hash& hash, const VoronoiMesh& arrays) {
   add_number(hash, arrays.radius);
   hash.add(arrays.cell_points);
   hash.add(arrays.cell_areas);
@@ -177,7 +176,7 @@ void add_arrays(Hash& hash, const MeshArrays& arrays) {
   hash.add(arrays.triangle_areas);
 }
 
-void add_quality(Hash& hash, const MeshArrays& arrays, const Execution& execution) {
+void add_quality(Hash& hash, const VoronoiMesh& arrays, const Execution& execution) {
   const mesh::Quality quality = mesh::quality(arrays, execution);
   add_text(hash, mesh::quality_json(quality));
   add_text(hash, mesh::quality_text(quality));
@@ -192,7 +191,7 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-void add_files(const MeshArrays& arrays, Lines& lines) {
+void add_files(const VoronoiMesh& arrays, Lines& lines) {
   constexpr std::array formats = {
       std::pair{mesh::MeshFormat::mpas, "mpas"}, std::pair{mesh::MeshFormat::ugrid, "ugrid"},
       std::pair{mesh::MeshFormat::scrip, "scrip"}, std::pair{mesh::MeshFormat::esmf, "esmf"},
@@ -227,17 +226,17 @@ void add_meshes(Lines& lines) {
   for (const Point& site : sites) density.push_back(0.6 + 0.4 * site.z * site.z);
   const mesh::MeshOptions options{.radius = 6371229, .density = density};
   record(lines, "arrays", [&](Hash& hash, const Execution& execution) {
-    const MeshArrays arrays = mesh::arrays(triangulation, options, execution);
+    const VoronoiMesh arrays = mesh::make_mesh(triangulation, options, execution);
     add_arrays(hash, arrays);
     const mesh::TangentialWeights rows = mesh::tangential_weights(arrays, execution);
     hash.add(rows.edges.offsets);
     hash.add(rows.edges.values);
     hash.add(rows.weights);
   });
-  const MeshArrays arrays = mesh::arrays(triangulation, options);
+  const VoronoiMesh arrays = mesh::make_mesh(triangulation, options);
   record(lines, "quality", [&](Hash& hash, const Execution& execution) {
     add_quality(hash, arrays, execution);
-    add_quality(hash, mesh::arrays(triangulation, {}, execution), execution);
+    add_quality(hash, mesh::make_mesh(triangulation, {}, execution), execution);
   });
   add_files(arrays, lines);
 }
@@ -249,8 +248,7 @@ void add_partitions(Lines& lines) {
     double sum = 0;
     for (const Point& site : sites) sum += targets.emplace_back(1 + 0.5 * site.x * site.y);
     for (double& target : targets) target *= 4 * std::numbers::pi / sum;
-    const mesh::AreaPartition made =
-        mesh::area_partition(sites, targets, {.max_steps = 5}, execution);
+    const mesh::EqualArea made = mesh::equal_area(sites, targets, {.max_steps = 5}, execution);
     hash.add(made.weights);
     hash.add(made.poles);
     hash.add(made.radii_deg);

@@ -125,7 +125,7 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
   record_remaps("to-uniform", cells, others);
   record_remaps("to-grid", cells, grid);
   record_remaps("of-grid", grid, cells);
-  if (!cells.is_cover()) return;
+  if (!cells.covers_sphere()) return;
   record_remaps("of-uniform", others, cells);
   record_remaps("to-itself", cells, cells);
   const auto half_of = [](const CellSet& all) {

@@ -76,7 +76,7 @@ template <class T>
 Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   constexpr bool is_weighted = std::is_same_v<T, models::WeightedPoints>;
   constexpr Model model = is_weighted ? Model::weighted : Model::projected;
-  constexpr int least_bit = bulk::least_bit;
+  constexpr int min_bit = bulk::min_bit;
   const Point& center = set.sphere.center;
   const auto order = order::spatial_order(set.sites, model, center, 1);
   if (order.order.size() < 2) return Divided::too_few;
@@ -98,7 +98,7 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
     const auto exact = order::exact_cube_position(sites.point(i), center);
     const auto& p = sites.positions()[i];
     if (order::cube_position(sites.point(i), center).face != first.face) return Divided::misplaced;
-    if (exact.u >> least_bit != p.u >> least_bit || exact.v >> least_bit != p.v >> least_bit) {
+    if (exact.u >> min_bit != p.u >> min_bit || exact.v >> min_bit != p.v >> min_bit) {
       return Divided::misplaced;
     }
   }

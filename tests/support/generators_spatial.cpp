@@ -208,9 +208,9 @@ SiteSet near_sphere(std::size_t n, Seed seed) {
 SiteSet circles(std::size_t n, Seed seed) {
   Random random(seed);
   SiteSet set;
-  const double least_cosine = std::sqrt(0.75);
+  const double min_cosine = std::sqrt(0.75);
   while (set.sites.size() < n) {
-    const double cosine = least_cosine + (1 - least_cosine) * random.unit();
+    const double cosine = min_cosine + (1 - min_cosine) * random.unit();
     set.sites.push_back((1 / cosine) * random_direction(random));
   }
   return set;

@@ -129,13 +129,14 @@ Places distinct_places(std::span<const Point> sites, Model model, const Sphere& 
     while (place < places.index.size() && !oracle.is_same_site(i, places.index[place])) ++place;
     if (place == places.index.size()) {
       places.index.push_back(static_cast<Index>(i));
-      places.speaker.push_back(sites[i]);
+      places.representative.push_back(sites[i]);
       continue;
     }
     places.duplicates.push_back({static_cast<Index>(i), places.index[place]});
-    Point& speaker = places.speaker[place];
-    if (std::tie(sites[i].x, sites[i].y, sites[i].z) < std::tie(speaker.x, speaker.y, speaker.z)) {
-      speaker = sites[i];
+    Point& representative = places.representative[place];
+    if (std::tie(sites[i].x, sites[i].y, sites[i].z) <
+        std::tie(representative.x, representative.y, representative.z)) {
+      representative = sites[i];
     }
   }
   return places;
@@ -145,7 +146,7 @@ Hull brute_force_hull(std::span<const Point> sites, Model model, const Sphere& s
   const Places places = distinct_places(sites, model, sphere);
   Hull hull;
   hull.duplicates = places.duplicates;
-  const Oracle oracle(places.speaker, model, sphere);
+  const Oracle oracle(places.representative, model, sphere);
   if (oracle.size() < 2) {
     hull.dimension = static_cast<int>(oracle.size()) - 1;
     hull.ring = places.index;

@@ -34,11 +34,11 @@ std::string difference(const Triangulation& triangulation, std::span<const Point
 // The corners with the lowest first, their cyclic order kept.
 Triple lowest_first(const Triple& face);
 
-// The sites that are no duplicates, by the lowest index; `speaker[i]` is the site whose
+// The sites that are no duplicates, by the lowest index; `representative[i]` is the site whose
 // coordinates stand for the place of `index[i]`: the lexicographically smallest there.
 struct Places {
   std::vector<Index> index;
-  std::vector<Point> speaker;
+  std::vector<Point> representative;
   std::vector<Duplicate> duplicates;
 };
 Places distinct_places(std::span<const Point> sites, Model model, const Sphere& sphere);

@@ -47,7 +47,7 @@ inline bool are_on_one_ray(const IntegerRay& a, const IntegerRay& b) {
 }
 
 // The largest coordinate for which sign_of_four_roots() has the room that it needs.
-inline constexpr std::int64_t most_for_roots = 7;
+inline constexpr std::int64_t max_for_roots = 7;
 
 // The sign of p sqrt(u) + q sqrt(v), with signs p and q.
 inline int sign_of_two_roots(int p, Wide u, int q, Wide v) {
@@ -88,7 +88,7 @@ inline int side_of_plane(const IntegerRay& a, const IntegerRay& b, const Integer
 }
 
 // The same for the projections on the sphere: the determinants of three rays, each times the length
-// of the fourth. \pre |coordinates| <= most_for_roots: by Hadamard a determinant is at most
+// of the fourth. \pre |coordinates| <= max_for_roots: by Hadamard a determinant is at most
 // (3 * 7^2)^1.5 and its square times a squared length below 2^29.
 inline int side_of_circle(const IntegerRay& a, const IntegerRay& b, const IntegerRay& c,
                           const IntegerRay& p) {

@@ -190,19 +190,20 @@ std::string geometry_error(const Triangulation& t, std::span<const Point> sites)
   }
   if (t.dimension() != 2) return {};
   // Ties are decided by the place of a duplicated site with the smallest coordinates.
-  std::vector<std::size_t> speaker(sites.size());
-  std::iota(speaker.begin(), speaker.end(), std::size_t{0});
+  std::vector<std::size_t> representative(sites.size());
+  std::iota(representative.begin(), representative.end(), std::size_t{0});
   for (const Duplicate& d : t.duplicates()) {
     const Point& p = sites[d.site];
-    const Point& q = sites[speaker[d.representative]];
-    if (std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z)) speaker[d.representative] = d.site;
+    const Point& q = sites[representative[d.representative]];
+    if (std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z))
+      representative[d.representative] = d.site;
   }
   IntegerVector direction;
   for (Index f = 0; f < t.num_faces(); ++f) {
     const Triple& face = t.faces()[f];
-    const std::size_t a = speaker[face[0]];
-    const std::size_t b = speaker[face[1]];
-    const std::size_t c = speaker[face[2]];
+    const std::size_t a = representative[face[0]];
+    const std::size_t b = representative[face[1]];
+    const std::size_t c = representative[face[2]];
     if ((oracle.orientation(a, b, c) <= 0) != t.is_ghost(f))
       return text_of_all("ghost flag of face ", f);
     if (direction == IntegerVector{} && !t.is_ghost(f)) {
@@ -216,7 +217,7 @@ std::string geometry_error(const Triangulation& t, std::span<const Point> sites)
       const unsigned j = opposite_corner(t.faces()[g], face[(i + 2) % 3], face[(i + 1) % 3]);
       const Index across = t.faces()[g][j];
       if (across == face[i]) continue;  // three vertices: both sides of one triangle
-      if (oracle.perturbed_side(a, b, c, speaker[across]) >= 0) {
+      if (oracle.perturbed_side(a, b, c, representative[across]) >= 0) {
         return text_of_all("the edge between faces ", f, " and ", g, " is not regular");
       }
     }

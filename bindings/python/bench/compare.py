@@ -44,7 +44,7 @@ def diagram(kind, points, lists=False, **options):
     return sv.regions if lists else sv
 
 
-def least_times(contenders, runs):
+def min_times(contenders, runs):
     """The least time of each contender, in turns."""
     times = {name: [] for name in contenders}
     for _ in range(runs):
@@ -59,7 +59,7 @@ def ratios(log2, runs):
 
     points = uniform(1 << log2)
     ours = rondel.SphericalVoronoi
-    times = least_times(
+    times = min_times(
         {
             "scipy": lambda: diagram(SphericalVoronoi, points),
             "one": lambda: diagram(ours, points, threads=1),

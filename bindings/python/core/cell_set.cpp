@@ -24,7 +24,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 
 namespace rondel::python {
 namespace {
@@ -60,11 +60,11 @@ CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb
 // Returns the cells; the number of centers outside of them, of how many, and the first one; and
 // whether most are. There may be no centers.
 std::tuple<CellSet, std::array<std::size_t, 3>, bool> corner_cells(const PairsIn& corners,
-                                                                   std::size_t of_each,
+                                                                   std::size_t corners_per_cell,
                                                                    const PairsIn& centers,
                                                                    unsigned threads) {
   return unlocked([&] {
-    const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), of_each);
+    const CellRings cells = cells_of_corners(rows_of<LonLat>(corners), corners_per_cell);
     CentersOutside found;
     if (centers.shape(0) > 0) found = centers_outside(cells, rows_of<LonLat>(centers));
     return std::tuple(CellSet::polygons(cells, {.threads = threads}),
@@ -166,7 +166,7 @@ void add_cell_set(nb::module_& module) {
   nb::class_<CellSet> cells(module, "CellSet");
   add_makers(cells);
   cells.def_prop_ro("num_cells", &CellSet::num_cells)
-      .def_prop_ro("is_cover", &CellSet::is_cover)
+      .def_prop_ro("covers_sphere", &CellSet::covers_sphere)
       .def_prop_ro("facts", &CellSet::facts, nb::rv_policy::reference_internal)
       .def("with_facts", &CellSet::with_facts, nb::arg("facts"))
       .def_prop_ro("areas",
@@ -185,8 +185,8 @@ void add_cell_set(nb::module_& module) {
       .def("corners", [](const CellSet& self) {
         return to_array<double>(unlocked([&] { return self.corners(); }));
       });
-  module.def("corner_cells", &corner_cells, nb::arg("corners").noconvert(), nb::arg("of_each"),
-             nb::arg("centers").noconvert(), nb::arg("threads"));
+  module.def("corner_cells", &corner_cells, nb::arg("corners").noconvert(),
+             nb::arg("corners_per_cell"), nb::arg("centers").noconvert(), nb::arg("threads"));
   module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),
              nb::arg("node_shape"), nb::arg("centers").noconvert(), nb::arg("shape"));
 }

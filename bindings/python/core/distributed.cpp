@@ -120,11 +120,11 @@ auto on_ranks(const nb::object& python_ranks, const nb::object& listener, const 
 
 DistributedTriangulation build_on_ranks(const nb::object& ranks, const PointsIn& points,
                                         bool is_weighted, const std::array<double, 3>& center,
-                                        double squared_radius, std::uint64_t most_bucket_sites,
+                                        double squared_radius, std::uint64_t max_bucket_sites,
                                         bool keep_points, const nb::object& listener) {
   return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
     return delaunay(communicator, points_of(points),
-                    {.most_bucket_sites = most_bucket_sites, .keep_points = keep_points},
+                    {.max_bucket_sites = max_bucket_sites, .keep_points = keep_points},
                     make_options(is_weighted, center, squared_radius), execution);
   });
 }
@@ -132,12 +132,11 @@ DistributedTriangulation build_on_ranks(const nb::object& ranks, const PointsIn&
 DistributedTriangulation build_files_on_ranks(const nb::object& ranks, const std::string& sites,
                                               const std::array<std::string, 5>& files, bool radians,
                                               bool is_weighted, const std::array<double, 3>& center,
-                                              double squared_radius,
-                                              std::uint64_t most_bucket_sites,
+                                              double squared_radius, std::uint64_t max_bucket_sites,
                                               const nb::object& listener) {
   return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
     const DistributedFiles names = {files[0], files[1], files[2], files[3], files[4], radians};
-    return delaunay_file(communicator, sites, names, {.most_bucket_sites = most_bucket_sites},
+    return delaunay_file(communicator, sites, names, {.max_bucket_sites = max_bucket_sites},
                          make_options(is_weighted, center, squared_radius), execution);
   });
 }
@@ -210,12 +209,12 @@ void add_distributed(nb::module_& module) {
       .def_prop_ro("hidden", list_getter<&T::hidden>());
   module.def("delaunay_of_ranks", &build_on_ranks, nb::arg("ranks"), nb::arg("points").noconvert(),
              nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
-             nb::arg("most_bucket_sites"), nb::arg("keep_points"), nb::arg("progress").none());
+             nb::arg("max_bucket_sites"), nb::arg("keep_points"), nb::arg("progress").none());
   module.def("areas_of_ranks", &areas_of_ranks, nb::arg("ranks"), nb::arg("triangulation"),
              nb::arg("progress").none());
   module.def("delaunay_file_of_ranks", &build_files_on_ranks, nb::arg("ranks"), nb::arg("sites"),
              nb::arg("files"), nb::arg("radians"), nb::arg("is_weighted"), nb::arg("center"),
-             nb::arg("squared_radius"), nb::arg("most_bucket_sites"), nb::arg("progress").none());
+             nb::arg("squared_radius"), nb::arg("max_bucket_sites"), nb::arg("progress").none());
 }
 
 }  // namespace rondel::python

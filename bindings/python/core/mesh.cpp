@@ -19,37 +19,38 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 
 namespace rondel::python {
 namespace {
 
-using mesh::MeshArrays;
+using mesh::VoronoiMesh;
 using WeightsOfEdges = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>, ArrayOut<double>>;
 
-MeshArrays mesh_of(const Triangulation& t, double radius, const NumbersIn& density,
-                   bool allow_zero_edges, unsigned threads, const nb::object& listener) {
+VoronoiMesh mesh_of(const Triangulation& t, double radius, const NumbersIn& density,
+                    bool allow_zero_edges, unsigned threads, const nb::object& listener) {
   const mesh::MeshOptions options{
       .radius = radius, .density = rows_of<double>(density), .allow_zero_edges = allow_zero_edges};
-  return watched(t.num_sites(), threads, listener,
-                 [&](const Execution& execution) { return mesh::arrays(t, options, execution); });
+  return watched(t.num_sites(), threads, listener, [&](const Execution& execution) {
+    return mesh::make_mesh(t, options, execution);
+  });
 }
 
 // Returns the mesh and the remarks of the reader.
-std::tuple<MeshArrays, std::vector<std::string>> mesh_of_file(const std::string& path,
-                                                              double radius, bool allow_zero_edges,
-                                                              unsigned threads) {
+std::tuple<VoronoiMesh, std::vector<std::string>> mesh_of_file(const std::string& path,
+                                                               double radius, bool allow_zero_edges,
+                                                               unsigned threads) {
   constexpr std::size_t many = 1U << 20U;
   std::vector<std::string> remarks;
-  MeshArrays arrays = watched_quietly(many, threads, [&](const Execution& execution) {
+  VoronoiMesh arrays = watched_quietly(many, threads, [&](const Execution& execution) {
     return mesh::read_mesh(path, {.radius = radius, .allow_zero_edges = allow_zero_edges},
                            execution, &remarks);
   });
   return {std::move(arrays), std::move(remarks)};
 }
 
-void write_mesh(const MeshArrays& arrays, const std::string& path, nb::handle format, bool is_cdf2,
+void write_mesh(const VoronoiMesh& arrays, const std::string& path, nb::handle format, bool is_cdf2,
                 unsigned threads) {
   const auto named_format = named<mesh::MeshFormat>("format", format);
   run_watched(arrays.num_cells(), threads, nb::none(), [&](const Execution& execution) {
@@ -61,7 +62,7 @@ void write_mesh(const MeshArrays& arrays, const std::string& path, nb::handle fo
 
 // Returns the variables of a file of MPAS as a dictionary of pairs of dimensions and values, and
 // its attributes.
-std::tuple<nb::dict, nb::dict> mpas_content_of(const MeshArrays& arrays) {
+std::tuple<nb::dict, nb::dict> mpas_content_of(const VoronoiMesh& arrays) {
   mesh::MpasContent content = watched_quietly(
       arrays.num_cells(), 0,
       [&](const Execution& execution) { return mesh::mpas_content(arrays, execution); });
@@ -81,7 +82,7 @@ std::tuple<nb::dict, nb::dict> mpas_content_of(const MeshArrays& arrays) {
   return {variables, attributes};
 }
 
-WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
+WeightsOfEdges weights_of_edges(const VoronoiMesh& arrays, unsigned threads) {
   mesh::TangentialWeights found = watched_quietly(
       arrays.num_cells(), threads,
       [&](const Execution& execution) { return mesh::tangential_weights(arrays, execution); });
@@ -92,42 +93,42 @@ WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
 }  // namespace
 
 void add_mesh(nb::module_& module) {
-  nb::class_<MeshArrays> type(module, "MeshArrays");
+  nb::class_<VoronoiMesh> type(module, "VoronoiMesh");
   type.def(nb::init<>());
-  type.def_rw("radius", &MeshArrays::radius);
-  add_array<double, &MeshArrays::cell_points>(type, "cell_points");
-  add_array<double, &MeshArrays::cell_areas>(type, "cell_areas");
-  add_array<double, &MeshArrays::density>(type, "density");
-  add_array<std::int64_t, &MeshArrays::edges_on_cell, &CompressedRows<Index>::offsets>(type,
-                                                                                       "offsets");
-  add_array<std::int32_t, &MeshArrays::edges_on_cell, &CompressedRows<Index>::values>(
+  type.def_rw("radius", &VoronoiMesh::radius);
+  add_array<double, &VoronoiMesh::cell_points>(type, "cell_points");
+  add_array<double, &VoronoiMesh::cell_areas>(type, "cell_areas");
+  add_array<double, &VoronoiMesh::density>(type, "density");
+  add_array<std::int64_t, &VoronoiMesh::edges_on_cell, &CompressedRows<Index>::offsets>(type,
+                                                                                        "offsets");
+  add_array<std::int32_t, &VoronoiMesh::edges_on_cell, &CompressedRows<Index>::values>(
       type, "edges_on_cell");
-  add_array<std::int32_t, &MeshArrays::cells_on_cell>(type, "cells_on_cell");
-  add_array<std::int32_t, &MeshArrays::vertices_on_cell>(type, "vertices_on_cell");
-  add_array<double, &MeshArrays::edge_points>(type, "edge_points");
-  add_array<std::int32_t, &MeshArrays::cells_on_edge>(type, "cells_on_edge");
-  add_array<std::int32_t, &MeshArrays::vertices_on_edge>(type, "vertices_on_edge");
-  add_array<double, &MeshArrays::cell_distances>(type, "cell_distances");
-  add_array<double, &MeshArrays::vertex_distances>(type, "vertex_distances");
-  add_array<double, &MeshArrays::normal_angles>(type, "normal_angles");
-  add_array<double, &MeshArrays::vertex_points>(type, "vertex_points");
-  add_array<std::int32_t, &MeshArrays::cells_on_vertex>(type, "cells_on_vertex");
-  add_array<std::int32_t, &MeshArrays::edges_on_vertex>(type, "edges_on_vertex");
-  add_array<double, &MeshArrays::kite_areas>(type, "kite_areas");
-  add_array<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
+  add_array<std::int32_t, &VoronoiMesh::cells_on_cell>(type, "cells_on_cell");
+  add_array<std::int32_t, &VoronoiMesh::vertices_on_cell>(type, "vertices_on_cell");
+  add_array<double, &VoronoiMesh::edge_points>(type, "edge_points");
+  add_array<std::int32_t, &VoronoiMesh::cells_on_edge>(type, "cells_on_edge");
+  add_array<std::int32_t, &VoronoiMesh::vertices_on_edge>(type, "vertices_on_edge");
+  add_array<double, &VoronoiMesh::cell_distances>(type, "cell_distances");
+  add_array<double, &VoronoiMesh::vertex_distances>(type, "vertex_distances");
+  add_array<double, &VoronoiMesh::normal_angles>(type, "normal_angles");
+  add_array<double, &VoronoiMesh::vertex_points>(type, "vertex_points");
+  add_array<std::int32_t, &VoronoiMesh::cells_on_vertex>(type, "cells_on_vertex");
+  add_array<std::int32_t, &VoronoiMesh::edges_on_vertex>(type, "edges_on_vertex");
+  add_array<double, &VoronoiMesh::kite_areas>(type, "kite_areas");
+  add_array<double, &VoronoiMesh::triangle_areas>(type, "triangle_areas");
   type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
   type.def("mpas_content", &mpas_content_of);
   type.def("write", &write_mesh, nb::arg("path"), nb::arg("format").none(), nb::arg("is_cdf2"),
            nb::arg("threads"));
   type.def(
       "write_graph",
-      [](const MeshArrays& self, const std::string& path) {
+      [](const VoronoiMesh& self, const std::string& path) {
         unlocked([&] { mesh::write_graph(path, self); });
       },
       nb::arg("path"));
   type.def(
       "quality_json",
-      [](const MeshArrays& self, unsigned threads) {
+      [](const VoronoiMesh& self, unsigned threads) {
         return mesh::quality_json(watched_quietly(
             self.num_cells(), threads,
             [&](const Execution& execution) { return mesh::quality(self, execution); }));
@@ -135,7 +136,7 @@ void add_mesh(nb::module_& module) {
       nb::arg("threads"));
   type.def(
       "quality_picture",
-      [](const MeshArrays& self, std::size_t num_worst) {
+      [](const VoronoiMesh& self, std::size_t num_worst) {
         return unlocked(
             [&] { return mesh::quality_picture(self, mesh::quality(self), num_worst); });
       },

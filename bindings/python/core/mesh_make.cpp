@@ -13,7 +13,7 @@
 #include "interrupt.h"
 #include "mesh_sizes.h"
 #include "module.h"
-#include "rondel/mesh_partition.h"
+#include "rondel/mesh_equal_area.h"
 #include "rondel/scvt.h"
 
 namespace rondel::python {
@@ -35,7 +35,7 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
                             .fixed = points_of(fixed)};
   mesh::Scvt made = watched(many_sites, threads, listener, [&](const Execution& execution) {
     options.size = size_of(rows_of<double>(spacings), steps, gradient);
-    options.seen = [&](const mesh::ScvtStep& step) {
+    options.on_step = [&](const mesh::ScvtStep& step) {
       if (!execution.progress) return;
       execution.progress(std::to_string(step.sites) + " cells", step.done);
     };
@@ -52,11 +52,11 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
   return {std::move(made), to_array<double>(std::move(density))};
 }
 
-mesh::AreaPartition make_area_partition(const PointsIn& points, const NumbersIn& areas,
-                                        double tolerance, unsigned threads) {
+mesh::EqualArea make_equal_area(const PointsIn& points, const NumbersIn& areas, double tolerance,
+                                unsigned threads) {
   return watched_quietly(many_sites, threads, [&](const Execution& execution) {
-    return mesh::area_partition(points_of(points), rows_of<double>(areas), {.tolerance = tolerance},
-                                execution);
+    return mesh::equal_area(points_of(points), rows_of<double>(areas), {.tolerance = tolerance},
+                            execution);
   });
 }
 
@@ -65,7 +65,7 @@ void add_results(nb::module_& module) {
       .def_ro("odd_cells", &mesh::ScvtDefects::odd_cells)
       .def_ro("short_edges", &mesh::ScvtDefects::short_edges)
       .def_ro("obtuse_triangles", &mesh::ScvtDefects::obtuse_triangles)
-      .def_ro("least_edge_ratio", &mesh::ScvtDefects::least_edge_ratio);
+      .def_ro("min_edge_ratio", &mesh::ScvtDefects::min_edge_ratio);
   nb::class_<mesh::Scvt> scvt(module, "Scvt");
   add_array<double, &mesh::Scvt::sites>(scvt, "points");
   add_array<std::int32_t, &mesh::Scvt::fixed>(scvt, "fixed");
@@ -77,16 +77,16 @@ void add_results(nb::module_& module) {
       .def_prop_ro("defects_before", [](const mesh::Scvt& self) { return self.repair.before; })
       .def_prop_ro("defects_after", [](const mesh::Scvt& self) { return self.repair.after; })
       .def_prop_ro("moved", [](const mesh::Scvt& self) { return self.repair.moved; });
-  nb::class_<mesh::AreaPartition> partition(module, "AreaPartition");
-  add_array<double, &mesh::AreaPartition::poles>(partition, "points");
-  add_array<double, &mesh::AreaPartition::weights>(partition, "weights");
-  add_array<double, &mesh::AreaPartition::areas>(partition, "areas");
+  nb::class_<mesh::EqualArea> partition(module, "EqualArea");
+  add_array<double, &mesh::EqualArea::poles>(partition, "points");
+  add_array<double, &mesh::EqualArea::weights>(partition, "weights");
+  add_array<double, &mesh::EqualArea::areas>(partition, "areas");
   partition
       .def_prop_ro("end",
-                   [](const mesh::AreaPartition& self) { return std::string(name_of(self.end)); })
-      .def_ro("steps", &mesh::AreaPartition::steps)
-      .def_ro("largest_error", &mesh::AreaPartition::largest_error)
-      .def_ro("reason", &mesh::AreaPartition::reason);
+                   [](const mesh::EqualArea& self) { return std::string(name_of(self.end)); })
+      .def_ro("steps", &mesh::EqualArea::steps)
+      .def_ro("largest_error", &mesh::EqualArea::largest_error)
+      .def_ro("reason", &mesh::EqualArea::reason);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ void add_mesh_make(nb::module_& module) {
              nb::arg("mean_tolerance"), nb::arg("largest_tolerance"), nb::arg("max_steps"),
              nb::arg("repair"), nb::arg("fixed").noconvert(), nb::arg("threads"),
              nb::arg("listener").none());
-  module.def("make_area_partition", &make_area_partition, nb::arg("points").noconvert(),
+  module.def("make_equal_area", &make_equal_area, nb::arg("points").noconvert(),
              nb::arg("areas").noconvert(), nb::arg("tolerance"), nb::arg("threads"));
 }
 

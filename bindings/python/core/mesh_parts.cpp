@@ -28,12 +28,12 @@
 namespace rondel::python {
 namespace {
 
-using mesh::MeshArrays;
+using mesh::VoronoiMesh;
 using CullOut =
-    std::tuple<MeshArrays, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>>;
+    std::tuple<VoronoiMesh, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>>;
 using MaskIn = nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-CullOut cull_mesh(const MeshArrays& arrays, const MaskIn& is_removed, unsigned threads) {
+CullOut cull_mesh(const VoronoiMesh& arrays, const MaskIn& is_removed, unsigned threads) {
   mesh::Culled culled =
       watched_quietly(arrays.num_cells(), threads, [&](const Execution& execution) {
         return mesh::cull(arrays, rows_of<std::uint8_t>(is_removed), execution);
@@ -72,7 +72,7 @@ std::tuple<ArrayOut<double>, std::size_t> sites_of_lines(const std::vector<Point
 
 // Returns cells as polygons of the plane: positions, the begin of each polygon, and its cell.
 std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mesh_polygons(
-    const MeshArrays& arrays, double tolerance_deg) {
+    const VoronoiMesh& arrays, double tolerance_deg) {
   LonLatRegions found = watched_quietly(arrays.num_cells(), 0, [&](const Execution& execution) {
     CellRings rings;
     rings.points = arrays.vertex_points;

@@ -25,7 +25,7 @@ def carried(
     wanted: Places,
     *,
     skipna: bool,
-    most_missing: float,
+    max_missing: float,
     unmapped: float = np.nan,
     keep_attrs: bool = True,
 ) -> Any:
@@ -42,7 +42,7 @@ def carried(
             values = marker(values)
         leading = values.shape[: values.ndim - len(source.dims)]
         fields = values.reshape(*leading, source.lon.size)
-        found = weights.apply(fields, skipna=skipna, most_missing=most_missing)
+        found = weights.apply(fields, skipna=skipna, max_missing=max_missing)
         if not np.isnan(unmapped):
             found[..., without_source] = unmapped
         shape = (*found.shape[:-1], *wanted.shape)

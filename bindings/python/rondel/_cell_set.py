@@ -424,11 +424,11 @@ class CellSet(Described):
         return self._cells.centers()
 
     @property
-    def is_cover(self) -> bool:
+    def covers_sphere(self) -> bool:
         """bool: whether the cells cover the sphere and share their sides. Remapping is faster if
         this is true for one of the two sides.
         """
-        return self._cells.is_cover
+        return self._cells.covers_sphere
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -481,7 +481,7 @@ class CellSet(Described):
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("cells", count(self.num_cells, "cell"))]
-        if self.is_cover:
+        if self.covers_sphere:
             facts.append(("cover", "a cover of the sphere"))
         masked = int(np.count_nonzero(self._cells.facts.mask == 0))
         if masked:

@@ -31,7 +31,7 @@ class Defects(NamedTuple):
         The number of edges that are shorter than 0.0505 times the distance of their cells.
     obtuse_triangles : int
         The number of obtuse triangles.
-    least_edge_ratio : float
+    min_edge_ratio : float
         The least ratio of the length of an edge to the distance of its cells.
 
     """
@@ -39,7 +39,7 @@ class Defects(NamedTuple):
     odd_cells: int
     short_edges: int
     obtuse_triangles: int
-    least_edge_ratio: float
+    min_edge_ratio: float
 
 
 class ScvtReport(NamedTuple):
@@ -74,8 +74,8 @@ class ScvtReport(NamedTuple):
     left_out: int = 0
 
 
-class Partition(NamedTuple):
-    """The result of `partition`.
+class EqualArea(NamedTuple):
+    """The result of `equal_area`.
 
     Attributes
     ----------
@@ -193,13 +193,13 @@ def scvt_points(
     return made.points, densities, made.fixed, ScvtReport(**said, left_out=left_out)
 
 
-def partition(
+def equal_area(
     points: ArrayLike,
     areas: ArrayLike | None = None,
     *,
     tolerance: float = 1e-12,
     threads: int | None = None,
-) -> Partition:
+) -> EqualArea:
     """Computes weights of points whose power cells have prescribed areas.
 
     Parameters
@@ -216,7 +216,7 @@ def partition(
 
     Returns
     -------
-    Partition
+    EqualArea
         Weighted sites, the areas of their cells, and how the work ended.
 
     Raises
@@ -237,7 +237,7 @@ def partition(
     >>> import numpy as np
     >>> import rondel.mesh
     >>> points = np.random.default_rng(1).normal(size=(500, 3))
-    >>> found = rondel.mesh.partition(points)
+    >>> found = rondel.mesh.equal_area(points)
     >>> found.end in ("converged", "rounded")
     True
     >>> cells = rondel.delaunay(found.points, "weighted").voronoi()
@@ -251,10 +251,10 @@ def partition(
     if areas is not None:
         targets = as_floats(areas, "areas")
         targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
-    found = _core.make_area_partition(sites, targets, float(tolerance), as_threads(threads))
+    found = _core.make_equal_area(sites, targets, float(tolerance), as_threads(threads))
     if found.end not in ("converged", "rounded"):
         warn_caller(
-            f"partition() ended as {found.end!r}, with areas off by up to {found.largest_error:.3g}"
+            f"equal_area() ended as {found.end!r}, with areas off by up to {found.largest_error:.3g}"
             + (f": {found.reason}" if found.reason else "")
         )
-    return Partition(*(getattr(found, name) for name in Partition._fields))
+    return EqualArea(*(getattr(found, name) for name in EqualArea._fields))

@@ -27,7 +27,7 @@ Lines: TypeAlias = Path | Sequence[ArrayLike] | Any
 class Drawn(Protocol):
     """The parts of a `rondel.mesh.Mesh` from which a picture is drawn."""
 
-    _arrays: _core.MeshArrays
+    _arrays: _core.VoronoiMesh
 
     @property
     def radius(self) -> float: ...

@@ -116,7 +116,7 @@ class MpiCalls:
     the program.
     """
 
-    def __init__(self, communicator: Any, most_bytes: int = 1 << 30) -> None:
+    def __init__(self, communicator: Any, max_bytes: int = 1 << 30) -> None:
         from mpi4py import MPI
 
         if communicator.is_inter:
@@ -130,7 +130,7 @@ class MpiCalls:
         self._communicator = communicator
         self.rank: int = communicator.rank
         self.size: int = communicator.size
-        self._most = max(1, most_bytes // self.size)  # from one rank to one other at once
+        self._most = max(1, max_bytes // self.size)  # from one rank to one other at once
 
     def allgather(self, message: bytes) -> list[bytes]:
         """What every rank gave, by rank."""

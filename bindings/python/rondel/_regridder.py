@@ -253,7 +253,7 @@ class Regridder(Described):
 
         options: Any = {
             "skipna": skipna,
-            "most_missing": na_thres,
+            "max_missing": na_thres,
             "unmapped": self._unmapped,
             "keep_attrs": keep_attrs,
         }

@@ -83,7 +83,7 @@ class Mesh:
     fixed: IntArray = frozen(np.empty(0, np.int32))
     """If `scvt` made the mesh: the cells of the fixed places, then of those along lines."""
 
-    def __init__(self, arrays: _core.MeshArrays) -> None:
+    def __init__(self, arrays: _core.VoronoiMesh) -> None:
         self._arrays = arrays
 
     def __getstate__(self) -> dict[str, Any]:
@@ -91,7 +91,7 @@ class Mesh:
         return {"arrays": arrays_of(self._arrays), "known": known}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._arrays = with_arrays(_core.MeshArrays(), state["arrays"])
+        self._arrays = with_arrays(_core.VoronoiMesh(), state["arrays"])
         self.__dict__.update(state["known"])
 
     def __repr__(self) -> str:

@@ -159,7 +159,7 @@ class Weights(Described):
         values: ArrayLike,
         *,
         skipna: bool = False,
-        most_missing: float = 1.0,
+        max_missing: float = 1.0,
         fill: float = np.nan,
         threads: int | None = None,
     ) -> FloatArray:
@@ -174,7 +174,7 @@ class Weights(Described):
             What to do with missing values (NaN, or masked). False (default): a target that needs a
             missing value has none. True: missing values are left out, and the remaining weights
             are scaled up to the same sum.
-        most_missing : float, optional
+        max_missing : float, optional
             With `skipna`, the largest share of its absolute weights for which a target may lack
             values, from 0 to 1; by default 1, with which one present value suffices.
         fill : float, optional
@@ -190,7 +190,7 @@ class Weights(Described):
         Raises
         ------
         ValueError
-            If the last axis of the values is not n, or `most_missing` is out of range or given
+            If the last axis of the values is not n, or `max_missing` is out of range or given
             without `skipna`.
 
         Raises
@@ -202,14 +202,14 @@ class Weights(Described):
         rows, columns = self.shape
         fields = as_fields(values, columns)
         leading = fields.shape[:-1]
-        if not 0 <= most_missing <= 1:
-            raise ValueError(f"most_missing must be from 0 to 1, not {most_missing}")
-        if most_missing < 1 and not skipna:
-            raise ValueError("most_missing has no effect without skipna=True")
+        if not 0 <= max_missing <= 1:
+            raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
+        if max_missing < 1 and not skipna:
+            raise ValueError("max_missing has no effect without skipna=True")
         found = self._weights.apply(
             fields.reshape(int(np.prod(leading)), columns),
             float(fill),
-            float(most_missing) if skipna else 0.0,
+            float(max_missing) if skipna else 0.0,
             as_threads(threads),
         )
         return found.reshape((*leading, rows))

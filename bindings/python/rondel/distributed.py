@@ -219,7 +219,7 @@ def delaunay(
     model: Model = "projected",
     radius: float = 1.0,
     center: ArrayLike | None = None,
-    most_bucket_sites: int = 1 << 28,
+    max_bucket_sites: int = 1 << 28,
     keep_points: bool = False,
     threads: int | None = None,
     progress: Progress = None,
@@ -241,7 +241,7 @@ def delaunay(
         The radius of the sphere; by default 1. It must be the same on all ranks.
     center : array_like, shape (3,), optional
         The center of the sphere; by default the origin. It must be the same on all ranks.
-    most_bucket_sites : int, optional
+    max_bucket_sites : int, optional
         The largest number of points that a rank triangulates at once. It must be the same on all
         ranks.
     keep_points : bool, optional
@@ -291,7 +291,7 @@ def delaunay(
     options = _no_options
     try:
         sites = as_points(points)
-        options = _as_options(model, radius, center, most_bucket_sites)
+        options = _as_options(model, radius, center, max_bucket_sites)
         ranks.prepare(("delaunay", options, bool(keep_points)), as_threads(threads))
     except BaseException as error:
         ranks.fail(error)
@@ -312,7 +312,7 @@ def delaunay_file(
     radius: float = 1.0,
     center: ArrayLike | None = None,
     radians: bool = False,
-    most_bucket_sites: int = 1 << 28,
+    max_bucket_sites: int = 1 << 28,
     threads: int | None = None,
     progress: Progress = None,
 ) -> DistributedTriangulation:
@@ -347,7 +347,7 @@ def delaunay_file(
         The center of the sphere; by default the origin.
     radians : bool, optional
         Whether longitudes and latitudes are in radians; by default False, degrees.
-    most_bucket_sites, threads, progress : optional
+    max_bucket_sites, threads, progress : optional
         As in `delaunay`. All arguments except `threads` and `progress` must be the same on all
         ranks.
 
@@ -376,7 +376,7 @@ def delaunay_file(
         files = [as_name(sites), *(as_result_name(results[each], each) for each in results)]
         if not files[1]:
             raise ValueError("faces has no name")
-        options = _as_options(model, radius, center, most_bucket_sites)
+        options = _as_options(model, radius, center, max_bucket_sites)
         ranks.prepare(("delaunay_file", files, radians, options), as_threads(threads))
     except BaseException as error:
         ranks.fail(error)
@@ -391,8 +391,8 @@ Options: TypeAlias = tuple[bool, tuple[float, float, float], float, int]
 _no_options: Options = (False, (0.0, 0.0, 0.0), 1.0, 1)
 
 
-def _as_options(model: Model, radius: float, center: Any, most_bucket_sites: int) -> Options:
-    most = operator.index(most_bucket_sites)
+def _as_options(model: Model, radius: float, center: Any, max_bucket_sites: int) -> Options:
+    most = operator.index(max_bucket_sites)
     if most < 1:
-        raise ValueError(f"most_bucket_sites must be at least 1, not {most}")
+        raise ValueError(f"max_bucket_sites must be at least 1, not {most}")
     return is_weighted(model), as_center(center), float(radius) ** 2, min(most, 1 << 40)

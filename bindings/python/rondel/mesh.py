@@ -15,10 +15,10 @@ from ._geometries import Edges
 from ._mesh_making import (
     Defects,
     Density,
-    Partition,
+    EqualArea,
     ScvtReport,
     Spacing,
-    partition,
+    equal_area,
     scvt_points,
 )
 from ._mesh_parts import Lines
@@ -30,10 +30,10 @@ __all__ = [
     "Defects",
     "EdgeWeights",
     "Mesh",
-    "Partition",
+    "EqualArea",
     "ScvtReport",
     "from_points",
-    "partition",
+    "equal_area",
     "read",
     "scvt",
 ]

@@ -111,7 +111,7 @@ def delaunay(
     threads : int, optional
         At most so many work; one for each core by default.
     progress : callable, optional
-        Called as ``progress(stage, fraction)`` with the stages 'count', 'deal', 'triangulate',
+        Called as ``progress(stage, fraction)`` with the stages 'count', 'scatter', 'triangulate',
         'join' and 'write', and 'group' for a Zarr group. If it raises, the run ends and can be
         resumed, as after Ctrl-C.
 

@@ -73,7 +73,7 @@ class RondelAccessor:
         lat: Hashable | None = None,
         weights: Weights | None = None,
         skipna: bool = False,
-        most_missing: float = 1.0,
+        max_missing: float = 1.0,
         **options: Any,
     ) -> Any:
         """Interpolates values at other places.
@@ -99,7 +99,7 @@ class RondelAccessor:
             options are then theirs; others are without effect, which a warning tells.
         skipna : bool, optional
             Whether to leave out missing values, as in `Weights.apply`; by default False.
-        most_missing : float, optional
+        max_missing : float, optional
             With `skipna`, the largest share of weights for which values may be missing, as in
             `Weights.apply`; by default 1.
         **options
@@ -138,7 +138,7 @@ class RondelAccessor:
             if idle:
                 warn_caller(f"weights are given, so these change nothing: {', '.join(idle)}")
         return carried(
-            self._data, weights, source, wanted, skipna=skipna, most_missing=most_missing
+            self._data, weights, source, wanted, skipna=skipna, max_missing=max_missing
         )
 
 

@@ -267,7 +267,7 @@ THREADS_OF_AREAS = """
 import os, pickle, sys, threading
 import rondel
 
-def most_more_threads(diagram):
+def max_more_threads(diagram):
     count = lambda: len(os.listdir("/proc/self/task"))
     before, most, has_ended = count(), 0, threading.Event()
     def look():
@@ -283,9 +283,9 @@ def most_more_threads(diagram):
 
 built = rondel.SphericalVoronoi(pickle.load(sys.stdin.buffer), threads=1)
 # One looks, and one works.
-assert most_more_threads(built) <= 2
+assert max_more_threads(built) <= 2
 copied = pickle.loads(pickle.dumps(rondel.SphericalVoronoi(built.points, threads=1)))
-print(most_more_threads(copied))
+print(max_more_threads(copied))
 """
 
 
@@ -483,8 +483,8 @@ def test_options_without_effect_are_refused(tmp_path):
         tri.weights([[1, 1, 1]], rings=3)
     assert tri.interpolate(np.arange(6), [[1, 1, 1]], "hermite", rings=3).shape == (1,)
     weights = tri.weights([[1, 1, 1]], "linear")
-    with pytest.raises(ValueError, match="most_missing has no effect without skipna"):
-        weights.apply(np.arange(6), most_missing=0.5)
+    with pytest.raises(ValueError, match="max_missing has no effect without skipna"):
+        weights.apply(np.arange(6), max_missing=0.5)
     with pytest.raises(ValueError, match="view must be"):
         tri.save_html(tmp_path / "page.html", view=(0, 99))
     with pytest.raises(TypeError, match=r"'float' object cannot be interpreted as an integer"):

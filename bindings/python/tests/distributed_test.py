@@ -53,7 +53,7 @@ def together(parts, name):
 @pytest.mark.parametrize("name", CLOUDS)
 def test_the_result_is_that_of_delaunay(name, size, model):
     points = CLOUDS[name]
-    parts = build(points, size, model=model, most_bucket_sites=400)
+    parts = build(points, size, model=model, max_bucket_sites=400)
     expected = rondel.delaunay(points, model)._triangulation
     for array in ("faces", "neighbors", "ghost_faces", "ring", "duplicates"):
         found = together(parts, array)
@@ -89,7 +89,7 @@ def test_areas_and_circumcenters_are_those_in_memory(name, size, model):
     def work(rank):
         mine = given[rank.rank]
         part = rondel.distributed.delaunay(
-            mine, rank, threads=1, model=model, most_bucket_sites=400, keep_points=True
+            mine, rank, threads=1, model=model, max_bucket_sites=400, keep_points=True
         )
         areas = part.areas()
         assert areas.shape == (len(mine),)
@@ -163,7 +163,7 @@ def test_a_point_that_is_not_valid_is_told_to_all(size):
         ),
         ({"points": ["a", "b"]}, TypeError, "points must be real numbers, not text"),
         ({"model": "flat"}, ValueError, "model must be 'projected' or 'weighted', not 'flat'"),
-        ({"most_bucket_sites": 0}, ValueError, "most_bucket_sites must be at least 1, not 0"),
+        ({"max_bucket_sites": 0}, ValueError, "max_bucket_sites must be at least 1, not 0"),
         ({"threads": 0}, ValueError, "threads must be at least 1, or None for all cores, not 0"),
     ],
     ids=lambda wrong: next(iter(wrong)) if isinstance(wrong, dict) else "",
@@ -314,7 +314,7 @@ def test_progress_is_told_and_ends_all():
     errors = on_ranks(
         2,
         lambda rank: rondel.distributed.delaunay(
-            points, rank, progress=stop if rank.rank else None, most_bucket_sites=100
+            points, rank, progress=stop if rank.rank else None, max_bucket_sites=100
         ),
     )
     assert type(errors[1]) is Lost

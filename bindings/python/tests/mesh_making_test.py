@@ -59,7 +59,7 @@ def test_repair_mends_what_it_says():
     mesh = rondel.mesh.scvt(7000, spacing=spacing, raster_steps=64)
     report = mesh.report
     assert report.defects_before.short_edges > 0
-    assert report.defects_after == (0, 0, 0, report.defects_after.least_edge_ratio)
+    assert report.defects_after == (0, 0, 0, report.defects_after.min_edge_ratio)
     assert 0 < report.moved < 1000
     quality = mesh.quality
     assert quality["min_edge_ratio"]["value"] >= 0.05
@@ -103,13 +103,13 @@ def test_whole_numbers_of_every_kind_are_taken():
 def test_a_tolerance_of_areas_is_positive(tolerance):
     points = np.random.default_rng(1).normal(size=(20, 3))
     with pytest.raises(ValueError, match="tolerance must be positive and finite"):
-        rondel.mesh.partition(points, tolerance=tolerance)
+        rondel.mesh.equal_area(points, tolerance=tolerance)
 
 
 def test_lunes_are_as_wanted():
     turns = np.radians([10, 95, 170, 185, 300])
     points = np.column_stack([np.cos(turns), 0.6 * np.sin(turns), 0.8 * np.sin(turns)])
-    found = rondel.mesh.partition(points)
+    found = rondel.mesh.equal_area(points)
     assert found.end in ("converged", "rounded")
     cells = rondel.delaunay(found.points, "weighted").voronoi()
     assert np.allclose(cells.areas, 4 * np.pi / 5, rtol=1e-11)
@@ -118,14 +118,14 @@ def test_lunes_are_as_wanted():
 def test_areas_are_as_wanted():
     points = np.random.default_rng(3).normal(size=(400, 3))
     wanted = 1 + 0.5 * np.sign(points[:, 0])
-    found = rondel.mesh.partition(points, wanted)
+    found = rondel.mesh.equal_area(points, wanted)
     assert found.end in ("converged", "rounded")
     assert np.allclose(found.areas, wanted * 4 * np.pi / wanted.sum(), rtol=1e-10)
     assert found.weights.min() == 1
     with pytest.warns(UserWarning, match="ended as 'infeasible', with areas off by up to"):
-        octant = rondel.mesh.partition(np.abs(points))
+        octant = rondel.mesh.equal_area(np.abs(points))
     assert octant.end == "infeasible"
     assert "surround the center" in octant.reason
     assert found.reason == ""
     with pytest.raises(rondel.InvalidInput, match="not positive"):
-        rondel.mesh.partition(points, points[:, 0] + 1)
+        rondel.mesh.equal_area(points, points[:, 0] + 1)

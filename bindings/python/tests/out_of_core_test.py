@@ -74,7 +74,7 @@ def test_progress_and_resume(folder):
 
     def listen(stage, fraction):
         assert 0 <= fraction <= 1
-        if stage not in ("count", "deal") and (stage != "triangulate" or fraction > 0):
+        if stage not in ("count", "scatter") and (stage != "triangulate" or fraction > 0):
             raise Ended  # a bucket is done
 
     np.save(folder / "sites.npy", clouds.uniform(1_000_000))

@@ -115,7 +115,7 @@ def test_the_copy_of_cells_has_the_same_bits(name, make, tmp_path):
     cells = sample(name)()
     copied = make(cells)
     assert repr(copied) == repr(cells)
-    assert (copied.shape, copied.is_cover) == (cells.shape, cells.is_cover)
+    assert (copied.shape, copied.covers_sphere) == (cells.shape, cells.covers_sphere)
     assert copied.areas.tobytes() == cells.areas.tobytes()
     assert copied.centers.tobytes() == cells.centers.tobytes()
     if name not in ("grid", "axes"):

@@ -22,7 +22,7 @@ def test_cell_sets_are_those_of_their_owners():
     voronoi = rondel.SphericalVoronoi(TRI.points)
     for owner in (TRI, voronoi):
         assert np.allclose(rondel.CellSet.voronoi(owner).areas, voronoi.areas, atol=1e-14)
-    assert CELLS.is_cover
+    assert CELLS.covers_sphere
     assert CELLS.shape == (300,)
     assert rondel.CellSet.triangles(TRI).num_cells == np.count_nonzero(~TRI.ghost)
     with pytest.raises(TypeError, match="not ndarray"):
@@ -35,7 +35,7 @@ def test_a_grid_has_the_areas_between_its_lines():
     expected = np.outer(np.diff(np.sin(np.radians(LAT))), np.diff(np.radians(LON)))
     assert np.allclose(GRID.areas.reshape(GRID.shape), expected, rtol=1e-13)
     arcs = rondel.CellSet.lonlat_grid(LON, LAT, sides="great_circles")
-    assert arcs.is_cover
+    assert arcs.covers_sphere
     assert abs(arcs.areas.sum() - 4 * np.pi) < 1e-13
     assert not np.allclose(arcs.areas, GRID.areas, rtol=1e-4)
     with pytest.raises(rondel.InvalidInput, match="no sides on great circles"):
@@ -94,7 +94,7 @@ def test_files(tmp_path):
     (tmp_path / "box.geojson").write_text(json.dumps(geometry), "utf-8")
     polygons = rondel.CellSet.read(tmp_path / "box.geojson")
     assert polygons.num_cells == 1
-    assert not polygons.is_cover
+    assert not polygons.covers_sphere
     height = np.sin(np.radians(50)) - np.sin(np.radians(20))
     assert abs(polygons.areas[0] - np.radians(30) * height) < 1e-6
     found = rondel.remap(polygons, GRID, norm="fracarea")

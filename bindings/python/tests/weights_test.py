@@ -61,7 +61,7 @@ def test_missing_values():
     # The weights that are left: 0.3 and 0.5 of 1.
     assert apply([1, nan, 3, 4], fill=-1, skipna=True) == [2.5, -1, 3, pytest.approx(2.9 / 0.8)]
     assert apply([nan, 2, nan, 4], fill=-1, skipna=True) == [4, -1, -1, pytest.approx(2.4 / 0.7)]
-    assert apply([nan, 2, nan, 4], fill=-1, skipna=True, most_missing=0.4) == [
+    assert apply([nan, 2, nan, 4], fill=-1, skipna=True, max_missing=0.4) == [
         -1,
         -1,
         -1,
@@ -140,8 +140,8 @@ def test_wrong_arrays():
         rondel.Weights([0, 1], [0.5], [1], (1, 1))
     with pytest.raises(ValueError, match=r"values must have shape \(..., 100\), not \(3,\)"):
         WEIGHTS.apply(np.ones(3))
-    with pytest.raises(ValueError, match="most_missing must be from 0 to 1"):
-        WEIGHTS.apply(VALUES, skipna=True, most_missing=2)
+    with pytest.raises(ValueError, match="max_missing must be from 0 to 1"):
+        WEIGHTS.apply(VALUES, skipna=True, max_missing=2)
 
 
 def test_files_of_another_kind_are_named(tmp_path):

@@ -48,8 +48,8 @@ int main() {
   table.sites = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const rondel::Triangulation triangulation = rondel::delaunay(table.sites);
   const auto three = std::span<const rondel::Point>(table.sites).first(3);
-  print(rondel::mesh::arrays(triangulation).num_cells() == 6, "mesh",
-        is_refused([&] { rondel::mesh::arrays(rondel::delaunay(rondel::Sites(three))); }));
+  print(rondel::mesh::make_mesh(triangulation).num_cells() == 6, "mesh",
+        is_refused([&] { rondel::mesh::make_mesh(rondel::delaunay(rondel::Sites(three))); }));
 
   const rondel::Diagram diagram = rondel::diagram(triangulation);
   rondel::GlobeOptions options;

@@ -120,14 +120,14 @@ TEST(polar_points, name_the_first_bad_index) {
 
 const Options weighted{.model = Model::weighted};
 
-std::vector<Point> random_circles(std::size_t n, double least_deg, double most_deg,
+std::vector<Point> random_circles(std::size_t n, double min_deg, double max_deg,
                                   std::uint64_t seed) {
   Random random(seed);
   std::vector<Point> centers(n);
   std::vector<double> radii_deg(n);
   for (std::size_t i = 0; i < n; ++i) {
     centers[i] = random_direction(random);
-    radii_deg[i] = least_deg + (most_deg - least_deg) * random.unit();
+    radii_deg[i] = min_deg + (max_deg - min_deg) * random.unit();
   }
   return polar_points(centers, radii_deg);
 }
@@ -153,8 +153,8 @@ TEST(hull_of_circles, many_circles_of_up_to_30_degrees_hide_most) {
 }
 
 TEST(hull_of_circles, small_circles_hide_few) {
-  const double most_deg = 95 / std::sqrt(static_cast<double>(many()));  // half of their distance
-  const auto sites = random_circles(many(), 0, most_deg, 2);
+  const double max_deg = 95 / std::sqrt(static_cast<double>(many()));  // half of their distance
+  const auto sites = random_circles(many(), 0, max_deg, 2);
   const Triangulation triangulation = delaunay(sites, weighted);
   EXPECT_GT(triangulation.hidden().size(), sites.size() / 100);
   EXPECT_GT(triangulation.num_vertices(), sites.size() / 10 * 9);
@@ -283,10 +283,10 @@ void expect_power_cells(std::span<const Point> sites, std::size_t num_directions
   }
 }
 
-std::vector<Point> random_circles(std::size_t n, double most_deg) {
+std::vector<Point> random_circles(std::size_t n, double max_deg) {
   Random random(12);
   std::vector<Point> sites(n);
-  for (Point& p : sites) p = polar_point(random_direction(random), most_deg * random.unit());
+  for (Point& p : sites) p = polar_point(random_direction(random), max_deg * random.unit());
   return sites;
 }
 

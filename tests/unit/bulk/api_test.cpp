@@ -79,9 +79,9 @@ TEST(bulk_api, what_many_sites_give) {
 // Sites are copied only where they are many.
 TEST(bulk_api, copies_of_sites_change_nothing) {
   if (is_shortened()) GTEST_SKIP() << "takes long here";
-  for (const std::size_t num_different : {bulk::least_copied_sites, std::size_t{100000}}) {
+  for (const std::size_t num_different : {bulk::min_copied_sites, std::size_t{100000}}) {
     SiteSet set = generator("uniform").make(num_different, 1);
-    while (set.sites.size() < bulk::least_copied_sites + 1000) {
+    while (set.sites.size() < bulk::min_copied_sites + 1000) {
       set.sites.push_back(set.sites[set.sites.size() / 2]);
     }
     const Triangulation built = delaunay(set.sites, {}, {.threads = 2});

@@ -85,7 +85,7 @@ class Cell {
       return Big(d[0] * axis.x + d[1] * axis.y + d[2] * axis.z);
     };
     const BigVector v = {along(axes_.u), sites_.hand() * along(axes_.v), along(axes_.out)};
-    const Big length = has_weights_ ? big(weights.most_size) : Big(sqrt(dot_of(v, v)));
+    const Big length = has_weights_ ? big(weights.max_size) : Big(sqrt(dot_of(v, v)));
     return times(1 / length, v);
   }
 
@@ -131,7 +131,7 @@ template <class T>
 Largest largest_errors(bool has_weights) {
   Random random(31);
   Largest largest;
-  const double ratio = has_weights ? weights.most_size / weights.least_size : 1;
+  const double ratio = has_weights ? weights.max_size / weights.min_size : 1;
   for (std::size_t i = 0; i < scaled(20000); ++i) {
     const double distance = std::min(random_distance(random, 1e-15), 0.99);
     const Point center = random.coin() ? Point{} : random.signed_unit() * random_direction(random);

@@ -43,7 +43,7 @@ class BulkCase {
 
   // The same with a seam that every square triangulates.
   bool run_tree(std::size_t max_block_sites, unsigned threads = 1) {
-    return run(max_block_sites, threads, {.least_sites = 0, .is_every_square = true});
+    return run(max_block_sites, threads, {.min_sites = 0, .is_every_square = true});
   }
 
   // The same with copies of the sites.

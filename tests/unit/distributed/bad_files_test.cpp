@@ -123,8 +123,8 @@ TEST_F(distributed_bad_files, need_memory) {
       << crowd;
   for (const std::uint64_t size : {200'000U, 1'000'000U, 700'000'000U}) {
     const auto memory = std::stoull(distributed::memory_of_crowd(size));
-    EXPECT_GE(distributed::limits_of(memory << 20U).most_sites, size);
-    EXPECT_LT(distributed::limits_of((memory - 1) << 20U).most_sites, size);
+    EXPECT_GE(distributed::limits_of(memory << 20U).max_num_sites, size);
+    EXPECT_LT(distributed::limits_of((memory - 1) << 20U).max_num_sites, size);
   }
 }
 

@@ -34,8 +34,8 @@ struct Part {
 };
 
 std::vector<distributed::BucketCut> cuts_of(std::span<const std::uint64_t> keys,
-                                            std::uint64_t most_sites) {
-  distributed::BucketCounts counts(most_sites);
+                                            std::uint64_t max_num_sites) {
+  distributed::BucketCounts counts(max_num_sites);
   do {
     // In two pieces.
     counts.add(keys.first(keys.size() / 3));
@@ -175,7 +175,7 @@ TEST_P(bulk_buckets, as_the_incremental_build) {
   const Generator& generator = GetParam();
   const std::size_t many = is_shortened() ? 800 : 1500;
   const std::size_t size = generator.has_long_integers ? 60 : is_extreme(generator) ? 300 : many;
-  constexpr bulk::SeamRule every_square = {.least_sites = 0, .is_every_square = true};
+  constexpr bulk::SeamRule every_square = {.min_sites = 0, .is_every_square = true};
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;
     for (std::uint64_t seed = 0; seed < scaled(1); ++seed) {
@@ -249,7 +249,7 @@ TEST(bulk_bucket, leaves_what_is_near_its_border) {
     std::vector<Point> points;
     for (Index rank = face.begin; rank < face.end; ++rank) points.push_back(input.point(rank));
     const auto bucket = bulk::triangulate_bucket(points, face.square, all, options, 300,
-                                                 {.least_sites = 0, .is_every_square = true});
+                                                 {.min_sites = 0, .is_every_square = true});
     const auto num_sites = static_cast<double>(points.size());
     EXPECT_LT(static_cast<double>(bucket.border.open_sites.size()), 8 * std::sqrt(num_sites));
   }

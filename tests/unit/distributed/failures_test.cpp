@@ -20,7 +20,8 @@ namespace rondel::test {
 namespace {
 
 constexpr int three = 3;
-constexpr std::array phases = {"count", "deal", "triangulate", "join", "number", "finish", "areas"};
+constexpr std::array phases = {"count",  "scatter", "triangulate", "join",
+                               "number", "finish",  "areas"};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class distributed_failure : public testing::Test {
@@ -31,7 +32,7 @@ class distributed_failure : public testing::Test {
     return ranks.run([&](Communicator& rank) {
       const auto mine = share(sites_, rank.rank(), three, 1);
       const auto part = delaunay(
-          rank, mine, {.most_bucket_sites = 50, .most_dealt_sites = 40, .keep_points = true}, {},
+          rank, mine, {.max_bucket_sites = 50, .max_scattered_sites = 40, .keep_points = true}, {},
           {.threads = 1});
       num_done_ += areas(rank, part, {.threads = 1}).size() == mine.size();
     });

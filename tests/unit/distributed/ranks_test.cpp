@@ -54,12 +54,12 @@ TEST_P(distributed_ranks, as_the_build_in_memory) {
     const system::Job options{{.model = model, .sphere = set.sphere}, {.threads = 1}};
     const Triangulation expected = delaunay(Sites::view(set.sites), options, options);
     for (const int num_ranks : {1, 2, 3, 5, 16}) {
-      for (const std::uint64_t most_bucket_sites : {40U, 200U, 100000U}) {
+      for (const std::uint64_t max_bucket_sites : {40U, 200U, 100000U}) {
         // Every fourth, in which each number of ranks and each size comes.
         if (++num_builds % 4 != 0 && is_shortened()) continue;
         SCOPED_TRACE(text_of(model) + ", ranks: " + std::to_string(num_ranks) + ", squares of " +
-                     std::to_string(most_bucket_sites));
-        expect_same(build(set.sites, num_ranks, {most_bucket_sites, 100, first_number}, options),
+                     std::to_string(max_bucket_sites));
+        expect_same(build(set.sites, num_ranks, {max_bucket_sites, 100, first_number}, options),
                     expected, first_number);
         ASSERT_FALSE(HasFailure());
       }
@@ -112,7 +112,7 @@ TEST(distributed_rank, may_have_a_large_square) {
   if (is_shortened()) GTEST_SKIP() << "takes long here";
   std::vector<Point> sites;
   Random random(5);
-  while (sites.size() < bulk::least_copied_sites + 1000) {
+  while (sites.size() < bulk::min_copied_sites + 1000) {
     const Point p = random.in_cube();
     sites.push_back({p.x / 2, p.y / 2, 1});
     if (sites.size() % 100 == 0) sites.push_back(sites[sites.size() / 2]);
@@ -143,7 +143,7 @@ TEST(distributed_rank, sends_copies_once) {
   ranks.run([&](Communicator& rank) {
     delaunay(rank, share(sites, rank.rank(), 4, 7), {}, {}, {.threads = 1});
   });
-  EXPECT_LT(ranks.bytes_sent("deal"), 4000U);
+  EXPECT_LT(ranks.bytes_sent("scatter"), 4000U);
 }
 
 // Of copies on one ray the lowest index names the place, and its point counts for areas and circumcenters;
@@ -160,8 +160,8 @@ TEST(distributed_rank, has_copies_of_other_lengths) {
   const system::Job options{{}, {.threads = 1}};
   const Triangulation expected = delaunay(Sites::view(sites), options, options);
   for (const int num_ranks : {1, 3}) {
-    for (const std::uint64_t most_bucket_sites : {50U, 100000U}) {
-      expect_same(build(sites, num_ranks, {most_bucket_sites, 70, first_number}, options), expected,
+    for (const std::uint64_t max_bucket_sites : {50U, 100000U}) {
+      expect_same(build(sites, num_ranks, {max_bucket_sites, 70, first_number}, options), expected,
                   first_number);
     }
   }
@@ -206,10 +206,10 @@ TEST(distributed_rank, sends_little_and_works_as_much_as_others) {
   for (const std::string& error : errors) EXPECT_EQ(error, "");
   const auto most = static_cast<double>(std::ranges::max(sizes));
   EXPECT_LT(most, 1.05 * n / num_ranks);
-  const auto sent = static_cast<double>(ranks.bytes_sent() - ranks.bytes_sent("deal"));
+  const auto sent = static_cast<double>(ranks.bytes_sent() - ranks.bytes_sent("scatter"));
   EXPECT_LT(sent, 12e3 * std::sqrt(double{n} * num_ranks));
   std::printf("%.2f kB * sqrt(n P)\n", sent / 1e3 / std::sqrt(double{n} * num_ranks));
-  for (const char* phase : {"count", "deal", "triangulate", "join", "number", "finish"})
+  for (const char* phase : {"count", "scatter", "triangulate", "join", "number", "finish"})
     std::printf("%s %.2f MB\n", phase, static_cast<double>(ranks.bytes_sent(phase)) / 1e6);
 }
 

@@ -28,12 +28,12 @@ std::vector<Point> some_sites() {
 }
 
 // Ends when the progress was told so often; says whether it came to its end before.
-bool run_until(const FileCase& files, int most_calls, bool resume) {
+bool run_until(const FileCase& files, int max_calls, bool resume) {
   struct Killed {};
   int num_calls = 0;
   Execution execution = {.threads = 1};
   execution.progress = [&](std::string_view /*stage*/, double /*fraction*/) {
-    if (++num_calls > most_calls) throw Killed();
+    if (++num_calls > max_calls) throw Killed();
   };
   try {
     files.run(limits, resume, execution);
@@ -46,25 +46,25 @@ bool run_until(const FileCase& files, int most_calls, bool resume) {
 // At every moment at which a run tells its progress.
 TEST(distributed_resume, goes_on_from_everywhere) {
   const FileCase files(some_sites(), {});
-  for (int most_calls = 0;; ++most_calls) {
-    SCOPED_TRACE(most_calls);
-    if (run_until(files, most_calls, false)) break;
+  for (int max_calls = 0;; ++max_calls) {
+    SCOPED_TRACE(max_calls);
+    if (run_until(files, max_calls, false)) break;
     EXPECT_FALSE(std::filesystem::exists(files.files().faces));
     const OutOfCoreReport report = files.run(limits, true);
     files.compare(report);
     for (const std::string& path : {files.files().faces, files.files().neighbors})
       std::filesystem::remove(path);
-    ASSERT_LT(most_calls, 1000);
+    ASSERT_LT(max_calls, 1000);
   }
 }
 
 // Each does some steps; to join and to write, which is not kept, is as many as each may do.
 TEST(distributed_resume, comes_to_its_end_in_many_runs) {
   const FileCase files(some_sites(), {});
-  const int most_calls = static_cast<int>(files.run(limits).num_buckets) + 1;
+  const int max_calls = static_cast<int>(files.run(limits).num_buckets) + 1;
   std::filesystem::remove(files.files().faces);
   int num_runs = 1;
-  while (!run_until(files, most_calls, true)) ASSERT_LT(++num_runs, 100);
+  while (!run_until(files, max_calls, true)) ASSERT_LT(++num_runs, 100);
   EXPECT_GT(num_runs, 2);
   EXPECT_TRUE(rows_of(files.files().faces).numbers == numbers_of(files.expected().faces()));
 }
@@ -73,7 +73,7 @@ TEST(distributed_resume, counts_what_was_done) {
   const FileCase files(some_sites(), {});
   const auto fails_in_the_end = [&] {
     distributed::RunLimits few = limits;
-    few.most_open_sites = 3;
+    few.max_open_sites = 3;
     files.run(few);
   };
   const std::string message = message_of(fails_in_the_end);

@@ -40,7 +40,7 @@ std::vector<Point> circle(int m, double height) {
 
 struct Work {
   double mean_removed = 0;  // faces removed by an insertion
-  std::size_t most_neighbors = 0;
+  std::size_t max_neighbors = 0;
 };
 
 // Inserts the apex, then the circle one by one. A site takes the place of d - 2 faces, d the number
@@ -57,14 +57,14 @@ Work insert_in_order(const Point& apex, const std::vector<Point>& sites) {
   }
   work.mean_removed /= static_cast<double>(sites.size());
   for (Index id = 1; id <= sites.size(); ++id) {
-    work.most_neighbors = std::max(work.most_neighbors, changing.neighbors(id).size());
+    work.max_neighbors = std::max(work.max_neighbors, changing.neighbors(id).size());
   }
   return work;
 }
 
 void expect_little(const Work& work) {
   EXPECT_LE(work.mean_removed, 4);
-  EXPECT_LE(work.most_neighbors, 60U);
+  EXPECT_LE(work.max_neighbors, 60U);
 }
 
 TEST(dynamic_ties, a_small_circle_in_order_changes_little) {

@@ -12,7 +12,7 @@
 #include "io/netcdf_writer.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "support/thrown.h"
 #include "unit/io/support.h"
 

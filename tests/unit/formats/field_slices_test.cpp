@@ -82,9 +82,9 @@ bool write_file(const std::string& path, const std::array<std::size_t, 4>& order
 }
 
 // All fields, `together` at once, in blocks of so many values.
-Doubles fields_of(const io::NetcdfReader& file, std::size_t most_of_block, std::size_t together) {
+Doubles fields_of(const io::NetcdfReader& file, std::size_t max_per_block, std::size_t together) {
   const std::vector<std::string> names = {"t"};
-  const FieldSlices slices(file, {names, num_points, {}, {}}, most_of_block);
+  const FieldSlices slices(file, {names, num_points, {}, {}}, max_per_block);
   const FieldArray& array = slices.fields().arrays.at(0);
   EXPECT_EQ(array.num_fields(), num_fields);
   Doubles all(num_fields * num_points);
@@ -110,10 +110,10 @@ TEST(field_slices, have_the_values_of_any_order_of_dimensions_in_blocks_of_any_s
       if (!write_file(path, order, type, kind)) continue;
       io::FileBytes bytes(path);
       const io::NetcdfReader file(bytes);
-      for (const std::size_t most_of_block : {1U, 45U, 60U, 80U, 1000U}) {
+      for (const std::size_t max_per_block : {1U, 45U, 60U, 80U, 1000U}) {
         for (const std::size_t together : {1U, 2U, 5U, 6U}) {
-          EXPECT_EQ(fields_of(file, most_of_block, together), wanted)
-              << "order " << number << ", blocks of " << most_of_block << ", " << together;
+          EXPECT_EQ(fields_of(file, max_per_block, together), wanted)
+              << "order " << number << ", blocks of " << max_per_block << ", " << together;
         }
       }
     }

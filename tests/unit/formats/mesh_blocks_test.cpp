@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "support/temporary_files.h"
 #include "unit/meshing/writer.h"
 #include "unit/overlay/support.h"
@@ -52,7 +52,7 @@ void expect_cube(const CellTable& table) {
   EXPECT_EQ(table.facts.convention, "Exodus");
   ASSERT_EQ(table.num_cells(), 7U);
   const CellSet cell_set = CellSet::of(table);
-  EXPECT_TRUE(cell_set.is_cover());
+  EXPECT_TRUE(cell_set.covers_sphere());
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_NEAR(cell_set.areas()[i], 4 * std::numbers::pi / (i < 5 ? 6 : 12), 1e-14) << i;
   }
@@ -126,13 +126,13 @@ TEST(overlay_mesh_blocks, corners_of_all_cells_of_tiles) {
     return cells_of_file(file);
   };
   const CellTable of_all = table_with({{"tile", 2}, {"yc", 3}, {"xc", 4}}, lon_of_all, lat_of_all);
-  const CellTable of_each =
+  const CellTable corners_per_cell =
       table_with({{"tile", 2}, {"y", 2}, {"x", 3}, {"nv", 4}}, lon_of_each, lat_of_each);
   EXPECT_EQ(of_all.facts.shape, (std::vector<std::uint64_t>{2, 2, 3}));
   ASSERT_EQ(of_all.facts.centers.size(), 12U);
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(of_all.facts.centers[i], (LonLat{lon[i], lat[i]}));
   const CellSet one = CellSet::of(of_all);
-  const CellSet other = CellSet::of(of_each);
+  const CellSet other = CellSet::of(corners_per_cell);
   ASSERT_EQ(one.num_cells(), 12U);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(one.areas()[i], other.areas()[i]);

@@ -16,7 +16,7 @@
 #include "exact/vector.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_files.h"
+#include "rondel/read_cells.h"
 #include "rondel/weight_files.h"
 #include "support/temporary_files.h"
 #include "unit/meshing/writer.h"

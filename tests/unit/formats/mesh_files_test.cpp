@@ -3,8 +3,6 @@
 
 // One diagram in all conventions of meshes, grids with and without bounds, and what is wrong in files.
 
-#include "rondel/mesh_files.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "exact/vector.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/read_cells.h"
 #include "rondel/weight_files.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
@@ -103,7 +102,7 @@ void expect_diagram(const CellTable& table, const MeshOfDiagram& mesh, const cha
   EXPECT_EQ(table.facts.convention, convention);
   ASSERT_EQ(table.num_cells(), num_sites);
   const CellSet cell_set = CellSet::of(table);
-  EXPECT_TRUE(cell_set.is_cover());
+  EXPECT_TRUE(cell_set.covers_sphere());
   for (std::size_t i = 0; i < num_sites; ++i) {
     EXPECT_NEAR(cell_set.areas()[i], mesh.areas[i], tolerance);
   }
@@ -360,7 +359,7 @@ TEST(overlay_mesh_files, cf_lines_between_coordinates) {
   EXPECT_EQ(table.grid->lat_deg, (Doubles{90, 40, 0, -40, -90}));
   EXPECT_EQ(table.facts.shape, (std::vector<std::uint64_t>{4, 4}));
   EXPECT_EQ(table.facts.centers[5], (LonLat{90, 20}));
-  EXPECT_TRUE(CellSet::of(table).is_cover());
+  EXPECT_TRUE(CellSet::of(table).covers_sphere());
   EXPECT_FALSE(CellSet::of(table, GridSides::great_circles).areas().empty());
   // A region, and rows with the poles as coordinates.
   EXPECT_EQ(lonlat_table({5, 6, 7}, {50, 52}).grid->lat_deg, (Doubles{49, 51, 53}));
@@ -414,7 +413,7 @@ TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
     }
   }
   const CellSet cells = CellSet::polygons(cells_of_corners(corners, mesh.most));
-  EXPECT_TRUE(cells.is_cover());
+  EXPECT_TRUE(cells.covers_sphere());
   ASSERT_EQ(cells.num_cells(), num_sites);
   for (std::size_t i = 0; i < num_sites; ++i) {
     EXPECT_NEAR(cells.areas()[i], mesh.areas[i], 1e-12) << i;

@@ -101,7 +101,7 @@ TEST(weight_check, takes_rows_below_one_where_fractions_are_not_known) {
   EXPECT_EQ(faults_of(file), Lines{});
   EXPECT_TRUE(check_weights(file).sums_are_at_most_1);
   file.weights.values[3] = 0.125;
-  EXPECT_EQ(check_weights(file).least_row, 0.125);
+  EXPECT_EQ(check_weights(file).min_row, 0.125);
   file = three_of_four();
   file.target.fractions.clear();
   file.weights.values[2] = 1.5;

@@ -175,10 +175,9 @@ Index first_face_above(const Triangulation& t, std::span<const Point> sites, Ind
   return no_index;
 }
 
-void expect_first_faces(std::span<const Point> sites, const Point& center,
-                        std::size_t least_hidden) {
+void expect_first_faces(std::span<const Point> sites, const Point& center, std::size_t min_hidden) {
   const Triangulation t = build(sites, center);
-  ASSERT_GE(t.hidden().size(), least_hidden);
+  ASSERT_GE(t.hidden().size(), min_hidden);
   for (const auto& [site, face] : t.hidden()) {
     ASSERT_EQ(face, first_face_above(t, sites, site)) << site;
   }

@@ -19,7 +19,7 @@ namespace rondel::test::of_collected_rows {
 namespace {
 
 using interpolation::CollectedRows;
-using interpolation::Ground;
+using interpolation::PreparedTriangulation;
 using interpolation::RowList;
 
 // An octahedron; sites 1, 4 and 7 are in one place.
@@ -27,23 +27,23 @@ const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0},  {0, 0, 1},  {-1, 0, 0},
                                   {0, 2, 0}, {0, -1, 0}, {0, 0, -1}, {0, 1, 0}};
 
 // Appends the row of a target, with these weights of sites.
-void append(const Ground& ground, const CollectedRows& rows, Index target,
+void append(const PreparedTriangulation& prepared, const CollectedRows& rows, Index target,
             const std::vector<std::pair<Index, double>>& weights, RowList& list) {
   interpolation::Row row;
-  for (const auto& [site, weight] : weights) row.push_back({ground.vertex_of(site), weight});
+  for (const auto& [site, weight] : weights) row.push_back({prepared.vertex_of(site), weight});
   rows.append(target, row, list);
 }
 
 TEST(collected_rows, are_in_the_order_of_targets) {
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   for (const bool is_second_first : {false, true}) {
-    CollectedRows rows(ground, SharedPlace::first);
+    CollectedRows rows(prepared, SharedPlace::first);
     RowList one;
-    append(ground, rows, 2, {{0, 0.25}, {5, 0.75}}, one);
-    append(ground, rows, 0, {{3, 1}}, one);
+    append(prepared, rows, 2, {{0, 0.25}, {5, 0.75}}, one);
+    append(prepared, rows, 0, {{3, 1}}, one);
     RowList two;
-    append(ground, rows, 3, {{1, 0.5}, {2, 0.125}, {6, 0.375}}, two);
+    append(prepared, rows, 3, {{1, 0.5}, {2, 0.125}, {6, 0.375}}, two);
     rows.add(is_second_first ? two : one);
     rows.add(is_second_first ? one : two);
     const Weights weights = rows.joined(5, 2);
@@ -56,11 +56,11 @@ TEST(collected_rows, are_in_the_order_of_targets) {
 
 TEST(collected_rows, have_equal_parts_for_sites_in_one_place) {
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
-  CollectedRows rows(ground, SharedPlace::mean);
+  const PreparedTriangulation prepared(triangulation);
+  CollectedRows rows(prepared, SharedPlace::mean);
   RowList list;
-  append(ground, rows, 0, {{0, 0.25}, {1, 0.75}}, list);
-  append(ground, rows, 1, {{1, 1.5}, {2, -0.5}}, list);
+  append(prepared, rows, 0, {{0, 0.25}, {1, 0.75}}, list);
+  append(prepared, rows, 1, {{1, 1.5}, {2, -0.5}}, list);
   rows.add(list);
   const Weights weights = rows.joined(2, 1);
   EXPECT_EQ(weights.offsets, (std::vector<std::uint64_t>{0, 4, 8}));
@@ -70,8 +70,8 @@ TEST(collected_rows, have_equal_parts_for_sites_in_one_place) {
 
 TEST(collected_rows, of_nobody_are_empty) {
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
-  CollectedRows rows(ground, SharedPlace::first);
+  const PreparedTriangulation prepared(triangulation);
+  CollectedRows rows(prepared, SharedPlace::first);
   rows.add({});
   EXPECT_EQ(rows.joined(2, 1).offsets, (std::vector<std::uint64_t>{0, 0, 0}));
   EXPECT_EQ(rows.joined(0, 1).num_rows(), 0U);

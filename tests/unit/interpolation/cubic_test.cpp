@@ -29,9 +29,9 @@ struct RandomData {
   std::vector<double> values;
   std::vector<Point> gradients;
 
-  RandomData(const Ground& ground, Random& random) {
-    for (Index v = 0; v < ground.num_vertices(); ++v) {
-      const Point x = exact::to_point(exact::to_vector(ground.unit(v).hi));
+  RandomData(const PreparedTriangulation& prepared, Random& random) {
+    for (Index v = 0; v < prepared.num_vertices(); ++v) {
+      const Point x = exact::to_point(exact::to_vector(prepared.unit(v).hi));
       const Point g = random.direction();
       values.push_back(random.signed_unit());
       gradients.push_back(g - dot(g, x) * x);
@@ -40,12 +40,13 @@ struct RandomData {
 };
 
 // By site, as the triangulation names them. Gradients are made tangent in every digit.
-std::vector<CubicOracle::Data> oracle_data(const Ground& ground, const RandomData& data) {
-  std::vector<CubicOracle::Data> result(ground.num_sites());
-  for (Index v = 0; v < ground.num_vertices(); ++v) {
-    const RealVector x = *normalized(to_real(ground.point(v) - ground.center()));
+std::vector<CubicOracle::Data> oracle_data(const PreparedTriangulation& prepared,
+                                           const RandomData& data) {
+  std::vector<CubicOracle::Data> result(prepared.num_sites());
+  for (Index v = 0; v < prepared.num_vertices(); ++v) {
+    const RealVector x = *normalized(to_real(prepared.point(v) - prepared.center()));
     const RealVector g = to_real(data.gradients[v]);
-    result[ground.name(v)] = {x, Real(data.values[v]), g - inner(g, x) * x};
+    result[prepared.name(v)] = {x, Real(data.values[v]), g - inner(g, x) * x};
   }
   return result;
 }
@@ -76,17 +77,17 @@ std::vector<Sample> samples() {
 TEST(interpolation_cubic, agrees_with_its_definition) {
   for (const Sample& sample : samples()) {
     const Triangulation triangulation = delaunay(sample.sites);
-    const Ground ground(triangulation);
+    const PreparedTriangulation prepared(triangulation);
     Random random(8);
-    const RandomData data(ground, random);
-    const CubicOracle oracle(triangulation, oracle_data(ground, data));
-    CubicKernel kernel(ground);
-    CubicKernel undivided(ground, {}, Normalization::homogeneous);
+    const RandomData data(prepared, random);
+    const CubicOracle oracle(triangulation, oracle_data(prepared, data));
+    CubicKernel kernel(prepared);
+    CubicKernel undivided(prepared, {}, Normalization::homogeneous);
     int num_checked = 0;
-    for (const TargetPlace& place : places_in_faces(ground, scaled(40), random)) {
-      SlopeRow row;
+    for (const LocatedTarget& place : places_in_faces(prepared, scaled(40), random)) {
+      GradientRow row;
       kernel(place, row);
-      const RealVector u = *normalized(to_real(place.point - ground.center()));
+      const RealVector u = *normalized(to_real(place.point - prepared.center()));
       const Index face = place.location.face;
       const double size = std::max(1.0, largest_weight(row));
       // A random gradient moves values by the spacing.
@@ -110,9 +111,9 @@ TEST(interpolation_cubic, has_one_gradient_on_both_sides_of_an_edge) {
   const Real tiny = Real(0x1p-1000);
   for (const Sample& sample : samples()) {
     const Triangulation triangulation = delaunay(sample.sites);
-    const Ground ground(triangulation);
+    const PreparedTriangulation prepared(triangulation);
     Random random(9);
-    const CubicOracle oracle(triangulation, oracle_data(ground, RandomData(ground, random)));
+    const CubicOracle oracle(triangulation, oracle_data(prepared, RandomData(prepared, random)));
     for (std::size_t i = 0; i < scaled(8); ++i) {
       const Index face = static_cast<Index>(random.below(triangulation.num_faces()));
       const unsigned k = static_cast<unsigned>(random.below(3));
@@ -134,16 +135,16 @@ TEST(interpolation_cubic, has_one_gradient_on_both_sides_of_an_edge) {
 
 TEST(interpolation_cubic, meets_values_and_gradients) {
   const Triangulation triangulation = delaunay(samples()[0].sites);
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   Random random(10);
-  const RandomData data(ground, random);
-  CubicKernel kernel(ground);
-  for (Index v = 0; v < ground.num_vertices(); ++v) {
-    const Point x = unit_point(ground, v);
+  const RandomData data(prepared, random);
+  CubicKernel kernel(prepared);
+  for (Index v = 0; v < prepared.num_vertices(); ++v) {
+    const Point x = unit_point(prepared, v);
     const Point direction = cross_product(x, random.direction());
     const double step = 1e-7;
-    SlopeRow row;
-    kernel(place_of(ground, x + step * direction), row);
+    GradientRow row;
+    kernel(place_of(prepared, x + step * direction), row);
     const double expected = data.values[v] + step * dot(direction, data.gradients[v]);
     // The second derivative is about the gradient over the spacing.
     ASSERT_NEAR(sum_of(row, data.values, data.gradients), expected, 1e4 * step * step);
@@ -161,7 +162,7 @@ TEST(interpolation_cubic, undivided_it_reproduces_cubics) {
     sites.push_back({r * std::cos(turn), r * std::sin(turn), z});
   }
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   const auto f = [](const Point& p) {
     return p.x * p.x * p.x - 2 * p.x * p.y * p.z + 3 * p.y * p.y * p.z - p.x * p.z * p.z;
   };
@@ -172,14 +173,14 @@ TEST(interpolation_cubic, undivided_it_reproduces_cubics) {
   };
   std::vector<double> values;
   std::vector<Point> gradients;
-  for (Index v = 0; v < ground.num_vertices(); ++v) {
-    values.push_back(f(unit_point(ground, v)));
-    gradients.push_back(gradient(unit_point(ground, v)));
+  for (Index v = 0; v < prepared.num_vertices(); ++v) {
+    values.push_back(f(unit_point(prepared, v)));
+    gradients.push_back(gradient(unit_point(prepared, v)));
   }
-  CubicKernel kernel(ground, {}, Normalization::homogeneous);
+  CubicKernel kernel(prepared, {}, Normalization::homogeneous);
   Random random(11);
-  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
-    SlopeRow row;
+  for (const LocatedTarget& place : places_in_faces(prepared, 300, random)) {
+    GradientRow row;
     kernel(place, row);
     const Point u = exact::to_point(exact::to_vector(place.unit.hi));
     ASSERT_NEAR(sum_of(row, values, gradients), f(u), 1e-14);
@@ -204,20 +205,20 @@ std::array<double, 2> f0_errors(std::size_t n, std::uint64_t seed) {
   std::vector<Point> sites;
   for (std::size_t i = 0; i < n; ++i) sites.push_back(random.direction());
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   std::vector<double> values;
   std::vector<Point> exact;
   for (Index v = 0; v < n; ++v) {
-    values.push_back(f0(unit_point(ground, v)));
-    exact.push_back(f0_gradient(unit_point(ground, v)));
+    values.push_back(f0(unit_point(prepared, v)));
+    exact.push_back(f0_gradient(unit_point(prepared, v)));
   }
-  const std::vector<Point> estimated = gradients_of(gradient_rows(ground, {}, 1), values);
-  CubicKernel kernel(ground);
+  const std::vector<Point> estimated = gradients_of(gradient_rows(prepared, {}, 1), values);
+  CubicKernel kernel(prepared);
   std::array<double, 2> sums{};
   const std::size_t num_targets = 2000;
   for (std::size_t i = 0; i < num_targets; ++i) {
-    const TargetPlace place = place_of(ground, random.direction());
-    SlopeRow row;
+    const LocatedTarget place = place_of(prepared, random.direction());
+    GradientRow row;
     kernel(place, row);
     sums[0] += std::pow(sum_of(row, values, exact) - f0(place.point), 2);
     sums[1] += std::pow(sum_of(row, values, estimated) - f0(place.point), 2);
@@ -242,18 +243,18 @@ TEST(interpolation_cubic, gives_constants_back_to_4_ulp) {
     const SiteSet set = generator.make(200, 14);
     const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
     if (triangulation.dimension() < 2) continue;
-    const Ground ground(triangulation);
-    CubicKernel kernel(ground);
+    const PreparedTriangulation prepared(triangulation);
+    CubicKernel kernel(prepared);
     Random random(15);
-    for (const TargetPlace& place : places_in_faces(ground, scaled(100), random)) {
-      SlopeRow row;
+    for (const LocatedTarget& place : places_in_faces(prepared, scaled(100), random)) {
+      GradientRow row;
       kernel(place, row);
       ASSERT_NEAR(sum_of_weights(row), 1, 4 * 0x1p-52) << generator.name;
-      for (const SlopeShare& share : row) {
+      for (const GradientShare& share : row) {
         ASSERT_TRUE(std::isfinite(share.weight) && std::isfinite(share.slope.x) &&
                     std::isfinite(share.slope.y) && std::isfinite(share.slope.z))
             << generator.name;
-        const Point x = unit_point(ground, share.vertex);
+        const Point x = unit_point(prepared, share.vertex);
         ASSERT_LE(std::abs(dot(share.slope, x)), 1e-14 * (1 + norm(share.slope))) << generator.name;
       }
     }
@@ -262,21 +263,21 @@ TEST(interpolation_cubic, gives_constants_back_to_4_ulp) {
 
 TEST(interpolation_cubic, is_linear_where_a_corner_has_no_gradient) {
   const Triangulation triangulation = delaunay(samples()[0].sites);
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   Random random(16);
-  std::vector<std::uint8_t> has_gradient(ground.num_vertices(), 1);
+  std::vector<std::uint8_t> has_gradient(prepared.num_vertices(), 1);
   for (std::uint8_t& has : has_gradient) has = random.below(4) > 0 ? 1 : 0;
-  CubicKernel kernel(ground, has_gradient);
-  LinearKernel linear(ground);
-  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
-    SlopeRow row;
+  CubicKernel kernel(prepared, has_gradient);
+  LinearKernel linear(prepared);
+  for (const LocatedTarget& place : places_in_faces(prepared, 300, random)) {
+    GradientRow row;
     Row flat;
     kernel(place, row);
     linear(place, flat);
-    const bool is_linear = std::ranges::any_of(ground.mesh()[place.location.face].vertex,
+    const bool is_linear = std::ranges::any_of(prepared.mesh()[place.location.face].vertex,
                                                [&](Index v) { return has_gradient[v] == 0; });
     if (!is_linear) {
-      for (const SlopeShare& share : row) ASSERT_NE(has_gradient[share.vertex], 0);
+      for (const GradientShare& share : row) ASSERT_NE(has_gradient[share.vertex], 0);
       continue;
     }
     ASSERT_EQ(row.size(), flat.size());

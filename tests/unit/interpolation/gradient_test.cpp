@@ -51,10 +51,10 @@ TEST(interpolation_gradient, rows_have_two_rings_of_solid_faces) {
     const SiteSet set = generator.make(60, 3);
     const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
     if (triangulation.dimension() < 2) continue;
-    const Ground ground(triangulation);
-    const GradientRows rows = gradient_rows(ground, {}, 1);
-    ASSERT_EQ(rows.offsets.size(), ground.num_vertices() + 1);
-    for (Index v = 0; v < ground.num_vertices(); ++v) {
+    const PreparedTriangulation prepared(triangulation);
+    const GradientRows rows = gradient_rows(prepared, {}, 1);
+    ASSERT_EQ(rows.offsets.size(), prepared.num_vertices() + 1);
+    for (Index v = 0; v < prepared.num_vertices(); ++v) {
       std::set<Index> found;
       Point sum{};
       for (std::uint64_t k = rows.offsets[v]; k < rows.offsets[v + 1]; ++k) {
@@ -62,18 +62,18 @@ TEST(interpolation_gradient, rows_have_two_rings_of_solid_faces) {
         if (k == rows.offsets[v]) {
           ASSERT_EQ(rows.vertices[k], v) << generator.name;
         } else {
-          ASSERT_TRUE(found.insert(ground.name(rows.vertices[k])).second) << generator.name;
+          ASSERT_TRUE(found.insert(prepared.name(rows.vertices[k])).second) << generator.name;
           sum = sum + rows.weights[k];
         }
       }
       if (rows.offsets[v] == rows.offsets[v + 1]) continue;
       ASSERT_EQ(rows.weights[rows.offsets[v]], -1.0 * sum) << generator.name;
-      std::set<Index> expected = two_rings(triangulation, ground.name(v));
+      std::set<Index> expected = two_rings(triangulation, prepared.name(v));
       std::erase_if(expected, [&](Index w) {
-        return dot(unit_point(ground, v), unit_point(ground, ground.vertex_of(w))) < -0.499;
+        return dot(unit_point(prepared, v), unit_point(prepared, prepared.vertex_of(w))) < -0.499;
       });
       std::erase_if(found, [&](Index w) {
-        return dot(unit_point(ground, v), unit_point(ground, ground.vertex_of(w))) < -0.499;
+        return dot(unit_point(prepared, v), unit_point(prepared, prepared.vertex_of(w))) < -0.499;
       });
       ASSERT_EQ(found, expected) << generator.name;
     }
@@ -85,10 +85,10 @@ TEST(interpolation_gradient, does_not_depend_on_threads_or_on_the_order_of_sites
   std::vector<Point> sites;
   for (int i = 0; i < 3000; ++i) sites.push_back(random.direction());
   const Triangulation first = delaunay(sites);
-  const GradientRows expected = gradient_rows(Ground(first), {}, 1);
+  const GradientRows expected = gradient_rows(PreparedTriangulation(first), {}, 1);
   random.shuffle(sites);
   const Triangulation second = delaunay(sites);
-  const GradientRows found = gradient_rows(Ground(second), {}, 3);
+  const GradientRows found = gradient_rows(PreparedTriangulation(second), {}, 3);
   EXPECT_EQ(found.offsets, expected.offsets);
   EXPECT_EQ(found.vertices, expected.vertices);
   EXPECT_EQ(found.weights, expected.weights);
@@ -130,17 +130,17 @@ TEST(interpolation_gradient, is_right_in_small_patches) {
     std::vector<Point> sites;
     for (int i = 0; i < 400; ++i) sites.push_back(center + size * random.direction());
     const Triangulation triangulation = delaunay(sites);
-    const Ground ground(triangulation);
+    const PreparedTriangulation prepared(triangulation);
     const Point slope = random.direction();
     // slope.x about the center in units of the patch, from differences that are exact.
     std::vector<double> values;
-    for (Index v = 0; v < ground.num_vertices(); ++v) {
-      const Vec s = step(ground.unit(0), ground.unit(v));
+    for (Index v = 0; v < prepared.num_vertices(); ++v) {
+      const Vec s = step(prepared.unit(0), prepared.unit(v));
       values.push_back(dot(exact::to_vector(slope), s) / size);
     }
-    const std::vector<Point> gradients = gradients_of(gradient_rows(ground, {}, 1), values);
-    for (Index v = 0; v < ground.num_vertices(); ++v) {
-      const Point x = unit_point(ground, v);
+    const std::vector<Point> gradients = gradients_of(gradient_rows(prepared, {}, 1), values);
+    for (Index v = 0; v < prepared.num_vertices(); ++v) {
+      const Point x = unit_point(prepared, v);
       const Point expected = slope - dot(slope, x) * x;
       ASSERT_LE(norm(size * gradients[v] - expected), size < 1e-3 ? 1e-9 : 1e-4) << size;
     }

@@ -26,19 +26,19 @@ TEST(interpolation_hermite, gives_linear_functions_of_space_back) {
     const SiteSet set = generator.make(200, 1);
     const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
     if (triangulation.dimension() < 2) continue;
-    const Ground ground(triangulation);
+    const PreparedTriangulation prepared(triangulation);
     Random random(2);
     const Point slope = random.direction();
     std::vector<double> values;
     std::vector<Point> gradients;
-    for (Index v = 0; v < ground.num_vertices(); ++v) {
-      const Point x = unit_point(ground, v);
+    for (Index v = 0; v < prepared.num_vertices(); ++v) {
+      const Point x = unit_point(prepared, v);
       values.push_back(2 + dot(slope, x));
       gradients.push_back(slope - dot(slope, x) * x);
     }
-    HermiteKernel kernel(ground);
-    for (const TargetPlace& place : places_in_faces(ground, scaled(100), random)) {
-      SlopeRow row;
+    HermiteKernel kernel(prepared);
+    for (const LocatedTarget& place : places_in_faces(prepared, scaled(100), random)) {
+      GradientRow row;
       kernel(place, row);
       ASSERT_NEAR(sum_of_weights(row), 1, 4 * 0x1p-52) << generator.name;
       const Point u = exact::to_point(exact::to_vector(place.unit.hi));
@@ -74,14 +74,14 @@ TEST(interpolation_hermite, is_sibson_where_a_neighbor_has_no_gradient) {
   std::vector<Point> sites;
   for (int i = 0; i < 300; ++i) sites.push_back(random.direction());
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
-  std::vector<std::uint8_t> has_gradient(ground.num_vertices());
+  const PreparedTriangulation prepared(triangulation);
+  std::vector<std::uint8_t> has_gradient(prepared.num_vertices());
   for (std::uint8_t& has : has_gradient) has = random.below(5) > 0 ? 1 : 0;
-  HermiteKernel kernel(ground, has_gradient);
-  SibsonKernel sibson(ground);
+  HermiteKernel kernel(prepared, has_gradient);
+  SibsonKernel sibson(prepared);
   int num_without = 0;
-  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
-    SlopeRow row;
+  for (const LocatedTarget& place : places_in_faces(prepared, 300, random)) {
+    GradientRow row;
     Row flat;
     kernel(place, row);
     sibson(place, flat);

@@ -28,33 +28,33 @@
 namespace rondel {
 namespace {
 
-using interpolation::Ground;
+using interpolation::LocatedTarget;
 using interpolation::NaturalKernel;
 using interpolation::NaturalMethod;
+using interpolation::PreparedTriangulation;
 using interpolation::Row;
-using interpolation::TargetPlace;
 
 constexpr double weight_error = 1e-13;
 
 // The place of a target, as interpolation finds it.
-TargetPlace place_of(const Ground& ground, const Point& target) {
+LocatedTarget place_of(const PreparedTriangulation& prepared, const Point& target) {
   query::Cursor cursor;
-  cursor.vertex = ground.near(target);
-  return {target, exact::unit_vector(target, ground.center()),
-          ground.engine().locate(target, cursor)};
+  cursor.vertex = prepared.near(target);
+  return {target, exact::unit_vector(target, prepared.center()),
+          prepared.engine().locate(target, cursor)};
 }
 
-bool is_for_kernels(const TargetPlace& place) {
+bool is_for_kernels(const LocatedTarget& place) {
   return place.location.where == Where::face || place.location.where == Where::edge;
 }
 
-bool is_on_contour(const Ground& ground, const TargetPlace& place) {
+bool is_on_contour(const PreparedTriangulation& prepared, const LocatedTarget& place) {
   if (place.location.where != Where::edge) return false;
   const auto& [a, b, none] = place.location.sites;
-  for (std::size_t f = 0; f < ground.mesh().num_slots(); ++f) {
-    const auto& corners = ground.mesh()[static_cast<Index>(f)].vertex;
+  for (std::size_t f = 0; f < prepared.mesh().num_slots(); ++f) {
+    const auto& corners = prepared.mesh()[static_cast<Index>(f)].vertex;
     if (std::ranges::count(corners, a) + std::ranges::count(corners, b) == 2 &&
-        !ground.is_solid(static_cast<Index>(f)))
+        !prepared.is_solid(static_cast<Index>(f)))
       return true;
   }
   return false;
@@ -98,17 +98,17 @@ double largest_difference(const Row& row, const std::vector<double>& expected) {
   return largest;
 }
 
-void compare(const Ground& ground, const test::NaturalOracle& oracle, const Point& target,
-             Difference& difference) {
-  const TargetPlace place = place_of(ground, target);
-  if (!is_for_kernels(place) || is_on_contour(ground, place)) return;
+void compare(const PreparedTriangulation& prepared, const test::NaturalOracle& oracle,
+             const Point& target, Difference& difference) {
+  const LocatedTarget place = place_of(prepared, target);
+  if (!is_for_kernels(place) || is_on_contour(prepared, place)) return;
   const auto gnomonic = oracle.weights(target, test::NaturalPlane::gnomonic);
   const auto stereographic = oracle.weights(target, test::NaturalPlane::stereographic);
   ASSERT_FALSE(gnomonic.sibson.empty()) << "the cell reaches beyond the hemisphere";
   ASSERT_FALSE(stereographic.sibson.empty());
   const auto check = [&](NaturalMethod method, const std::vector<double>& expected) {
     Row row;
-    NaturalKernel kernel(ground, method);
+    NaturalKernel kernel(prepared, method);
     kernel(place, row);
     const double d = largest_difference(row, expected);
     EXPECT_LE(d, weight_error) << "method " << static_cast<int>(method) << ", target " << target.x
@@ -129,7 +129,7 @@ std::size_t largest_degree(const Triangulation& triangulation) {
 }
 
 // The definition takes the square of a ring's length, in long numbers: half a minute of 300.
-bool has_long_ring(interpolation::NaturalRegion& region, const TargetPlace& place) {
+bool has_long_ring(interpolation::NaturalRegion& region, const LocatedTarget& place) {
   if (!is_for_kernels(place)) return false;
   region.find(place);
   region.list_faces();
@@ -142,16 +142,16 @@ Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed,
   if (triangulation.dimension() < 2) return difference;
   // The definition takes the square of a ring's length, in long numbers.
   if (step > 1 && largest_degree(triangulation) > 40) step *= 6;
-  const Ground ground(triangulation);
+  const PreparedTriangulation prepared(triangulation);
   std::vector<Point> places;
-  for (Index v = 0; v < ground.num_vertices(); ++v) places.push_back(ground.point(v));
-  const test::NaturalOracle oracle(places, ground.center());
+  for (Index v = 0; v < prepared.num_vertices(); ++v) places.push_back(prepared.point(v));
+  const test::NaturalOracle oracle(places, prepared.center());
   test::Random random(seed);
   const std::vector<Point> targets = targets_of(triangulation, set.sites, random);
-  interpolation::NaturalRegion region(ground);
+  interpolation::NaturalRegion region(prepared);
   for (std::size_t i = 0; i < targets.size(); i += step) {
-    if (step > 1 && has_long_ring(region, place_of(ground, targets[i]))) continue;
-    compare(ground, oracle, targets[i], difference);
+    if (step > 1 && has_long_ring(region, place_of(prepared, targets[i]))) continue;
+    compare(prepared, oracle, targets[i], difference);
   }
   return difference;
 }
@@ -176,17 +176,17 @@ TEST(interpolation_natural, the_region_is_that_of_the_query) {
     const test::SiteSet set = generator.make(60, 9);
     const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
     if (triangulation.dimension() < 2) continue;
-    const Ground ground(triangulation);
-    interpolation::NaturalRegion region(ground);
+    const PreparedTriangulation prepared(triangulation);
+    interpolation::NaturalRegion region(prepared);
     test::Random random(5);
     for (const Point& target : test::query_points(set.sites, set.sphere.center, random)) {
-      const TargetPlace place = place_of(ground, target);
+      const LocatedTarget place = place_of(prepared, target);
       if (!is_for_kernels(place)) continue;
       region.find(place);
       region.list_faces();
       query::Cursor cursor;
-      cursor.vertex = ground.near(target);
-      const auto faces = ground.engine().conflict_region(target, cursor);
+      cursor.vertex = prepared.near(target);
+      const auto faces = prepared.engine().conflict_region(target, cursor);
       ASSERT_EQ(region.faces().size(), faces.size());
       ASSERT_EQ(region.ring().size(), faces.size() + 2);
       EXPECT_EQ(region.ring().front(), std::ranges::min(region.ring()));
@@ -194,8 +194,8 @@ TEST(interpolation_natural, the_region_is_that_of_the_query) {
       std::set<std::set<Index>> expected;
       std::set<std::set<Index>> found;
       for (const Index f : faces) {
-        EXPECT_TRUE(ground.is_solid(f) || is_on_contour(ground, place));
-        const auto& corners = ground.mesh()[f].vertex;
+        EXPECT_TRUE(prepared.is_solid(f) || is_on_contour(prepared, place));
+        const auto& corners = prepared.mesh()[f].vertex;
         expected.insert({corners.begin(), corners.end()});
       }
       for (const auto& [a, apex, b, parent] : region.faces()) {

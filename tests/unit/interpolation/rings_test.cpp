@@ -24,19 +24,19 @@
 namespace rondel::test::of_rings {
 namespace {
 
-using interpolation::Ground;
+using interpolation::PreparedTriangulation;
 using interpolation::SolidRings;
 using interpolation::SolidStars;
 
 // The vertices that solid faces join with each vertex, by rank.
 std::vector<std::set<Index>> neighbors_of(const Triangulation& triangulation,
-                                          const Ground& ground) {
-  std::vector<std::set<Index>> neighbors(ground.num_vertices());
+                                          const PreparedTriangulation& prepared) {
+  std::vector<std::set<Index>> neighbors(prepared.num_vertices());
   for (Index face = 0; face < triangulation.num_faces(); ++face) {
     if (triangulation.is_ghost(face)) continue;
     for (const Index a : triangulation.faces()[face]) {
       for (const Index b : triangulation.faces()[face]) {
-        if (a != b) neighbors[ground.vertex_of(a)].insert(ground.vertex_of(b));
+        if (a != b) neighbors[prepared.vertex_of(a)].insert(prepared.vertex_of(b));
       }
     }
   }
@@ -45,9 +45,9 @@ std::vector<std::set<Index>> neighbors_of(const Triangulation& triangulation,
 
 void expect_rings(const std::vector<Point>& sites) {
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
-  const SolidStars stars(ground, 2);
-  const std::vector<std::set<Index>> neighbors = neighbors_of(triangulation, ground);
+  const PreparedTriangulation prepared(triangulation);
+  const SolidStars stars(prepared, 2);
+  const std::vector<std::set<Index>> neighbors = neighbors_of(triangulation, prepared);
   ASSERT_EQ(stars.size(), neighbors.size());
   SolidRings rings(stars);
   for (Index v = 0; v < stars.size(); ++v) {
@@ -57,9 +57,9 @@ void expect_rings(const std::vector<Point>& sites) {
     // Counterclockwise: each end is to the left of the way to the end before it, but for one gap at the border.
     std::size_t num_right = 0;
     for (std::size_t k = 0; k < stars[v].size(); ++k) {
-      const Point& here = ground.point(stars[v][k]);
-      const Point& next = ground.point(stars[v][(k + 1) % stars[v].size()]);
-      num_right += dot(ground.point(v), cross(here, next)) > 0 ? 0 : 1;
+      const Point& here = prepared.point(stars[v][k]);
+      const Point& next = prepared.point(stars[v][(k + 1) % stars[v].size()]);
+      num_right += dot(prepared.point(v), cross(here, next)) > 0 ? 0 : 1;
     }
     EXPECT_LE(num_right, 1U);
     std::set<Index> within = {v};
@@ -91,10 +91,10 @@ TEST(solid_rings, of_a_grid_leave_out_ghosts) {
   expect_rings(sites);
   // A ring begins where the one before ends: the nearest vertices come first.
   const Triangulation triangulation = delaunay(sites);
-  const Ground ground(triangulation);
-  const SolidStars stars(ground, 1);
+  const PreparedTriangulation prepared(triangulation);
+  const SolidStars stars(prepared, 1);
   SolidRings rings(stars);
-  const Index middle = ground.vertex_of(12);
+  const Index middle = prepared.vertex_of(12);
   const std::vector<Index> first(rings.find(middle, 1).begin(), rings.find(middle, 1).end());
   const std::span<const Index> second = rings.find(middle, 2);
   EXPECT_TRUE(std::equal(first.begin(), first.end(), second.begin()));

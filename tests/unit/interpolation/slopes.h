@@ -11,38 +11,39 @@
 
 #include "exact/unit_vector.h"
 #include "interpolation/gradient.h"
-#include "interpolation/ground.h"
+#include "interpolation/prepared_triangulation.h"
 #include "interpolation/row.h"
 #include "support/generators.h"
 
 namespace rondel::test {
 
-inline Point unit_point(const interpolation::Ground& ground, Index v) {
-  return exact::to_point(exact::to_vector(ground.unit(v).hi));
+inline Point unit_point(const interpolation::PreparedTriangulation& prepared, Index v) {
+  return exact::to_point(exact::to_vector(prepared.unit(v).hi));
 }
 
-inline interpolation::TargetPlace place_of(const interpolation::Ground& ground, const Point& p) {
+inline interpolation::LocatedTarget place_of(const interpolation::PreparedTriangulation& prepared,
+                                             const Point& p) {
   query::Cursor cursor;
-  cursor.vertex = ground.near(p);
-  return {p, exact::unit_vector(p, ground.center()), ground.engine().locate(p, cursor)};
+  cursor.vertex = prepared.near(p);
+  return {p, exact::unit_vector(p, prepared.center()), prepared.engine().locate(p, cursor)};
 }
 
 // Those of `count` random points over random solid faces that lie in a face or on an edge.
-inline std::vector<interpolation::TargetPlace> places_in_faces(const interpolation::Ground& ground,
-                                                               std::size_t count, Random& random) {
-  std::vector<interpolation::TargetPlace> places;
-  const auto& mesh = ground.mesh();
+inline std::vector<interpolation::LocatedTarget> places_in_faces(
+    const interpolation::PreparedTriangulation& prepared, std::size_t count, Random& random) {
+  std::vector<interpolation::LocatedTarget> places;
+  const auto& mesh = prepared.mesh();
   for (std::size_t i = 0; i < count; ++i) {
     const Index f = static_cast<Index>(random.below(mesh.num_slots()));
-    if (!ground.is_solid(f)) continue;
+    if (!prepared.is_solid(f)) continue;
     Point p{};
     double rest = 1;
     for (unsigned k = 0; k < 3; ++k) {
       const double part = k < 2 ? rest * random.unit() : rest;
       rest -= part;
-      p = p + part * unit_point(ground, mesh[f].vertex[k]);
+      p = p + part * unit_point(prepared, mesh[f].vertex[k]);
     }
-    const interpolation::TargetPlace place = place_of(ground, ground.center() + p);
+    const interpolation::LocatedTarget place = place_of(prepared, prepared.center() + p);
     if (place.location.where == Where::face || place.location.where == Where::edge) {
       places.push_back(place);
     }
@@ -50,7 +51,7 @@ inline std::vector<interpolation::TargetPlace> places_in_faces(const interpolati
   return places;
 }
 
-inline double sum_of(const interpolation::SlopeRow& row, const std::vector<double>& values,
+inline double sum_of(const interpolation::GradientRow& row, const std::vector<double>& values,
                      const std::vector<Point>& gradients) {
   double sum = 0;
   for (const auto& [v, weight, slope] : row) {
@@ -72,13 +73,13 @@ inline std::vector<Point> gradients_of(const interpolation::GradientRows& rows,
   return gradients;
 }
 
-inline double sum_of_weights(const interpolation::SlopeRow& row) {
+inline double sum_of_weights(const interpolation::GradientRow& row) {
   double sum = 0;
   for (const auto& share : row) sum += share.weight;
   return sum;
 }
 
-inline double largest_weight(const interpolation::SlopeRow& row) {
+inline double largest_weight(const interpolation::GradientRow& row) {
   double largest = 0;
   for (const auto& share : row) largest = std::max(largest, std::abs(share.weight));
   return largest;

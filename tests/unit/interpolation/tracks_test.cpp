@@ -84,7 +84,7 @@ std::vector<Point> places_in_faces(const Triangulation& triangulation,
 }
 
 // Their errors are at most so many times those of linear.
-constexpr double most_overshoot = 2.5;
+constexpr double max_overshoot = 2.5;
 
 TEST(interpolation_tracks, methods_with_gradients_do_not_overshoot) {
   for (const TrackSites& set : track_sites()) {
@@ -104,8 +104,8 @@ TEST(interpolation_tracks, methods_with_gradients_do_not_overshoot) {
       };
       const double linear = error(Method::linear);
       ASSERT_GT(linear, 0.1) << set.name;
-      EXPECT_LT(error(Method::hermite), most_overshoot * linear) << set.name;
-      EXPECT_LT(error(Method::cubic), most_overshoot * linear) << set.name;
+      EXPECT_LT(error(Method::hermite), max_overshoot * linear) << set.name;
+      EXPECT_LT(error(Method::cubic), max_overshoot * linear) << set.name;
     }
   }
 }

@@ -52,10 +52,10 @@ TEST(interpolation_weights, missing_values_are_left_out_up_to_a_share) {
   const std::vector<double> in = {nan, 4, 16, nan};
   for (const double v : applied(in)) EXPECT_TRUE(std::isnan(v));
   // Row 0 misses 0.75 of 1, row 2 misses 0.5: the limit counts as allowed.
-  EXPECT_EQ(applied(in, {.fill = -1, .most_missing = 0.49}), std::vector<double>({-1, -1, -1}));
-  EXPECT_EQ(applied(in, {.fill = -1, .most_missing = 0.5}), std::vector<double>({-1, -1, 10}));
-  EXPECT_EQ(applied(in, {.fill = -1, .most_missing = 1}), std::vector<double>({4, -1, 10}));
-  EXPECT_EQ(applied({nan, nan, nan, nan}, {.fill = -1, .most_missing = 1}),
+  EXPECT_EQ(applied(in, {.fill = -1, .max_missing = 0.49}), std::vector<double>({-1, -1, -1}));
+  EXPECT_EQ(applied(in, {.fill = -1, .max_missing = 0.5}), std::vector<double>({-1, -1, 10}));
+  EXPECT_EQ(applied(in, {.fill = -1, .max_missing = 1}), std::vector<double>({4, -1, 10}));
+  EXPECT_EQ(applied({nan, nan, nan, nan}, {.fill = -1, .max_missing = 1}),
             std::vector<double>({-1, -1, -1}));
 }
 
@@ -94,7 +94,7 @@ TEST(interpolation_weights, sums_beyond_the_largest_number_come_back) {
   };
   EXPECT_EQ(sum_of({0x1p1023, 0x1p1023, 0x1p1023}), 0x1p1023);
   EXPECT_EQ(sum_of({-0x1p1023, -0x1p1023, 0}), -0x1p1022);
-  EXPECT_EQ(sum_of({0x1p1023, 0x1p1023, nan}, {.most_missing = 0.5}), 0x1p1023);
+  EXPECT_EQ(sum_of({0x1p1023, 0x1p1023, nan}, {.max_missing = 0.5}), 0x1p1023);
   EXPECT_EQ(sum_of({0x1p1023, 0, 0}), std::numeric_limits<double>::infinity());
 }
 
@@ -158,10 +158,10 @@ TEST(interpolation_weights, arrays_of_other_lengths_are_refused) {
   expect_refused(InvalidInput::no_index, "the input has 5 numbers instead of 4", some, 5, 3);
   expect_refused(InvalidInput::no_index, "the output has 4 numbers instead of 3", some, 4, 4);
   expect_refused(InvalidInput::no_index, "the input has 4 numbers instead of 8", some, 4, 6, 2);
-  expect_refused(InvalidInput::no_index, "most_missing is 1.5, not in [0, 1]", some, 4, 3, 1,
-                 {.most_missing = 1.5});
-  expect_refused(InvalidInput::no_index, "most_missing is nan, not in [0, 1]", some, 4, 3, 1,
-                 {.most_missing = nan});
+  expect_refused(InvalidInput::no_index, "max_missing is 1.5, not in [0, 1]", some, 4, 3, 1,
+                 {.max_missing = 1.5});
+  expect_refused(InvalidInput::no_index, "max_missing is nan, not in [0, 1]", some, 4, 3, 1,
+                 {.max_missing = nan});
   // So many fields that their number times 4 is 0 again.
   constexpr std::size_t wraps = std::numeric_limits<std::size_t>::max() / 4 + 1;
   expect_refused(InvalidInput::no_index,

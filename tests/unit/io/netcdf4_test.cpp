@@ -81,7 +81,7 @@ TEST_F(netcdf4, has_what_was_written) {
   io::FileBytes on_disk(path_);
   for (const NetcdfReader& reader : {NetcdfReader(bytes_), NetcdfReader(on_disk)}) {
     EXPECT_EQ(reader.num_bytes(), bytes_.size());
-    EXPECT_EQ(reader.most_values(), bytes_.size() << 20U);
+    EXPECT_EQ(reader.max_values(), bytes_.size() << 20U);
     EXPECT_EQ(io::netcdf_text(reader.attributes(), "title"), "two words");
     ASSERT_GE(reader.dimensions().size(), 3U);
     EXPECT_EQ(reader.dimensions()[1].name, "columns");

@@ -175,7 +175,7 @@ TEST(netcdf_reader, has_every_number_wherever_reading_begins) {
       io::FileBytes on_disk(directory.with("a.nc", bytes));
       for (const NetcdfReader& reader : {NetcdfReader(bytes), NetcdfReader(on_disk)}) {
         EXPECT_EQ(reader.dimensions()[1].size, num_records);
-        EXPECT_EQ(reader.most_values(), bytes.size());
+        EXPECT_EQ(reader.max_values(), bytes.size());
         for (const ClassicVariable& expected : file.variables) {
           const NetcdfReader::Variable& variable = reader.require(expected.name);
           EXPECT_EQ(variable.num_values, expected.values.size());

@@ -101,7 +101,7 @@ TEST(cells, arrays_want_a_tolerance) {
     EXPECT_THROW(cell_polygons(t, dual, wrong), InvalidInput);
   }
   if (is_shortened()) return;  // millions of points
-  const LonLatPolygons finest = cell_polygons(t, dual, least_tolerance_deg);
+  const LonLatPolygons finest = cell_polygons(t, dual, min_tolerance_deg);
   EXPECT_EQ(cell_polygons(t, dual, 1e-300).rings.values, finest.rings.values);
 }
 

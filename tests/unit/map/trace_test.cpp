@@ -212,17 +212,17 @@ TEST(arc, lines_are_within_the_tolerance) {
       }
       return most;
     };
-    double most_of_pairs = 0;
+    double max_per_pairs = 0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       EXPECT_LE(farthest(points[i].position, points[i + 1].position), tolerance) << round;
       if (i > 0) {
-        most_of_pairs =
-            std::max(most_of_pairs, farthest(points[i - 1].position, points[i + 1].position));
+        max_per_pairs =
+            std::max(max_per_pairs, farthest(points[i - 1].position, points[i + 1].position));
       }
       EXPECT_LT(std::abs(dot(normal, points[i].point)), 1e-13);
     }
     if (points.size() > 2) {
-      EXPECT_GT(most_of_pairs, tolerance / 3) << round;
+      EXPECT_GT(max_per_pairs, tolerance / 3) << round;
     }
     num_points += static_cast<int>(points.size());
   }

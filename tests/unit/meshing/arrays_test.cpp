@@ -17,7 +17,7 @@
 namespace rondel::test {
 namespace {
 
-using mesh::MeshArrays;
+using mesh::VoronoiMesh;
 
 constexpr long double sphere_area = 4 * std::numbers::pi_v<long double>;
 
@@ -48,7 +48,7 @@ std::set<std::set<Index>> empty_triples(const std::vector<Point>& sites) {
 
 TEST(mesh_arrays, cells_and_vertices_are_those_of_all_empty_circles) {
   const auto sites = mesh_sites(60, 1);
-  const MeshArrays arrays = mesh::arrays(delaunay(sites));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(sites));
   std::set<std::set<Index>> triples;
   for (const Triple& cells : arrays.cells_on_vertex) triples.insert({cells.begin(), cells.end()});
   EXPECT_EQ(triples, empty_triples(sites));
@@ -67,7 +67,7 @@ TEST(mesh_arrays, cells_and_vertices_are_those_of_all_empty_circles) {
 }
 
 TEST(mesh_arrays, lists_run_counterclockwise_and_fit_together) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 2)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(500, 2)));
   for (Index cell = 0; cell < arrays.num_cells(); ++cell) {
     const LongPoint z = to_long(arrays.cell_points[cell]);
     for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
@@ -104,7 +104,7 @@ TEST(mesh_arrays, lengths_and_areas_are_those_of_long_double) {
   for (const auto& sites : {mesh_sites(400, 3), icosahedral_sites(0), mesh_sites(20, 5)}) {
     const Triangulation triangulation = delaunay(sites);
     if (triangulation.num_ghost_faces() > 0) continue;
-    const MeshArrays arrays = mesh::arrays(triangulation, {.radius = radius});
+    const VoronoiMesh arrays = mesh::make_mesh(triangulation, {.radius = radius});
     const auto at_one = [&](const Point& p) { return unit(to_long(p)); };
     for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
       const auto [a, b] = arrays.cells_on_edge[e];
@@ -148,7 +148,7 @@ TEST(mesh_arrays, lengths_and_areas_are_those_of_long_double) {
 TEST(mesh_arrays, kites_add_up_to_cells_and_the_sphere) {
   for (const auto& sites : {mesh_sites(20000, 4), icosahedral_sites(4)}) {
     const Triangulation triangulation = delaunay(sites);
-    const MeshArrays arrays = mesh::arrays(triangulation);
+    const VoronoiMesh arrays = mesh::make_mesh(triangulation);
     const std::vector<double> areas = rondel::areas(triangulation);
     long double kites = 0;
     for (const auto& of : arrays.kite_areas) kites += of[0] + of[1] + of[2];
@@ -163,7 +163,7 @@ TEST(mesh_arrays, kites_add_up_to_cells_and_the_sphere) {
 }
 
 TEST(mesh_arrays, weights_do_no_work_and_turn_a_rotation) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(4)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(4)));
   const mesh::TangentialWeights rows = mesh::tangential_weights(arrays);
   std::map<std::pair<Index, Index>, double> weights;
   for (Index e = 0; e < arrays.num_edges(); ++e) {
@@ -198,8 +198,8 @@ TEST(mesh_arrays, weights_do_no_work_and_turn_a_rotation) {
 
 TEST(mesh_arrays, threads_do_not_change_a_bit) {
   const Triangulation triangulation = delaunay(mesh_sites(30000, 6));
-  EXPECT_EQ(mesh::arrays(triangulation, {}, {.threads = 1}),
-            mesh::arrays(triangulation, {}, {.threads = 2}));
+  EXPECT_EQ(mesh::make_mesh(triangulation, {}, {.threads = 1}),
+            mesh::make_mesh(triangulation, {}, {.threads = 2}));
 }
 
 TEST(mesh_arrays, angles_at_the_poles_are_those_of_longitude_zero) {
@@ -208,7 +208,7 @@ TEST(mesh_arrays, angles_at_the_poles_are_those_of_longitude_zero) {
   for (const double lat : {60.0, 0.0, -40.0, -80.0}) {
     for (int i = 0; i < 5; ++i) sites.push_back(unit_vector_deg(72.0 * i + lat + 3, lat + i));
   }
-  const MeshArrays arrays = mesh::arrays(delaunay(sites));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(sites));
   const auto at = std::ranges::find(arrays.cells_on_edge, std::array<Index, 2>{0, 1});
   ASSERT_NE(at, arrays.cells_on_edge.end());
   const auto e = static_cast<std::size_t>(at - arrays.cells_on_edge.begin());
@@ -222,7 +222,7 @@ TEST(mesh_arrays, angles_at_the_poles_are_those_of_longitude_zero) {
 std::string refusal(const std::vector<Point>& sites, const mesh::MeshOptions& options = {},
                     const Options& build = {}) {
   try {
-    mesh::arrays(delaunay(sites, build), options);
+    mesh::make_mesh(delaunay(sites, build), options);
   } catch (const InvalidInput& error) {
     return error.what() + (" at " + std::to_string(error.index()));
   }
@@ -253,22 +253,22 @@ TEST(mesh_arrays, cocircular_sites_are_named_or_allowed) {
     cube.push_back({i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i < 4 ? -1.0 : 1.0});
   }
   EXPECT_NE(refusal(cube).find("lie on one circle"), std::string::npos);
-  const MeshArrays arrays = mesh::arrays(delaunay(cube), {.allow_zero_edges = true});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(cube), {.allow_zero_edges = true});
   EXPECT_EQ(std::ranges::count(arrays.vertex_distances, 0.0), 6);
   for (const double area : arrays.cell_areas) EXPECT_NEAR(area, std::numbers::pi / 2, 1e-15);
   // Three of the circles go through the last corner; lengths are then below what rounding makes of 0.
   cube.back().x += 0x1p-49;
-  const MeshArrays moved = mesh::arrays(delaunay(cube), {.allow_zero_edges = true});
+  const VoronoiMesh moved = mesh::make_mesh(delaunay(cube), {.allow_zero_edges = true});
   EXPECT_EQ(std::ranges::count(moved.vertex_distances, 0.0), 3);
 }
 
 TEST(mesh_arrays, radii_are_from_the_least_to_the_largest) {
   const Triangulation triangulation = delaunay(mesh_sites(20, 1));
-  for (const double radius : {mesh::least_radius, mesh::largest_radius}) {
-    EXPECT_EQ(mesh::arrays(triangulation, {.radius = radius}).radius, radius);
+  for (const double radius : {mesh::min_radius, mesh::largest_radius}) {
+    EXPECT_EQ(mesh::make_mesh(triangulation, {.radius = radius}).radius, radius);
   }
-  for (const double radius : {mesh::least_radius / 2, mesh::largest_radius * 2, 0.0, -1.0}) {
-    EXPECT_THROW((void)mesh::arrays(triangulation, {.radius = radius}), InvalidInput);
+  for (const double radius : {mesh::min_radius / 2, mesh::largest_radius * 2, 0.0, -1.0}) {
+    EXPECT_THROW((void)mesh::make_mesh(triangulation, {.radius = radius}), InvalidInput);
   }
 }
 

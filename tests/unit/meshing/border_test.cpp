@@ -19,7 +19,7 @@
 #include "io/netcdf_reader.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "support/temporary_files.h"
 #include "unit/meshing/support.h"
 #include "unit/meshing/writer.h"
@@ -27,8 +27,8 @@
 namespace rondel::test {
 namespace {
 
-using mesh::MeshArrays;
 using mesh::MeshFormat;
+using mesh::VoronoiMesh;
 
 constexpr MeshFormat formats_of_cells[] = {MeshFormat::ugrid, MeshFormat::scrip, MeshFormat::esmf};
 
@@ -36,7 +36,7 @@ constexpr MeshFormat formats_of_cells[] = {MeshFormat::ugrid, MeshFormat::scrip,
 // have other numbers.
 class SameMesh {
  public:
-  SameMesh(const MeshArrays& found, const MeshArrays& wanted) : found_(found), wanted_(wanted) {}
+  SameMesh(const VoronoiMesh& found, const VoronoiMesh& wanted) : found_(found), wanted_(wanted) {}
 
   void expect() {
     ASSERT_EQ(found_.edges_on_cell.offsets, wanted_.edges_on_cell.offsets);
@@ -115,8 +115,8 @@ class SameMesh {
                 error * wanted_.radius * wanted_.radius);
   }
 
-  const MeshArrays& found_;
-  const MeshArrays& wanted_;
+  const VoronoiMesh& found_;
+  const VoronoiMesh& wanted_;
   std::vector<Index> vertices_;  // of those wanted, by those found
   std::vector<Index> edges_;
 };
@@ -125,7 +125,7 @@ class BorderedFiles : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path() const { return folder_.file("m.nc"); }
 
-  void expect_back(const MeshArrays& mesh) const {
+  void expect_back(const VoronoiMesh& mesh) const {
     for (const MeshFormat format : formats_of_cells) {
       SCOPED_TRACE(static_cast<int>(format));
       mesh::write(path(), mesh, {.format = format});
@@ -178,14 +178,14 @@ class BorderedFiles : public ::testing::Test {
   TemporaryDirectory folder_;
 };
 
-MeshArrays without(const MeshArrays& arrays, std::uint64_t seed, double share) {
+VoronoiMesh without(const VoronoiMesh& arrays, std::uint64_t seed, double share) {
   Random random(seed);
   std::vector<std::uint8_t> mask(arrays.num_cells());
   for (std::uint8_t& one : mask) one = random.unit() < share ? 1 : 0;
   mask[0] = 0;
   return mesh::cull(arrays, mask).arrays;
 }
-MeshArrays cap_of(const MeshArrays& arrays, double cosine) {
+VoronoiMesh cap_of(const VoronoiMesh& arrays, double cosine) {
   std::vector<std::uint8_t> mask;
   for (const Point& p : arrays.cell_points) {
     mask.push_back(
@@ -193,7 +193,7 @@ MeshArrays cap_of(const MeshArrays& arrays, double cosine) {
   }
   return mesh::cull(arrays, mask).arrays;
 }
-std::vector<std::vector<Index>> rings_of(const MeshArrays& arrays) {
+std::vector<std::vector<Index>> rings_of(const VoronoiMesh& arrays) {
   std::vector<std::vector<Index>> rings;
   for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
     rings.emplace_back(arrays.vertices_on_cell.begin() +
@@ -205,7 +205,7 @@ std::vector<std::vector<Index>> rings_of(const MeshArrays& arrays) {
 }
 
 TEST_F(BorderedFiles, come_back_with_all_cells_edges_and_kites) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(600, 35)), {.radius = 6371229});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(600, 35)), {.radius = 6371229});
   // Islands, lakes, and cells alone.
   for (const double share : {0.02, 0.5, 0.9}) expect_back(without(arrays, 9, share));
   for (const double cosine : {-0.9, 0.3, 0.95, 1.0}) expect_back(cap_of(arrays, cosine));
@@ -213,16 +213,16 @@ TEST_F(BorderedFiles, come_back_with_all_cells_edges_and_kites) {
 
 TEST_F(BorderedFiles, of_symmetric_meshes_come_back) {
   // What is left has many centers on one circle without a center inside.
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(3)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(3)));
   for (const double cosine : {-0.99, 0.0, 0.8}) expect_back(cap_of(arrays, cosine));
   expect_back(without(arrays, 4, 0.3));
 }
 
 TEST_F(BorderedFiles, take_radius_and_density_of_the_options) {
-  const MeshArrays culled = cap_of(mesh::arrays(delaunay(mesh_sites(200, 36))), 0.2);
+  const VoronoiMesh culled = cap_of(mesh::make_mesh(delaunay(mesh_sites(200, 36))), 0.2);
   mesh::write(path(), culled, {.format = MeshFormat::ugrid});
   const std::vector<double> density(culled.num_cells(), 0.5);
-  const MeshArrays found = mesh::read_mesh(path(), {.radius = 3, .density = density});
+  const VoronoiMesh found = mesh::read_mesh(path(), {.radius = 3, .density = density});
   EXPECT_EQ(found.radius, 3);
   EXPECT_EQ(found.density, density);
   for (std::size_t i = 0; i < culled.num_cells(); ++i) {
@@ -232,7 +232,7 @@ TEST_F(BorderedFiles, take_radius_and_density_of_the_options) {
 }
 
 TEST_F(BorderedFiles, threads_do_not_change_them) {
-  mesh::write(path(), without(mesh::arrays(delaunay(mesh_sites(20000, 37))), 3, 0.2),
+  mesh::write(path(), without(mesh::make_mesh(delaunay(mesh_sites(20000, 37))), 3, 0.2),
               {.format = MeshFormat::scrip});
   EXPECT_EQ(mesh::read_mesh(path(), {}, {.threads = 1}),
             mesh::read_mesh(path(), {}, {.threads = 2}));
@@ -243,7 +243,7 @@ TEST_F(BorderedFiles, parts_that_touch_in_a_corner_have_a_vertex_each) {
   const std::vector<Point> centers = {normalized({1, 1, 1}), normalized({-1, -1, 1})};
   const std::vector<Point> corners = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
   put(centers, {{0, 1, 2}, {3, 4, 2}}, corners);
-  const MeshArrays found = mesh::read_mesh(path());
+  const VoronoiMesh found = mesh::read_mesh(path());
   EXPECT_EQ(found.num_vertices(), 6U);
   EXPECT_EQ(found.num_edges(), 6U);
   EXPECT_EQ(std::ranges::count(found.cells_on_cell, no_index), 6);
@@ -255,7 +255,7 @@ TEST_F(BorderedFiles, whose_corners_no_vertex_can_be_are_refused) {
   for (int i = 0; i < 8; ++i) {
     cube.push_back({i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i < 4 ? -1.0 : 1.0});
   }
-  const MeshArrays arrays = mesh::arrays(delaunay(cube), {.allow_zero_edges = true});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(cube), {.allow_zero_edges = true});
   const auto refusal_without = [&](std::vector<std::uint8_t> mask) {
     mesh::write(path(), mesh::cull(arrays, mask).arrays, {.format = MeshFormat::ugrid});
     return refusal();
@@ -268,7 +268,7 @@ TEST_F(BorderedFiles, whose_corners_no_vertex_can_be_are_refused) {
 }
 
 TEST_F(BorderedFiles, whose_cells_are_those_of_no_mesh_are_refused) {
-  const MeshArrays culled = cap_of(mesh::arrays(delaunay(icosahedral_sites(3))), 0.5);
+  const VoronoiMesh culled = cap_of(mesh::make_mesh(delaunay(icosahedral_sites(3))), 0.5);
   const auto rings = rings_of(culled);
   const auto refusal_of = [&](const auto& change) {
     auto points = culled.cell_points;
@@ -324,7 +324,7 @@ TEST_F(BorderedFiles, whose_rings_do_not_run_once_around_their_centers_are_refus
 
 // Masked cells are left out like those that cull() removes.
 TEST_F(BorderedFiles, masked_cells_are_left_out) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 31)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(300, 31)));
   std::vector<std::uint8_t> mask(arrays.num_cells());
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = arrays.cell_points[i].z > 0.2 ? 1 : 0;
   const auto left = std::ranges::count(mask, 0);
@@ -342,7 +342,7 @@ TEST_F(BorderedFiles, masked_cells_are_left_out) {
     };
     mask_cells(false);
     std::vector<std::string> remarks;
-    const MeshArrays found = mesh::read_mesh(path(), {}, {}, &remarks);
+    const VoronoiMesh found = mesh::read_mesh(path(), {}, {}, &remarks);
     SameMesh(found, mesh::cull(arrays, mask).arrays).expect();
     ASSERT_EQ(remarks.size(), 2U);
     EXPECT_EQ(remarks[0],
@@ -355,7 +355,7 @@ TEST_F(BorderedFiles, masked_cells_are_left_out) {
 }
 
 TEST_F(BorderedFiles, cells_of_the_sphere_that_lack_a_corner_are_refused) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(100, 32)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(100, 32)));
   auto rings = rings_of(arrays);
   rings[7].erase(rings[7].begin() + 1);
   put(arrays.cell_points, rings, arrays.vertex_points);
@@ -370,7 +370,7 @@ TEST_F(BorderedFiles, cells_of_the_sphere_that_lack_a_corner_are_refused) {
 
 TEST_F(BorderedFiles, without_a_border_may_differ_in_corners) {
   // Each cell has corners of its own, which others have a little elsewhere.
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(2)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(2)));
   std::vector<Point> corners;
   std::vector<std::vector<Index>> rings;
   Random random(5);

@@ -21,8 +21,8 @@ using formats::CellCorners;
 using Corners = std::vector<Index>;
 
 // A ring of vertices in this order, with the lengths of the edges from each to the next one.
-mesh::MeshArrays one_cell(const Corners& ring, const std::vector<double>& lengths) {
-  mesh::MeshArrays arrays;
+mesh::VoronoiMesh one_cell(const Corners& ring, const std::vector<double>& lengths) {
+  mesh::VoronoiMesh arrays;
   arrays.vertex_points.resize(8);
   arrays.edges_on_cell.offsets = {0, ring.size()};
   arrays.vertices_on_cell.assign(ring.begin(), ring.end());
@@ -33,7 +33,7 @@ mesh::MeshArrays one_cell(const Corners& ring, const std::vector<double>& length
   return arrays;
 }
 
-Corners corners_of(const mesh::MeshArrays& arrays, std::size_t cell = 0) {
+Corners corners_of(const mesh::VoronoiMesh& arrays, std::size_t cell = 0) {
   const CellCorners corners(arrays);
   Corners found;
   corners.visit(cell, [&](Index vertex) { found.push_back(vertex); });
@@ -63,7 +63,7 @@ TEST(cell_corners, edges_of_length_0_in_a_row_leave_one_corner) {
 
 // Two triangles and two quadrilaterals, one of which has three corners; blocks are by number of corners, then by index.
 TEST(cell_corners, group_cells_into_blocks) {
-  mesh::MeshArrays arrays;
+  mesh::VoronoiMesh arrays;
   arrays.vertex_points.resize(8);
   arrays.cell_points.resize(4);
   arrays.edges_on_cell.offsets = {0, 4, 7, 11, 14};

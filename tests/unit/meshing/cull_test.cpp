@@ -19,10 +19,10 @@
 #include "rondel/cell_set.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/mesh_files.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/polygon_files.h"
+#include "rondel/read_cells.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
 #include "unit/meshing/support.h"
@@ -33,8 +33,8 @@ namespace {
 using exact::cross;
 using exact::dot;
 using mesh::Culled;
-using mesh::MeshArrays;
 using mesh::MeshFormat;
+using mesh::VoronoiMesh;
 
 std::vector<std::uint8_t> mask_of(std::size_t n, std::uint64_t seed, double share) {
   Random random(seed);
@@ -43,7 +43,7 @@ std::vector<std::uint8_t> mask_of(std::size_t n, std::uint64_t seed, double shar
   return mask;
 }
 // Cells whose sites are farther than this from the first one.
-std::vector<std::uint8_t> cap_mask(const MeshArrays& arrays, double cosine) {
+std::vector<std::uint8_t> cap_mask(const VoronoiMesh& arrays, double cosine) {
   std::vector<std::uint8_t> mask;
   for (const Point& p : arrays.cell_points) {
     mask.push_back(dot(p, arrays.cell_points[0]) < cosine * arrays.radius * arrays.radius ? 1 : 0);
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> cap_mask(const MeshArrays& arrays, double cosine) {
 // All that stays, and how it is numbered, from lists of cells alone.
 class CullingOracle {
  public:
-  CullingOracle(const MeshArrays& arrays, const std::vector<std::uint8_t>& mask)
+  CullingOracle(const VoronoiMesh& arrays, const std::vector<std::uint8_t>& mask)
       : arrays_(arrays), mask_(mask) {
     for (Index i = 0; i < arrays.num_cells(); ++i) {
       if (mask[i] == 0) cells_.push_back(i);
@@ -87,7 +87,7 @@ class CullingOracle {
   [[nodiscard]] Index left(Index cell) const { return mask_[cell] == 0 ? cell : no_index; }
 
   void expect_cell(const Culled& culled, Index i) const {
-    const MeshArrays& found = culled.arrays;
+    const VoronoiMesh& found = culled.arrays;
     const Index old = cells_[i];
     EXPECT_EQ(culled.cells[old], i);
     EXPECT_EQ(found.cell_points[i], arrays_.cell_points[old]);
@@ -104,7 +104,7 @@ class CullingOracle {
   }
 
   void expect_edge(const Culled& culled, Index e) const {
-    const MeshArrays& found = culled.arrays;
+    const VoronoiMesh& found = culled.arrays;
     const Index old = edges_[e];
     EXPECT_EQ(culled.edges[old], e);
     const bool is_turned = mask_[arrays_.cells_on_edge[old][0]] != 0;
@@ -122,7 +122,7 @@ class CullingOracle {
   }
 
   void expect_vertex(const Culled& culled, Index v) const {
-    const MeshArrays& found = culled.arrays;
+    const VoronoiMesh& found = culled.arrays;
     const Index old = vertices_[v];
     EXPECT_EQ(culled.vertices[old], v);
     double sum = 0;
@@ -138,31 +138,31 @@ class CullingOracle {
     EXPECT_EQ(found.triangle_areas[v], sum);
   }
 
-  const MeshArrays& arrays_;
+  const VoronoiMesh& arrays_;
   const std::vector<std::uint8_t>& mask_;
   std::vector<Index> cells_;
   std::vector<Index> edges_;
   std::vector<Index> vertices_;
 };
 
-void expect_culled(const MeshArrays& arrays, const std::vector<std::uint8_t>& mask) {
+void expect_culled(const VoronoiMesh& arrays, const std::vector<std::uint8_t>& mask) {
   CullingOracle(arrays, mask).expect(mesh::cull(arrays, mask));
 }
 
 TEST(mesh_cull, keeps_what_touches_a_kept_cell) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(700, 31)), {.radius = 3});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(700, 31)), {.radius = 3});
   for (const double share : {0.0, 0.02, 0.5, 0.97}) expect_culled(arrays, mask_of(700, 5, share));
   expect_culled(arrays, cap_mask(arrays, 0.3));
 }
 
 TEST(mesh_cull, without_removed_cells_is_the_same_mesh) {
   std::vector<double> density(300, 0.5);
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 32)), {.density = density});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(300, 32)), {.density = density});
   EXPECT_EQ(mesh::cull(arrays, std::vector<std::uint8_t>(300, 0)).arrays, arrays);
 }
 
 TEST(mesh_cull, in_two_steps_is_in_one) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 33)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(500, 33)));
   const std::vector<std::uint8_t> first = mask_of(500, 1, 0.3);
   const std::vector<std::uint8_t> second = mask_of(500, 2, 0.3);
   std::vector<std::uint8_t> both(500);
@@ -176,10 +176,10 @@ TEST(mesh_cull, in_two_steps_is_in_one) {
 }
 
 TEST(mesh_cull, what_does_not_fit_is_refused) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 34)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(50, 34)));
   EXPECT_THROW(mesh::cull(arrays, std::vector<std::uint8_t>(49)), InvalidInput);
   EXPECT_THROW(mesh::cull(arrays, std::vector<std::uint8_t>(50, 1)), InvalidInput);
-  MeshArrays bad = arrays;
+  VoronoiMesh bad = arrays;
   bad.cells_on_edge[7][0] = no_index;
   EXPECT_THROW(mesh::cull(bad, std::vector<std::uint8_t>(50)), InvalidInput);
 }
@@ -193,22 +193,22 @@ class CulledFiles : public ::testing::Test {
 };
 
 TEST_F(CulledFiles, mpas_comes_back_bit_for_bit) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(600, 35)), {.radius = 6371229});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(600, 35)), {.radius = 6371229});
   for (const double share : {0.1, 0.5, 0.9}) {
-    const MeshArrays culled = mesh::cull(arrays, mask_of(600, 9, share)).arrays;
+    const VoronoiMesh culled = mesh::cull(arrays, mask_of(600, 9, share)).arrays;
     mesh::write(path("m.nc"), culled);
     EXPECT_EQ(mesh::read_mpas(path("m.nc")), culled);
   }
   std::vector<std::uint8_t> all_but_one(600, 1);
   all_but_one[17] = 0;
-  const MeshArrays one = mesh::cull(arrays, all_but_one).arrays;
+  const VoronoiMesh one = mesh::cull(arrays, all_but_one).arrays;
   mesh::write(path("m.nc"), one);
   EXPECT_EQ(mesh::read_mpas(path("m.nc")), one);
 }
 
 TEST_F(CulledFiles, cells_of_every_format_are_those_that_are_left) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(3)));
-  const MeshArrays culled = mesh::cull(arrays, cap_mask(arrays, 0.2)).arrays;
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(3)));
+  const VoronoiMesh culled = mesh::cull(arrays, cap_mask(arrays, 0.2)).arrays;
   for (const MeshFormat format :
        {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::scrip, MeshFormat::esmf}) {
     mesh::write(path("m.nc"), culled, {.format = format});
@@ -233,8 +233,8 @@ TEST_F(CulledFiles, cells_of_every_format_are_those_that_are_left) {
 }
 
 TEST_F(CulledFiles, numbers_of_the_border_are_none) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(2)));
-  const MeshArrays culled = mesh::cull(arrays, cap_mask(arrays, 0)).arrays;
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(2)));
+  const VoronoiMesh culled = mesh::cull(arrays, cap_mask(arrays, 0)).arrays;
   const auto content_of = [&](MeshFormat format) {
     mesh::write(path("m.nc"), culled, {.format = format});
     std::ifstream in(path("m.nc"), std::ios::binary);
@@ -280,8 +280,8 @@ TEST_F(CulledFiles, numbers_of_the_border_are_none) {
 }
 
 TEST(mesh_cull, quality_is_that_of_what_is_left) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(4)), {.radius = 2});
-  const MeshArrays culled = mesh::cull(arrays, cap_mask(arrays, 0.1)).arrays;
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(4)), {.radius = 2});
+  const VoronoiMesh culled = mesh::cull(arrays, cap_mask(arrays, 0.1)).arrays;
   const mesh::Quality quality = mesh::quality(culled);
   std::size_t triangles = 0;
   for (const Triple& cells : culled.cells_on_vertex) {
@@ -310,7 +310,7 @@ TEST(mesh_cull, quality_is_that_of_what_is_left) {
 }
 
 TEST(mesh_cull, weights_between_kept_cells_are_the_same) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(400, 36)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(400, 36)));
   const Culled culled = mesh::cull(arrays, mask_of(400, 3, 0.2));
   const mesh::TangentialWeights before = mesh::tangential_weights(arrays);
   const mesh::TangentialWeights now = mesh::tangential_weights(culled.arrays);

@@ -24,7 +24,7 @@
 #include "io/netcdf_writer.h"
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
@@ -34,9 +34,9 @@
 namespace rondel::test {
 namespace {
 
-using mesh::MeshArrays;
 using mesh::MeshFormat;
 using mesh::NetcdfKind;
+using mesh::VoronoiMesh;
 
 class MeshFiles : public ::testing::Test {
  protected:
@@ -63,8 +63,8 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
   for (std::size_t i = 0; i < density.size(); ++i)
     density[i] = 1 / (1 + 0.001 * static_cast<double>(i));
   for (const NetcdfKind kind : {NetcdfKind::cdf2, NetcdfKind::cdf5}) {
-    const MeshArrays arrays =
-        mesh::arrays(delaunay(mesh_sites(2000, 12)), {.radius = 6371229, .density = density});
+    const VoronoiMesh arrays =
+        mesh::make_mesh(delaunay(mesh_sites(2000, 12)), {.radius = 6371229, .density = density});
     mesh::write(path("m.nc"), arrays, {.kind = kind});
     EXPECT_EQ(bytes("m.nc")[3], kind == NetcdfKind::cdf2 ? 2 : 5);
     EXPECT_EQ(mesh::read_mpas(path("m.nc")), arrays);
@@ -73,7 +73,7 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
 }
 
 TEST_F(MeshFiles, a_string_gets_the_bytes_of_the_file) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 12)), {});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(300, 12)), {});
   for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::exodus}) {
     mesh::write(path("m.nc"), arrays, {.format = format});
     std::string in_memory;
@@ -83,7 +83,7 @@ TEST_F(MeshFiles, a_string_gets_the_bytes_of_the_file) {
 }
 
 TEST_F(MeshFiles, the_content_of_mpas_is_that_of_the_file) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 12)), {.radius = 3});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(300, 12)), {.radius = 3});
   std::string in_memory;
   mesh::write(FileName::in_memory(in_memory, "nc"), arrays);
   const io::NetcdfReader file{std::string_view(in_memory)};
@@ -104,7 +104,7 @@ TEST_F(MeshFiles, the_content_of_mpas_is_that_of_the_file) {
 
 // What a file is says its content, not its name.
 TEST_F(MeshFiles, netcdf_of_any_name_is_read) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(20, 12)), {});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(20, 12)), {});
   mesh::write(path("m.nc"), arrays, {});
   std::filesystem::rename(path("m.nc"), path("m.mesh"));
   EXPECT_EQ(mesh::read_mesh(path("m.mesh")), arrays);
@@ -120,7 +120,7 @@ TEST_F(MeshFiles, netcdf_of_any_name_is_read) {
 
 TEST_F(MeshFiles, threads_do_not_change_a_byte) {
   const std::size_t n = is_shortened() ? 9000 : 20000;  // a thread takes 256 KiB of rows at a time
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(n, 13)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(n, 13)));
   for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::scrip,
                                   MeshFormat::esmf, MeshFormat::exodus}) {
     mesh::write(path("1.nc"), arrays, {.format = format}, {.threads = 1});
@@ -130,10 +130,10 @@ TEST_F(MeshFiles, threads_do_not_change_a_byte) {
 }
 
 TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 14)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(500, 14)));
   for (const MeshFormat format : {MeshFormat::ugrid, MeshFormat::scrip, MeshFormat::esmf}) {
     // The radius is not in these files.
-    mesh::write(path("m.nc"), mesh::arrays(delaunay(mesh_sites(500, 14)), {.radius = 6371229}),
+    mesh::write(path("m.nc"), mesh::make_mesh(delaunay(mesh_sites(500, 14)), {.radius = 6371229}),
                 {.format = format});
     if (format != MeshFormat::ugrid) {
       const std::string content = bytes("m.nc");
@@ -145,7 +145,7 @@ TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
       }
       EXPECT_NEAR(total / (4 * std::numbers::pi), 1, 1e-13);
     }
-    const MeshArrays found = mesh::read_mesh(path("m.nc"));
+    const VoronoiMesh found = mesh::read_mesh(path("m.nc"));
     EXPECT_EQ(found.edges_on_cell.offsets, arrays.edges_on_cell.offsets);
     for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
       EXPECT_NEAR(found.cell_areas[i] / arrays.cell_areas[i], 1, 1e-12);
@@ -154,7 +154,7 @@ TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
 }
 
 TEST_F(MeshFiles, numbers_of_mpas_are_those_of_its_specification) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(2)), {.radius = 2});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(2)), {.radius = 2});
   mesh::write(path("m.nc"), arrays);
   const std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
@@ -187,7 +187,7 @@ TEST_F(MeshFiles, numbers_of_mpas_are_those_of_its_specification) {
 }
 
 TEST_F(MeshFiles, qualities_of_mpas_are_those_of_distances_and_angles) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(400, 16)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(400, 16)));
   mesh::write(path("m.nc"), arrays);
   const std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
@@ -224,7 +224,7 @@ TEST_F(MeshFiles, qualities_of_mpas_are_those_of_distances_and_angles) {
 }
 
 TEST_F(MeshFiles, edges_of_ugrid_run_around_their_faces) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(100, 20)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(100, 20)));
   mesh::write(path("m.nc"), arrays, {.format = MeshFormat::ugrid});
   const std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
@@ -254,7 +254,7 @@ TEST_F(MeshFiles, edges_of_ugrid_run_around_their_faces) {
 }
 
 TEST_F(MeshFiles, a_graph_has_each_neighbor_on_both_lines) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 15)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(300, 15)));
   mesh::write_graph(path("graph.info"), arrays);
   std::ifstream in(path("graph.info"));
   std::size_t cells = 0;
@@ -272,7 +272,7 @@ TEST_F(MeshFiles, corners_of_edges_without_length_are_one) {
   for (int i = 0; i < 8; ++i) {
     cube.push_back({i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i < 4 ? -1.0 : 1.0});
   }
-  const MeshArrays arrays = mesh::arrays(delaunay(cube), {.allow_zero_edges = true});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(cube), {.allow_zero_edges = true});
   mesh::write(path("m.nc"), arrays, {.format = MeshFormat::exodus});
   const std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
@@ -295,8 +295,8 @@ TEST_F(MeshFiles, cdf2_refuses_variables_of_4_gib) {
 }
 
 TEST_F(MeshFiles, arrays_that_do_not_fit_are_refused) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 17)));
-  MeshArrays bad = arrays;
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(50, 17)));
+  VoronoiMesh bad = arrays;
   bad.kite_areas.pop_back();
   EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
   bad = arrays;
@@ -311,7 +311,7 @@ TEST_F(MeshFiles, arrays_that_do_not_fit_are_refused) {
   bad.vertex_points[7] = {0, 0, 1.1};
   EXPECT_THROW(mesh::quality(bad), InvalidInput);
   EXPECT_FALSE(std::filesystem::exists(path("m.nc")));
-  EXPECT_THROW(mesh::write_graph(path("g"), MeshArrays{}), InvalidInput);
+  EXPECT_THROW(mesh::write_graph(path("g"), VoronoiMesh{}), InvalidInput);
 }
 
 // A value of a variable, put into the bytes of a file.
@@ -336,7 +336,7 @@ void swap_values(std::string& content, const char* name, std::size_t size, std::
 }
 
 TEST_F(MeshFiles, cells_around_vertices_may_be_clockwise) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 21)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(50, 21)));
   mesh::write(path("m.nc"), arrays);
   std::string content = bytes("m.nc");
   for (std::size_t v = 0; v < arrays.num_vertices(); v += 2) {
@@ -348,7 +348,7 @@ TEST_F(MeshFiles, cells_around_vertices_may_be_clockwise) {
 }
 
 TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
-  mesh::write(path("m.nc"), mesh::arrays(delaunay(mesh_sites(50, 18))));
+  mesh::write(path("m.nc"), mesh::make_mesh(delaunay(mesh_sites(50, 18))));
   const std::string whole = bytes("m.nc");
   const auto refusal = [&](const char* name, std::size_t index, std::int32_t value) {
     std::string content = whole;
@@ -384,7 +384,7 @@ void set_number(std::string& content, const char* name, std::size_t index, doubl
 
 // In a file, and in arrays that somebody filled.
 TEST_F(MeshFiles, impossible_numbers_are_refused_with_their_place) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 18)), {.radius = 2});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(50, 18)), {.radius = 2});
   mesh::write(path("m.nc"), arrays);
   const std::string whole = bytes("m.nc");
   const auto refusal = [&](const char* name, double value) {
@@ -409,7 +409,7 @@ TEST_F(MeshFiles, impossible_numbers_are_refused_with_their_place) {
   EXPECT_EQ(refusal("angleEdge", -7), said("angleEdge", "-7 is less than -6.283185307179586"));
   const double angle = arrays.normal_angles[5];
   EXPECT_EQ(refusal("angleEdge", angle + (angle > 0 ? -6.28 : 6.28)), "");
-  MeshArrays bad = arrays;
+  VoronoiMesh bad = arrays;
   bad.cell_areas[7] = -3;
   EXPECT_THROW(mesh::write(path("bad.nc"), bad, {.format = MeshFormat::scrip}), InvalidInput);
   EXPECT_THROW(mesh::quality(bad), InvalidInput);
@@ -421,7 +421,7 @@ TEST_F(MeshFiles, impossible_numbers_are_refused_with_their_place) {
 
 // Numbers that are possible, but not those of the points; the oracle computes in long double.
 TEST_F(MeshFiles, numbers_that_contradict_the_points_are_refused_with_their_place) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(2)), {.radius = 3});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(2)), {.radius = 3});
   mesh::write(path("m.nc"), arrays);
   const std::string whole = bytes("m.nc");
   const auto refusal = [&](const char* name, std::size_t index, double value) {
@@ -470,7 +470,7 @@ TEST_F(MeshFiles, numbers_that_contradict_the_points_are_refused_with_their_plac
 }
 
 TEST_F(MeshFiles, cells_of_edges_in_the_other_order_contradict_the_angles) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(80, 22)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(80, 22)));
   mesh::write(path("m.nc"), arrays);
   std::string content = bytes("m.nc");
   for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
@@ -491,10 +491,10 @@ TEST_F(MeshFiles, cells_of_edges_in_the_other_order_contradict_the_angles) {
 
 // Edges of the border with the missing cell first or second, whose normals point inward or outward.
 TEST_F(MeshFiles, normals_at_a_border_point_outward) {
-  const MeshArrays whole = mesh::arrays(delaunay(mesh_sites(200, 23)));
+  const VoronoiMesh whole = mesh::make_mesh(delaunay(mesh_sites(200, 23)));
   std::vector<std::uint8_t> mask;
   for (const Point& p : whole.cell_points) mask.push_back(p.x > 0.3 ? 0 : 1);
-  const MeshArrays arrays = mesh::cull(whole, mask).arrays;
+  const VoronoiMesh arrays = mesh::cull(whole, mask).arrays;
   mesh::write(path("m.nc"), arrays);
   for (const auto& [are_inward, are_swapped] :
        {std::pair{false, true}, {true, false}, {true, true}}) {
@@ -507,7 +507,7 @@ TEST_F(MeshFiles, normals_at_a_border_point_outward) {
       if (are_inward) set_number(content, "angleEdge", e, turned);
     }
     put("first.nc", content);
-    const MeshArrays found = mesh::read_mpas(path("first.nc"));
+    const VoronoiMesh found = mesh::read_mpas(path("first.nc"));
     ASSERT_EQ(found.cells_on_edge, arrays.cells_on_edge);
     for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
       EXPECT_NEAR(found.normal_angles[e], arrays.normal_angles[e], 1e-15);
@@ -545,7 +545,7 @@ TEST_F(MeshFiles, three_cells_without_a_border_are_refused) {
 
 // Huge coordinates overflowed in the report on quality.
 TEST_F(MeshFiles, points_off_the_sphere_are_refused) {
-  MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 18)), {.radius = 6371229});
+  VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(50, 18)), {.radius = 6371229});
   mesh::write(path("m.nc"), arrays);
   std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
@@ -557,8 +557,8 @@ TEST_F(MeshFiles, points_off_the_sphere_are_refused) {
 }
 
 TEST_F(MeshFiles, cells_that_are_not_those_of_their_centers_are_refused) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(60, 19)));
-  MeshArrays moved = arrays;
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(60, 19)));
+  VoronoiMesh moved = arrays;
   moved.cell_points[17] = normalized(moved.cell_points[17] + Point{0.01, 0.02, 0});
   mesh::write(path("m.nc"), moved, {.format = MeshFormat::ugrid});
   EXPECT_NE(file_error([&] { mesh::read_mesh(path("m.nc")); }).find("is not the Voronoi cell"),

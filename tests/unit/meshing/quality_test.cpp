@@ -16,11 +16,11 @@
 namespace rondel::test {
 namespace {
 
-using mesh::MeshArrays;
 using mesh::Quality;
+using mesh::VoronoiMesh;
 
 TEST(mesh_quality, an_icosahedron_is_perfect_but_for_its_pentagons) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(0)), {.radius = 7});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(0)), {.radius = 7});
   const Quality quality = mesh::quality(arrays);
   EXPECT_EQ(quality.sides, (std::vector<std::uint64_t>{0, 0, 0, 0, 0, 12}));
   EXPECT_LT(quality.max_centroid_offset.value, 1e-15);
@@ -42,7 +42,7 @@ TEST(mesh_quality, an_icosahedron_is_perfect_but_for_its_pentagons) {
 }
 
 // The integral of |x - z|^2 by the middles of the pieces of many small triangles.
-double energy_by_points(const MeshArrays& arrays) {
+double energy_by_points(const VoronoiMesh& arrays) {
   long double total = 0;
   constexpr int steps = 24;
   for (std::size_t v = 0; v < arrays.num_vertices(); ++v) {
@@ -82,7 +82,7 @@ double energy_by_points(const MeshArrays& arrays) {
 }
 
 TEST(mesh_quality, energy_is_the_integral_of_the_squared_distance) {
-  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(1)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(icosahedral_sites(1)));
   const Quality quality = mesh::quality(arrays);
   const double sphere = 4 * std::numbers::pi;
   const double of_hexagons = sphere * sphere / 42 * 5 / (18 * std::sqrt(3.0));
@@ -90,15 +90,15 @@ TEST(mesh_quality, energy_is_the_integral_of_the_squared_distance) {
 }
 
 TEST(mesh_quality, the_limit_of_energy_is_that_of_hexagons) {
-  const double fine = mesh::quality(mesh::arrays(delaunay(icosahedral_sites(5)))).energy;
+  const double fine = mesh::quality(mesh::make_mesh(delaunay(icosahedral_sites(5)))).energy;
   EXPECT_GT(fine, 1);
   EXPECT_LT(fine, 1.05);
-  const double random = mesh::quality(mesh::arrays(delaunay(mesh_sites(10000, 8)))).energy;
+  const double random = mesh::quality(mesh::make_mesh(delaunay(mesh_sites(10000, 8)))).energy;
   EXPECT_GT(random, 1.5);
 }
 
 TEST(mesh_quality, random_sites_show_what_is_wrong_and_where) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(5000, 9)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(5000, 9)));
   const Quality quality = mesh::quality(arrays);
   const auto e = quality.min_edge_ratio.where;
   EXPECT_EQ(quality.min_edge_ratio.value, arrays.vertex_distances[e] / arrays.cell_distances[e]);
@@ -121,7 +121,7 @@ TEST(mesh_quality, shares_and_spacings_are_those_of_all_cells) {
   const std::vector<Point> sites = mesh_sites(9000, 12);
   std::vector<double> density;
   for (const Point& p : sites) density.push_back(0.6 + 0.4 * p.x);
-  const MeshArrays arrays = mesh::arrays(delaunay(sites), {.density = density});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(sites), {.density = density});
   const Quality quality = mesh::quality(arrays);
   std::size_t inside = 0;
   for (const Triple& cells : arrays.cells_on_vertex) {
@@ -146,7 +146,7 @@ TEST(mesh_quality, shares_and_spacings_are_those_of_all_cells) {
 
 // Also where the equal values are in several pieces.
 TEST(mesh_quality, the_first_of_equal_values_is_named) {
-  MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(3000, 13)));
+  VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(3000, 13)));
   std::ranges::fill(arrays.vertex_distances, 1);
   std::ranges::fill(arrays.cell_distances, 2);
   std::ranges::fill(arrays.cell_areas, 0.01);
@@ -158,14 +158,14 @@ TEST(mesh_quality, the_first_of_equal_values_is_named) {
 }
 
 TEST(mesh_quality, threads_do_not_change_a_bit) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(30000, 10)));
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(30000, 10)));
   EXPECT_EQ(mesh::quality_json(mesh::quality(arrays, {.threads = 1})),
             mesh::quality_json(mesh::quality(arrays, {.threads = 2})));
 }
 
 TEST(mesh_quality, reports_have_every_number) {
   const std::vector<double> density(200, 0.5);
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(200, 11)), {.density = density});
+  const VoronoiMesh arrays = mesh::make_mesh(delaunay(mesh_sites(200, 11)), {.density = density});
   const Quality quality = mesh::quality(arrays);
   const auto json = nlohmann::json::parse(mesh::quality_json(quality));
   EXPECT_TRUE(json["energy"].is_null());

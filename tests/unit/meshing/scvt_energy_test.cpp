@@ -42,8 +42,8 @@ struct Evaluated {
 
 Evaluated evaluate(const std::vector<Point>& sites, const SizeFunction* size,
                    const std::vector<std::uint8_t>& axes) {
-  MovingSurface surface(1);
-  EXPECT_TRUE(surface.follow(sites));
+  KineticDelaunay surface(1);
+  EXPECT_TRUE(surface.update(sites));
   Evaluated result;
   result.sums.resize(sites.size());
   result.report = CentroidalEnergy(size, 1)(surface, sites, axes, result.sums);
@@ -72,7 +72,7 @@ TEST(scvt_energy, closed_form_and_quadrature_of_constant_density_agree) {
 TEST(scvt_energy, closed_form_of_many_sites_is_that_of_the_report_on_quality) {
   const std::vector<Point> sites = sampled_sites(40000, nullptr, 3);
   const double energy = evaluate(sites, nullptr, axes_of(sites)).report.energy;
-  const double wanted = quality(arrays(delaunay(sites))).energy;
+  const double wanted = quality(make_mesh(delaunay(sites))).energy;
   EXPECT_NEAR(energy_over_hexagons(energy, sites.size()) / wanted, 1, 1e-9);
 }
 
@@ -120,15 +120,15 @@ TEST(scvt_energy, gradient_is_the_slope_of_the_energy) {
   }
 }
 
-std::set<Triple> faces_of(const MovingSurface& surface) {
+std::set<Triple> faces_of(const KineticDelaunay& surface) {
   return {surface.faces().begin(), surface.faces().end()};
 }
 
-TEST(scvt_surface, mended_triangulation_equals_one_built_anew_bit_for_bit) {
+TEST(kinetic_delaunay, mended_triangulation_equals_one_built_anew_bit_for_bit) {
   std::vector<Point> sites = in_spatial_order(sampled_sites(4000, nullptr, 11), 1);
   const auto axes = axes_of(sites);
-  MovingSurface moving(2);
-  ASSERT_TRUE(moving.follow(sites));
+  KineticDelaunay moving(2);
+  ASSERT_TRUE(moving.update(sites));
   for (int step = 0; step < 20; ++step) {
     // The longest steps turn faces over, and have them built anew.
     const double length = step < 15 ? 1e-4 * step : 0.02;
@@ -138,9 +138,9 @@ TEST(scvt_surface, mended_triangulation_equals_one_built_anew_bit_for_bit) {
       const Point& shift = shifts[i * 37 % sites.size()];
       sites[i] = moved(sites[i], axes[i], {length * shift.x, length * shift.y});
     }
-    ASSERT_TRUE(moving.follow(sites));
-    MovingSurface built(1);
-    ASSERT_TRUE(built.follow(sites));
+    ASSERT_TRUE(moving.update(sites));
+    KineticDelaunay built(1);
+    ASSERT_TRUE(built.update(sites));
     EXPECT_EQ(faces_of(moving), faces_of(built));
     std::vector<SiteSums> moved_sums(sites.size());
     std::vector<SiteSums> built_sums(sites.size());
@@ -155,7 +155,7 @@ TEST(scvt_surface, mended_triangulation_equals_one_built_anew_bit_for_bit) {
 }
 
 // Sites of a cube's lattice: four on a circle everywhere.
-TEST(scvt_surface, ties_are_broken_as_a_build_breaks_them) {
+TEST(kinetic_delaunay, ties_are_broken_as_a_build_breaks_them) {
   std::vector<Point> sites;
   for (int face = 0; face < 6; ++face) {
     for (int i = -9; i <= 9; i += 2) {
@@ -172,23 +172,23 @@ TEST(scvt_surface, ties_are_broken_as_a_build_breaks_them) {
   for (std::size_t i = 0; i < sites.size(); ++i) {
     sites[i] = moved(sites[i], far_axis(sites[i]), {i % 2 == 0 ? 1e-3 : -1e-3, 1e-3});
   }
-  MovingSurface moving(1);
-  ASSERT_TRUE(moving.follow(sites));
-  ASSERT_TRUE(moving.follow(lattice));
+  KineticDelaunay moving(1);
+  ASSERT_TRUE(moving.update(sites));
+  ASSERT_TRUE(moving.update(lattice));
   EXPECT_EQ(moving.num_builds(), 1U);
-  MovingSurface built(1);
-  ASSERT_TRUE(built.follow(lattice));
+  KineticDelaunay built(1);
+  ASSERT_TRUE(built.update(lattice));
   EXPECT_EQ(faces_of(moving), faces_of(built));
 }
 
-TEST(scvt_surface, sites_without_a_triangulation_around_the_center_are_refused) {
-  MovingSurface surface(1);
+TEST(kinetic_delaunay, sites_without_a_triangulation_around_the_center_are_refused) {
+  KineticDelaunay surface(1);
   std::vector<Point> sites = icosahedron();
-  EXPECT_TRUE(surface.follow(sites));
+  EXPECT_TRUE(surface.update(sites));
   sites[3] = sites[4];
-  EXPECT_FALSE(surface.follow(sites));
+  EXPECT_FALSE(surface.update(sites));
   const std::vector<Point> octant = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, 0.8, 0}};
-  EXPECT_FALSE(surface.follow(octant));
+  EXPECT_FALSE(surface.update(octant));
 }
 
 }  // namespace

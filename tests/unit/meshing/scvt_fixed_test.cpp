@@ -53,7 +53,7 @@ TEST(scvt_fixed, sites_stay_bit_by_bit_and_others_relax) {
   const std::vector<Point> places = random_places(12, 7);
   std::vector<ScvtStep> steps;
   ScvtOptions options{.count = 500, .fixed = places};
-  options.seen = [&](const ScvtStep& step) { steps.push_back(step); };
+  options.on_step = [&](const ScvtStep& step) { steps.push_back(step); };
   const Scvt made = scvt(options);
   EXPECT_EQ(made.end, ScvtEnd::converged);
   ASSERT_EQ(made.sites.size(), 500U);
@@ -87,7 +87,7 @@ TEST(scvt_fixed, places_near_each_other_have_a_site_each) {
     places[i] = normalized(places[0] + 0.01 * places[i]);
   }
   const Scvt made =
-      relaxed(random_places(60, 11), {.max_iterations = 2, .repair = false, .fixed = places});
+      relax(random_places(60, 11), {.max_iterations = 2, .repair = false, .fixed = places});
   EXPECT_EQ(std::set<Index>(made.fixed.begin(), made.fixed.end()).size(), places.size());
   for (std::size_t i = 0; i < places.size(); ++i) EXPECT_EQ(made.sites[made.fixed[i]], places[i]);
 }
@@ -95,14 +95,14 @@ TEST(scvt_fixed, places_near_each_other_have_a_site_each) {
 TEST(scvt_fixed, sites_of_a_start_keep_their_numbers) {
   const std::vector<Point> sites = random_places(400, 8);
   const std::vector<Point> some(sites.begin() + 100, sites.begin() + 140);
-  const Scvt made = relaxed(sites, {.fixed = some});
+  const Scvt made = relax(sites, {.fixed = some});
   for (Index i = 0; i < some.size(); ++i) {
     EXPECT_EQ(made.fixed[i], 100 + i);
     EXPECT_EQ(made.sites[100 + i], some[i]);
   }
   EXPECT_GT(away(made.sites[50], sites[50]), 1e-3);
   // All of them: nothing moves, and that is the end.
-  const Scvt still = relaxed(made.sites, {.fixed = made.sites});
+  const Scvt still = relax(made.sites, {.fixed = made.sites});
   EXPECT_EQ(still.end, ScvtEnd::converged);
   EXPECT_EQ(still.last.iteration, 0);
   EXPECT_EQ(still.repair.moved, 0U);
@@ -161,7 +161,7 @@ double distance_to(const Point& p, const std::vector<std::array<Point, 2>>& piec
   }
   return least;
 }
-Deviation deviation_of(const Curve& curve, const MeshArrays& arrays) {
+Deviation deviation_of(const Curve& curve, const VoronoiMesh& arrays) {
   std::vector<std::array<Point, 2>> edges;
   for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
     const auto [a, b] = arrays.cells_on_edge[e];
@@ -193,7 +193,7 @@ TEST(mesh_lines, edges_follow_smooth_lines) {
     EXPECT_EQ(rows.num_left_out, 0U);
     const auto count = static_cast<std::size_t>(size.count());
     const Scvt made = scvt({.count = count, .largest_tolerance = 0.1, .fixed = rows.sites});
-    const MeshArrays mesh = arrays(delaunay(made.sites));
+    const VoronoiMesh mesh = make_mesh(delaunay(made.sites));
     const Deviation found = deviation_of(curve, mesh);
     EXPECT_LT(found.of_edges, stated_tolerance * spacing);
     EXPECT_LT(found.of_line, stated_tolerance * spacing);
@@ -202,7 +202,7 @@ TEST(mesh_lines, edges_follow_smooth_lines) {
     EXPECT_GT(report.min_edge_ratio.value, 0.05);
     // Without the rows it is three times as far away.
     const Deviation without = deviation_of(
-        curve, arrays(delaunay(scvt({.count = count, .largest_tolerance = 0.1}).sites)));
+        curve, make_mesh(delaunay(scvt({.count = count, .largest_tolerance = 0.1}).sites)));
     EXPECT_GT(without.of_edges, 0.4 * spacing);
   }
 }

@@ -101,7 +101,7 @@ TEST(scvt_memory, is_the_matrix_of_the_last_pairs_that_have_curvature) {
       memory.forget();
       kept.clear();
     }
-    if (kept.size() > StepMemory::most_pairs) kept.erase(kept.begin());
+    if (kept.size() > StepMemory::max_pairs) kept.erase(kept.begin());
     ASSERT_EQ(memory.size(), kept.size());
     Matrix h = unit_matrix();
     for (const StepAndChange& one : kept) update(h, one);

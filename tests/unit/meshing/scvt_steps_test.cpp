@@ -37,7 +37,7 @@ struct SpringSites {
         surface(threads),
         springs(threads) {
     std::ranges::transform(sites, axes.begin(), far_axis);
-    EXPECT_TRUE(surface.follow(sites));
+    EXPECT_TRUE(surface.update(sites));
     (void)CentroidalEnergy(nullptr, threads)(surface, sites, axes, sums);
     springs.measure(surface, sites, sums);
   }
@@ -52,8 +52,8 @@ struct SpringSites {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       there.push_back(moved(sites[i], axes[i], {step * field[i].u, step * field[i].v}));
     }
-    MovingSurface moved_surface(1);
-    EXPECT_TRUE(moved_surface.follow(there));
+    KineticDelaunay moved_surface(1);
+    EXPECT_TRUE(moved_surface.update(there));
     std::vector<SiteSums> moved_sums(sites.size());
     (void)CentroidalEnergy(nullptr, 1)(moved_surface, there, axes, moved_sums);
     Field result;
@@ -64,7 +64,7 @@ struct SpringSites {
   std::vector<Point> sites;
   std::vector<std::uint8_t> axes;
   std::vector<SiteSums> sums;
-  MovingSurface surface;
+  KineticDelaunay surface;
   EdgeSprings springs;
 };
 

@@ -32,7 +32,7 @@ double distance(const Point& p, const Point& q) {
 struct Shape {
   std::map<int, int> degrees;
   int num_obtuse = 0;
-  double least_dual_edge = 9;  // over its edge
+  double min_dual_edge = 9;  // over its edge
 };
 
 Shape shape_of(const std::vector<Point>& sites) {
@@ -47,8 +47,8 @@ Shape shape_of(const std::vector<Point>& sites) {
       ++degree[face[i]];
       const double edge = distance(sites[face[(i + 1) % 3]], sites[face[(i + 2) % 3]]);
       squares[i] = edge * edge;
-      shape.least_dual_edge =
-          std::min(shape.least_dual_edge,
+      shape.min_dual_edge =
+          std::min(shape.min_dual_edge,
                    distance(centers[f], centers[triangulation.neighbors()[f][i]]) / edge);
     }
     std::ranges::sort(squares);
@@ -81,7 +81,7 @@ TEST(scvt, subdivided_icosahedron_ends_as_good_as_published_ones) {
   const Shape shape = shape_of(made.sites);
   EXPECT_EQ(shape.degrees, (std::map<int, int>{{5, 12}, {6, 10230}}));
   EXPECT_EQ(shape.num_obtuse, 0);
-  EXPECT_GE(shape.least_dual_edge, 0.39);
+  EXPECT_GE(shape.min_dual_edge, 0.39);
 }
 
 TEST(scvt, every_number_of_sites_is_met) {
@@ -105,7 +105,7 @@ TEST(scvt, energy_never_grows) {
     last = step.energy;
     ++num_steps;
   };
-  (void)scvt({.count = 3000, .mean_tolerance = 1e-6, .seen = see});
+  (void)scvt({.count = 3000, .mean_tolerance = 1e-6, .on_step = see});
   EXPECT_GT(num_steps, 20);
 }
 
@@ -114,7 +114,7 @@ TEST(scvt, part_of_the_work_that_is_done_grows_to_one) {
   const std::vector<Point> start = sampled_sites(700, nullptr, 2);
   ScvtOptions options{.count = 3000};
   std::vector<double> done;
-  options.seen = [&](const ScvtStep& step) { done.push_back(step.done); };
+  options.on_step = [&](const ScvtStep& step) { done.push_back(step.done); };
   const auto check = [&](const Scvt& made) {
     EXPECT_TRUE(std::ranges::is_sorted(done));
     EXPECT_GE(done.front(), 0);
@@ -126,7 +126,7 @@ TEST(scvt, part_of_the_work_that_is_done_grows_to_one) {
   check(scvt(options));
   options.size = fourfold();
   check(scvt(options));
-  check(relaxed(start, options));
+  check(relax(start, options));
   options.mean_tolerance = 1e-9;
   options.max_iterations = 40;
   check(scvt(options));
@@ -143,7 +143,7 @@ TEST(scvt, spacings_that_jump_are_told_from_sites_that_somebody_gave) {
   EXPECT_NE(of_spacings.find("the spacings change too fast: from 0.000100 to 0.500000 radians"),
             std::string::npos);
   const std::vector<Point> cap = {{0, 0, 1}, {0.1, 0, 1}, {0, 0.1, 1}, {-0.1, -0.1, 1}};
-  const std::string of_sites = message([&] { (void)relaxed(cap, {.size = jump}); });
+  const std::string of_sites = message([&] { (void)relax(cap, {.size = jump}); });
   EXPECT_NE(of_sites.find("do not surround the center"), std::string::npos);
 }
 
@@ -163,11 +163,11 @@ TEST(scvt, far_fewer_steps_than_lloyd) {
   ScvtOptions options{.largest_tolerance = 1, .max_iterations = 20000};
   options.mean_tolerance = 1e-4;
   int steps = 0;
-  options.seen = [&](const ScvtStep& step) { steps = step.iteration; };
-  EXPECT_EQ(relaxed(start, options).end, ScvtEnd::converged);
+  options.on_step = [&](const ScvtStep& step) { steps = step.iteration; };
+  EXPECT_EQ(relax(start, options).end, ScvtEnd::converged);
   const int by_springs = steps;
   options.method = ScvtMethod::lloyd;
-  EXPECT_EQ(relaxed(start, options).end, ScvtEnd::converged);
+  EXPECT_EQ(relax(start, options).end, ScvtEnd::converged);
   EXPECT_LT(by_springs * 8, steps) << by_springs;
 }
 
@@ -193,13 +193,13 @@ TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
   options.repair = false;
   const Scvt as_is = scvt(options);
   EXPECT_EQ(as_is.repair.moved, 0U);
-  EXPECT_LT(shape_of(as_is.sites).least_dual_edge, 0.05);
+  EXPECT_LT(shape_of(as_is.sites).min_dual_edge, 0.05);
 
   options.repair = true;
   const Scvt made = scvt(options);
   ASSERT_EQ(made.sites.size(), count);
   const Shape shape = shape_of(made.sites);
-  EXPECT_GE(shape.least_dual_edge, 0.05);
+  EXPECT_GE(shape.min_dual_edge, 0.05);
   EXPECT_EQ(shape.num_obtuse, 0);
   EXPECT_GE(shape.degrees.begin()->first, 5);
   EXPECT_LE(shape.degrees.rbegin()->first, 7);
@@ -218,14 +218,14 @@ TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
   EXPECT_EQ(num_moved, made.repair.moved);
   EXPECT_LT(num_moved, made.sites.size() / 20);
   options.mean_tolerance = 1;
-  EXPECT_LT(relaxed(made.sites, options).last.mean_offset, 1e-3);
+  EXPECT_LT(relax(made.sites, options).last.mean_offset, 1e-3);
 }
 
 TEST(scvt, stop_leaves_the_sites_so_far) {
   std::atomic<bool> stop = false;
   int num_steps = 0;
   ScvtOptions options{.count = 5000};
-  options.seen = [&](const ScvtStep& step) {
+  options.on_step = [&](const ScvtStep& step) {
     if (step.sites > 1000 && ++num_steps == 3) stop = true;
   };
   const Scvt made = scvt(options, {.stop = &stop});
@@ -236,7 +236,7 @@ TEST(scvt, stop_leaves_the_sites_so_far) {
 TEST(scvt, own_sites_keep_their_order) {
   std::vector<Point> start = sampled_sites(500, nullptr, 4);
   for (Point& p : start) p = 3.0 * p;
-  const Scvt made = relaxed(start);
+  const Scvt made = relax(start);
   ASSERT_EQ(made.sites.size(), 500U);
   std::size_t num_close = 0;
   for (std::size_t i = 0; i < 500; ++i) num_close += distance(made.sites[i], start[i] / 3) < 0.2;
@@ -246,12 +246,12 @@ TEST(scvt, own_sites_keep_their_order) {
 TEST(scvt, what_is_no_start_is_refused) {
   EXPECT_THROW((void)scvt({}), InvalidInput);
   EXPECT_THROW((void)scvt({.count = 11}), InvalidInput);
-  EXPECT_THROW((void)relaxed({}), InvalidInput);
+  EXPECT_THROW((void)relax({}), InvalidInput);
   std::vector<Point> sites = icosahedron();
   sites[5] = {0, 0, 0};
-  EXPECT_THROW((void)relaxed(sites), InvalidInput);
+  EXPECT_THROW((void)relax(sites), InvalidInput);
   sites[5] = sites[6];
-  EXPECT_THROW((void)relaxed(sites), InvalidInput);
+  EXPECT_THROW((void)relax(sites), InvalidInput);
 }
 
 TEST(scvt, names_of_ends) {

@@ -12,7 +12,7 @@
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/mesh_io.h"
+#include "rondel/mesh_formats.h"
 #include "rondel/mesh_size_files.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
@@ -136,7 +136,7 @@ TEST(mesh_spacing_files, cells_of_meshes) {
   const std::vector<Point> sites = sampled_sites(2000, nullptr, 5);
   std::vector<double> density;
   for (const Point& p : sites) density.push_back(std::pow(60 / wanted(p), 4));
-  const MeshArrays made = arrays(delaunay(Sites::view(sites)), {.density = density});
+  const VoronoiMesh made = make_mesh(delaunay(Sites::view(sites)), {.density = density});
   const std::string path = path_of("spacing_mesh.nc");
   write(path, made, {.format = MeshFormat::mpas});
   expect_proportions(read_density({path, {}}, "meshDensity", 256), 5e-3);

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Crossings and ArcMaker: where the sides of octants cross those of turned octants, and what bounds the pieces.
+// Crossings and PieceBoundaries: where the sides of octants cross those of turned octants, and what bounds the pieces.
 //
 //            z                 The side from x to y leaves cells of the cover one after the other. The arcs of a piece are
 //           / \                parts of the octant's sides, and parts of sides of the cover inside of the octant, which bound
 //       ___/___\___            two pieces; at each point as many of them arrive as leave.
 //         /     \      .
 //        x-------y
-#include "overlay/arcs.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,6 +21,7 @@
 
 #include "exact/vector.h"
 #include "overlay/crossings.h"
+#include "overlay/piece_boundaries.h"
 #include "support/random.h"
 #include "unit/overlay/support.h"
 
@@ -130,9 +129,9 @@ TEST(piece_arcs, bound_the_pieces) {
   for (int round = 0; round < 20; ++round) {
     const Subdivision cells(octants_of({1, 0, 0}, {0, 1, 0}, {0, 0, 1}), false, 1);
     const Subdivision cover(turned_octants(random), false, 1);
-    overlay::ArcMaker maker(cells, cover, 0, 8);
+    overlay::PieceBoundaries maker(cells, cover, 0, 8);
     for (Index cell = 0; cell < 8; ++cell) {
-      const std::span<const overlay::PieceArc> arcs = maker(cell);
+      const std::span<const overlay::BoundaryArc> arcs = maker(cell);
       EXPECT_TRUE(maker.is_consistent());
       ASSERT_EQ(maker.corners().size(), 3U);
       for (Index k = 0; k < 3; ++k)

@@ -40,7 +40,7 @@ std::string message_of_refusal(const std::function<void()>& work) {
 TEST(overlay_cell_set, no_cells_are_a_set) {
   const CellSet nothing;
   EXPECT_EQ(nothing.num_cells(), 0U);
-  EXPECT_FALSE(nothing.is_cover());
+  EXPECT_FALSE(nothing.covers_sphere());
   EXPECT_TRUE(nothing.places().empty() && nothing.corners().empty());
 }
 

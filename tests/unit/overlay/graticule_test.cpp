@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Graticule and GraticuleWalk: grids with their columns and rows, and the strips between an arc and the parallels.
+// PreparedGrid and GridWalk: grids with their columns and rows, and the strips between an arc and the parallels.
 //
 //     +----+----+----+        An arc from west to east passes columns and rows. In each of them it leaves a strip: the area
 //     |    |  __|____|_       between the arc and the row's southern parallel, which is the integral of the height of the arc
 //     +----+-/--+----+        over the parallel, sin(lat) - sin(south), over longitude.
 //     |   _|/   |    |
 //     +--/-+----+----+
-#include "overlay/graticule.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,15 +20,16 @@
 #include <vector>
 
 #include "exact/vector.h"
-#include "overlay/graticule_walk.h"
+#include "overlay/grid_walk.h"
+#include "overlay/prepared_grid.h"
 #include "rondel/error.h"
 #include "support/random.h"
 
 namespace rondel::test::of_graticule {
 namespace {
 
-using overlay::Graticule;
-using overlay::GraticuleWalk;
+using overlay::GridWalk;
+using overlay::PreparedGrid;
 using overlay::Strip;
 constexpr double pi = std::numbers::pi;
 
@@ -44,12 +43,12 @@ double total(const std::vector<double>& numbers) {
   return std::accumulate(numbers.begin(), numbers.end(), 0.0);
 }
 
-TEST(graticule, of_octants) {
+TEST(grid, of_octants) {
   for (const std::vector<double>& lat : {std::vector<double>{-90, 0, 90}, {90, 0, -90}}) {
-    const Graticule grid({{0, 90, 180, 270, 360}, lat});
+    const PreparedGrid grid({{0, 90, 180, 270, 360}, lat});
     EXPECT_EQ(grid.num_cells(), 8U);
     EXPECT_TRUE(grid.is_around());
-    EXPECT_TRUE(grid.is_cover());
+    EXPECT_TRUE(grid.covers_sphere());
     EXPECT_EQ(grid.columns().size(), 4U);
     EXPECT_EQ(grid.num_rows(), 2U);
     // The cells of the grid are numbered as it is given, its rows lead to the north.
@@ -70,11 +69,11 @@ TEST(graticule, of_octants) {
 }
 
 // Two columns and two rows in a part of the sphere: what is beside them is filled by a column and two rows that are no cells.
-TEST(graticule, of_a_part_is_filled_up_to_the_sphere) {
-  const Graticule grid({{10, 30, 40}, {-20, 0, 30}});
+TEST(grid, of_a_part_is_filled_up_to_the_sphere) {
+  const PreparedGrid grid({{10, 30, 40}, {-20, 0, 30}});
   EXPECT_EQ(grid.num_cells(), 4U);
   EXPECT_FALSE(grid.is_around());
-  EXPECT_FALSE(grid.is_cover());
+  EXPECT_FALSE(grid.covers_sphere());
   EXPECT_EQ(grid.columns().size(), 3U);
   EXPECT_EQ(grid.num_rows(), 4U);
   EXPECT_EQ(grid.first_row(), 1U);
@@ -102,13 +101,13 @@ TEST(graticule, of_a_part_is_filled_up_to_the_sphere) {
   grid.append_neighbors(0, neighbors);
   std::ranges::sort(neighbors);
   EXPECT_EQ(neighbors, (std::vector<Index>{1, 2}));
-  EXPECT_THROW(Graticule({{10, 30, 20}, {0, 10}}), InvalidInput);
-  EXPECT_THROW(Graticule({{10, 30}, {80, 95}}), InvalidInput);
-  EXPECT_THROW(Graticule({{10}, {0, 10}}), InvalidInput);
+  EXPECT_THROW(PreparedGrid({{10, 30, 20}, {0, 10}}), InvalidInput);
+  EXPECT_THROW(PreparedGrid({{10, 30}, {80, 95}}), InvalidInput);
+  EXPECT_THROW(PreparedGrid({{10}, {0, 10}}), InvalidInput);
 }
 
 // Near a pole the gap 1 - |sine| has more digits than the sine.
-TEST(graticule, heights_near_a_pole_are_compared_by_their_gaps) {
+TEST(grid, heights_near_a_pole_are_compared_by_their_gaps) {
   const double radius = 1e-9;
   const overlay::SphereHeight low = overlay::height_of(1, 2 * radius);
   const overlay::SphereHeight high = overlay::height_of(1, radius);
@@ -129,11 +128,11 @@ double sine_on_circle(const Point& normal, double lon) {
 }
 
 // Strips against sums over many small steps of longitude. The arcs lead to the east, so that the areas are negative.
-TEST(graticule_walk, strips_are_integrals_over_longitude) {
+TEST(grid_walk, strips_are_integrals_over_longitude) {
   const std::vector<double> lon = {-30, -10, 0, 20, 50};
   const std::vector<double> lat = {-60, -20, 0, 15, 40, 70};
-  const Graticule grid({lon, lat});
-  const GraticuleWalk walk(grid, false);
+  const PreparedGrid grid({lon, lat});
+  const GridWalk walk(grid, false);
   Random random(91);
   for (int round = 0; round < 40; ++round) {
     const double west = -29 + 30 * random.unit();
@@ -176,10 +175,10 @@ TEST(graticule_walk, strips_are_integrals_over_longitude) {
 }
 
 // Next to a pole the pole stands for the parallel, as if it were south of the arc: the height is sin(lat) less its own sine.
-TEST(graticule_walk, strips_at_a_pole_reach_it) {
+TEST(grid_walk, strips_at_a_pole_reach_it) {
   for (const double pole : {1.0, -1.0}) {
-    const Graticule grid({{-30, 50}, {-60, 60}});
-    const GraticuleWalk walk(grid, false);
+    const PreparedGrid grid({{-30, 50}, {-60, 60}});
+    const GridWalk walk(grid, false);
     for (const double lat : {89.0, 89.9, 89.9999}) {
       const Point p = at(-20, pole * lat);
       const Point q = at(40, pole * (90 - 2 * (90 - lat)));
@@ -212,11 +211,11 @@ Point moment_between(double lon, double south, double north, double step) {
   return {along * std::cos(lon), along * std::sin(lon), step * (upright(north) - upright(south))};
 }
 
-TEST(graticule_walk, moments_of_strips_are_integrals_over_longitude) {
+TEST(grid_walk, moments_of_strips_are_integrals_over_longitude) {
   const std::vector<double> lon = {-30, -10, 0, 20, 50};
   const std::vector<double> lat = {-60, -20, 0, 15, 40, 70};
-  const Graticule grid({lon, lat});
-  const GraticuleWalk walk(grid, true);
+  const PreparedGrid grid({lon, lat});
+  const GridWalk walk(grid, true);
   for (const auto& [p, q] : {std::array{at(-25, -30), at(45, 35)},
                              {at(-5, 30), at(5, 32)},
                              {at(-25, 60), at(45, -50)}}) {
@@ -250,9 +249,9 @@ TEST(graticule_walk, moments_of_strips_are_integrals_over_longitude) {
 }
 
 // A place has the column whose western meridian is next to it in the west.
-TEST(graticule_walk, places_are_in_their_columns) {
-  const Graticule grid({{-30, -10, 0, 20, 50}, {-60, 70}});
-  const GraticuleWalk walk(grid, false);
+TEST(grid_walk, places_are_in_their_columns) {
+  const PreparedGrid grid({{-30, -10, 0, 20, 50}, {-60, 70}});
+  const GridWalk walk(grid, false);
   for (const auto& [lon_deg, column] : {std::pair(-29.0, 0U),
                                         {-11.0, 0U},
                                         {-9.0, 1U},
@@ -261,7 +260,7 @@ TEST(graticule_walk, places_are_in_their_columns) {
                                         {51.0, 4U},
                                         {180.0, 4U},
                                         {-31.0, 4U}}) {
-    const overlay::GraticulePlace place = walk.place_of(at(lon_deg, 30));
+    const overlay::PlaceInGrid place = walk.place_of(at(lon_deg, 30));
     EXPECT_EQ(place.column, column) << lon_deg;
     const double start = grid.columns()[column].start - 30 * pi / 180;
     EXPECT_NEAR(std::remainder(start + place.offset - lon_deg * pi / 180, 2 * pi), 0, 1e-14);

@@ -87,7 +87,7 @@ TEST(overlay_grid, sums_of_rows_and_columns) {
   const CellSet fine = CellSet::lonlat_grid(regular_grid(180, 90));
   const CellSet coarse = CellSet::lonlat_grid(regular_grid(20, 10, 7));
   for (const CellSet& grid : {fine, coarse}) {
-    ASSERT_TRUE(grid.is_cover());
+    ASSERT_TRUE(grid.covers_sphere());
     EXPECT_NEAR(
         static_cast<double>(std::accumulate(grid.areas().begin(), grid.areas().end(), 0.0L)),
         4 * std::numbers::pi, 1e-14);
@@ -204,7 +204,7 @@ TEST(overlay_grid, of_the_same_lines_written_differently) {
 TEST(overlay_grid, great_circles_are_sides_on_request) {
   const LonLatGrid lines = regular_grid(12, 6);
   const CellSet arcs = CellSet::lonlat_grid(lines, GridSides::great_circles);
-  ASSERT_TRUE(arcs.is_cover());
+  ASSERT_TRUE(arcs.covers_sphere());
   const CellSet parallels = CellSet::lonlat_grid(lines);
   // North of the equator an arc is north of its parallel.
   const CellRings rings = arcs.rings();
@@ -381,7 +381,7 @@ TEST(overlay_grid, meridians_may_decrease) {
     for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
       const CellSet a = CellSet::lonlat_grid(east, sides);
       const CellSet b = CellSet::lonlat_grid(west, sides);
-      EXPECT_EQ(a.is_cover(), b.is_cover());
+      EXPECT_EQ(a.covers_sphere(), b.covers_sphere());
       const Remap of_a = rondel::remap(cells, a, {.order = 2});
       const Remap of_b = rondel::remap(cells, b, {.order = 2});
       const Remap same = rondel::remap(a, b);

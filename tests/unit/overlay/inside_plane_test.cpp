@@ -465,9 +465,9 @@ TEST_P(OverlayInsidePlane, polygons_of_files_are_what_their_sides_say) {
     const ShapeInPlane shape = PlaneShapes(64 * seed + GetParam())(GetParam());
     expect_lines(shape, seed);
     expect_arcs(shape, seed);
-    constexpr int most_failures = 30;
+    constexpr int max_failures = 30;
     if (testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count() >
-        most_failures)
+        max_failures)
       break;
   }
 }

@@ -283,9 +283,9 @@ TEST_P(OverlayInside, pieces_are_those_of_winding_numbers) {
       SCOPED_TRACE(cover.name);
       trial.expect_pieces(cover, seed);
     }
-    constexpr int most_failures = 30;
+    constexpr int max_failures = 30;
     if (testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count() >
-        most_failures)
+        max_failures)
       break;
   }
   RecordProperty("wrong", static_cast<int>(num_wrong));

@@ -67,7 +67,7 @@ TEST(overlay_parts, pieces_are_those_of_clipping) {
   const auto in_second = [&](std::size_t j) { return j % 3 != 0; };
   const CellSet source = CellSet::polygons(some_of(CellSet::voronoi(first).rings(), in_first));
   const CellSet target = CellSet::polygons(some_of(CellSet::voronoi(second).rings(), in_second));
-  ASSERT_FALSE(source.is_cover() || target.is_cover());
+  ASSERT_FALSE(source.covers_sphere() || target.covers_sphere());
   const Cells sources = cells(first);
   const Cells targets = cells(second);
   const Remap there = remap(source, target);
@@ -189,7 +189,7 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
   const CellSet land = CellSet::polygons(cells_of_parts(islands));
   const CellSet octants = CellSet::triangles(delaunay(
       std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}));
-  ASSERT_TRUE(octants.is_cover());
+  ASSERT_TRUE(octants.covers_sphere());
   const Remap of_sea = remap(sea, octants);
   const Remap of_land = remap(land, octants);
   for (Index j = 0; j < 8; ++j) {
@@ -318,7 +318,7 @@ TEST(overlay_parts, names_cells_of_two_covers) {
     lunes.push_back({{{{0, 90}, {west, 0}, {0, -90}, {west + 120, 0}}}});
   }
   const CellSet twice = CellSet::polygons(cells_of_parts(lunes));
-  ASSERT_FALSE(twice.is_cover());
+  ASSERT_FALSE(twice.covers_sphere());
   EXPECT_NEAR(total_of({twice.areas().begin(), twice.areas().end()}), 8 * std::numbers::pi, 1e-13);
   try {
     (void)remap(twice, twice);

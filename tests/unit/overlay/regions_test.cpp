@@ -225,7 +225,7 @@ TEST(overlay_regions, parts_of_the_sphere) {
   const CellRings some = dissolve(all, names, num_names);
   const CellSet cells = CellSet::polygons(some);
   const CellSet regions = CellSet::polygons(of_regions);
-  ASSERT_FALSE(cells.is_cover() || regions.is_cover());
+  ASSERT_FALSE(cells.covers_sphere() || regions.covers_sphere());
   const RegionPieces expected = intersection(CellSet::polygons(all), regions);
   const std::vector<double> known = areas(expected.rings);
   for (const bool is_back : {false, true}) {

@@ -59,7 +59,7 @@ TEST(overlay_remap, pieces_are_those_of_clipping) {
 
 TEST(overlay_remap, of_octants_is_known) {
   const CellSet source = CellSet::polygons(octants());
-  ASSERT_TRUE(source.is_cover());
+  ASSERT_TRUE(source.covers_sphere());
   for (const double area : source.areas()) EXPECT_NEAR(area, std::numbers::pi / 2, 4 * ulp);
   const CellSet target = CellSet::voronoi(delaunay(octants().points));
   const Remap remap = rondel::remap(source, target);
@@ -263,7 +263,7 @@ TEST(overlay_remap, parts_of_the_sphere) {
     half.cells.push_back(half.rings.size() - 1);
   }
   const CellSet part = CellSet::polygons(half);
-  EXPECT_FALSE(part.is_cover());
+  EXPECT_FALSE(part.covers_sphere());
   const CellSet whole = voronoi_of("uniform", 300, 13);
   const Remap to_whole = rondel::remap(part, whole);
   const double area = std::accumulate(part.areas().begin(), part.areas().end(), 0.0);

@@ -36,7 +36,7 @@ CellRings whole_sphere() {
 TEST(overlay_whole, the_sphere_has_an_area_and_comes_back) {
   const CellSet sphere_cell = CellSet::polygons(whole_sphere());
   EXPECT_EQ(sphere_cell.areas()[0], sphere);
-  EXPECT_TRUE(sphere_cell.is_cover());
+  EXPECT_TRUE(sphere_cell.covers_sphere());
   EXPECT_EQ(sphere_cell.rings().whole, std::vector<Index>{0});
   EXPECT_EQ(areas(whole_sphere())[0], sphere);
   const CellSet one = CellSet::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));

@@ -162,7 +162,7 @@ TEST(root_sum, near_zero_sums_are_told_from_zero) {
 TEST(integer_oracle, agrees_with_the_other) {
   Random random(7);
   for (std::size_t i = 0; i < scaled(4000); ++i) {
-    const int most = random.between(1, static_cast<int>(most_for_roots));
+    const int most = random.between(1, static_cast<int>(max_for_roots));
     std::array<IntegerRay, 4> q;
     std::vector<Point> sites;
     for (IntegerRay& a : q) {

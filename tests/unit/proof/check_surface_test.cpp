@@ -158,7 +158,7 @@ TEST(check_places, names_the_lowest_index_and_the_lexicographically_smallest_spe
   const std::vector<Point> sites = {{0, 0, 1}, {3, 6, 9}, {1, 2, 3}, {2, 4, 6}};
   const proof::SitesByPlace places = proof::group_by_place(sites, Model::projected, {});
   EXPECT_EQ(places.first, (std::vector<Index>{0, 1, 1, 1}));
-  EXPECT_EQ(places.speaker[1], 2U);
+  EXPECT_EQ(places.representative[1], 2U);
 }
 
 TEST(check_places, tells_both_zeros_from_the_smallest_number_only) {

@@ -1,0 +1,274 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/grid_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "exact/eft.h"
+#include "overlay/gathered_rows.h"
+#include "overlay/grid_walk.h"
+#include "overlay/measure.h"
+#include "predicates/bounds.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+// The piece of a cell in a cell of the grid.
+struct GridPiece {
+  Index cell;
+  double area;
+  double length;  // approximate length of its border, radians
+  Point moment;
+};
+
+// The part of a parallel, within one column, that is inside of the cell, as the strips north of the
+// parallel tell.
+struct Fill {
+  double width = 0;           // radians
+  double size = 0;            // the sum of the sizes of all widths that were added
+  Point run{};                // the difference of its ends' meridians on the equator
+  exact::DoubleDouble sum{};  // the width, before it is rounded
+};
+
+// The strips in one row of one column.
+class RowStrips {
+ public:
+  // `rise` is the difference of the sines of the row's parallels.
+  void add(const Strip& strip, double rise) {
+    add_term(strip.area, area_);
+    const double from_floor = std::abs(strip.area) / (std::abs(strip.width) * rise);
+    const double share = strip.pole > 0 ? 1 - from_floor : from_floor;
+    lowest_ = std::min(lowest_, share);
+    highest_ = std::max(highest_, share);
+    if (strip.pole == 0) {
+      has_others_ = true;
+    } else if (strip.pole > 0) {
+      northern_ += strip.width;
+      has_northern_ = true;
+    } else {
+      southern_ += strip.width;
+      has_southern_ = true;
+    }
+  }
+  // Returns the share of the row's height between the lowest and the highest strip, about, where the
+  // parallels below and above count as strips if the cell is there.
+  [[nodiscard]] double extent(bool is_below, bool is_above) const {
+    const double lowest = is_below ? 0 : lowest_;
+    const double highest = is_above ? 1 : highest_;
+    return std::clamp(highest - lowest, 0.0, 1.0);
+  }
+  // Returns the area of the cell in this row: the strips, and the part of the row below its
+  // northern parallel, which is `above` wide there. `below` is the width that is left at the
+  // southern parallel; it is known more accurately than the sum of all widths where that is near 0.
+  [[nodiscard]] double area(const PreparedGrid& grid, Index row, double above, double below) const {
+    const double area = area_.hi + area_.lo;
+    if (!has_northern_ && !has_southern_) return area + above * grid.height(row);
+    const SphereHeight south = grid.parallel(row).height();
+    const SphereHeight north = grid.parallel(row + 1).height();
+    if (has_northern_ != has_southern_ && !has_others_) {
+      const SphereHeight pole = {has_northern_ ? 1.0 : -1.0, 0};
+      return area + (below * rise(south, pole) - above * rise(north, pole));
+    }
+    return area + above * grid.height(row) + northern_ * rise(south, {1, 0}) +
+           southern_ * rise(south, {-1, 0});
+  }
+
+ private:
+  exact::DoubleDouble area_{};
+  double lowest_ = 1;  // share of the row's height, above its southern parallel
+  double highest_ = 0;
+  double northern_ = 0;  // the sum of the widths of strips whose areas begin at the north pole
+  // The sum for strips that begin at the south pole.
+  double southern_ = 0;
+  bool has_northern_ = false;
+  bool has_southern_ = false;
+  bool has_others_ = false;
+};
+
+// Computes the pieces of one cell after another.
+class GridPieceMaker {
+ public:
+  GridPieceMaker(const CellSetData& cells, const PreparedGrid& grid,
+                 std::span<const PlaceInGrid> places, bool has_moments)
+      : cells_(cells),
+        grid_(grid),
+        places_(places),
+        walk_(grid, has_moments),
+        has_moments_(has_moments) {}
+
+  std::span<const GridPiece> operator()(Index cell) {
+    const Subdivision& subdivision = cells_.subdivision();
+    strips_.clear();
+    for (Index ring = subdivision.cells[cell]; ring < subdivision.cells[cell + 1]; ++ring) {
+      const Index first = subdivision.rings[ring];
+      const Index end = subdivision.rings[ring + 1];
+      for (Halfedge h = first; h < end; ++h) {
+        walk_.append(places_[subdivision.corners[h]],
+                     places_[subdivision.corners[h + 1 < end ? h + 1 : first]], strips_);
+      }
+    }
+    pieces_.clear();
+    const Index name = subdivision.names[cell];
+    const double area = cells_.areas()[name];
+    if (strips_.empty()) return pieces_;
+    const bool has_pole = has_north_pole(area);
+    if (is_within_one() && !has_pole) {
+      const Index there = grid_.cell(strips_[0].column, strips_[0].row);
+      if (there != no_index && area > 0)
+        pieces_.push_back({there, area, 0, cells_.moments()[name]});
+      return pieces_;
+    }
+    std::ranges::stable_sort(strips_, [](const Strip& a, const Strip& b) {
+      return a.column != b.column ? a.column < b.column : a.row > b.row;
+    });
+    std::size_t next = 0;
+    for (Index column = 0; column < grid_.columns().size(); ++column) {
+      if (!has_pole) {
+        if (next == strips_.size()) break;
+        column = strips_[next].column;
+      }
+      next = add_column(column, next, has_pole);
+    }
+    if (grid_.covers_sphere()) {
+      require_sum(pieces_, area, cells_.lengths()[name], name);
+    }
+    drop_rounding(pieces_, area, cells_.lengths()[name]);
+    std::ranges::sort(pieces_, {}, &GridPiece::cell);
+    return pieces_;
+  }
+  static Index column(const GridPiece& piece) { return piece.cell; }
+  static Index place(const GridPiece& piece) { return piece.cell; }
+
+ private:
+  // True if the north pole is in the cell. The area south of the arcs then differs from the cell's
+  // area by that of the sphere.
+  [[nodiscard]] bool has_north_pole(double area) const {
+    double south = 0;
+    for (const Strip& strip : strips_) {
+      const double floor = strip.pole != 0 ? strip.pole : grid_.parallel(strip.row).sine;
+      south += strip.area + strip.width * (1 + floor);
+    }
+    return area - south > 2 * std::numbers::pi;
+  }
+
+  // True if all strips are in one cell of the grid, and the cell does not go around the south pole.
+  [[nodiscard]] bool is_within_one() const {
+    double width = 0;
+    for (const Strip& strip : strips_) {
+      if (strip.column != strips_[0].column || strip.row != strips_[0].row) return false;
+      width += strip.width;
+    }
+    return std::abs(width) < 1;
+  }
+
+  // Appends the pieces of a column, whose strips begin with strip `next`. Returns the first strip
+  // after them.
+  std::size_t add_column(Index column, std::size_t next, bool has_pole) {
+    Fill fill;
+    if (has_pole) fill = filled(column);
+    std::size_t end = next;
+    while (end < strips_.size() && strips_[end].column == column) ++end;
+    Index row = has_pole ? grid_.num_rows() - 1 : strips_[next].row;
+    for (;; --row) {
+      GridPiece piece = row_of(column, row, fill);
+      Fill below = fill;
+      RowStrips strips;
+      const double rise = grid_.parallel(row + 1).sine - grid_.parallel(row).sine;
+      const double run = grid_.parallel(row + 1).cosine - grid_.parallel(row).cosine;
+      for (; next < end && strips_[next].row == row; ++next) {
+        const Strip& strip = strips_[next];
+        strips.add(strip, rise);
+        piece.length += strip.length;
+        piece.moment = piece.moment + strip.moment;
+        add_term(strip.width, below.sum);
+        add_term(strip.width_rest, below.sum);
+        below.size += std::abs(strip.width);
+        below.run = below.run + strip.run;
+      }
+      const double width_above = fill.width;
+      const bool is_below = below.sum.hi + below.sum.lo != 0;  // also by rounding alone
+      fill = rounded(below, column, next == end);
+      piece.area = strips.area(grid_, row, width_above, fill.width);
+      piece.length += fill.size * grid_.parallel(row).cosine;
+      const double chord = std::sqrt(rise * rise + run * run);  // along a meridian
+      piece.length += chord * strips.extent(is_below, width_above != 0);
+      if (piece.cell != no_index) pieces_.push_back(piece);
+      if (row == 0 || (next == end && fill.width == 0)) return end;
+      if (fill.width == 0) row = strips_[next].row + 1;
+    }
+  }
+
+  // Returns the fill of a parallel that is inside of the cell over the whole width of a column.
+  [[nodiscard]] Fill filled(Index column) const {
+    const double width = grid_.columns()[column].width;
+    return {
+        width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west, {width, 0}};
+  }
+
+  // Returns the fill with its width rounded to a double, or to nothing or all of the column where
+  // it differs from that by rounding. Arcs that follow each other add up to the difference of two
+  // offsets in twice the precision, so a cell may be as thin as rounding of longitudes. Behind the
+  // last strip of the column only these two widths are possible.
+  [[nodiscard]] Fill rounded(Fill fill, Index column, bool is_last) const {
+    fill.width = fill.sum.hi + fill.sum.lo;
+    constexpr double of_sums = 0x1p-90;
+    constexpr double of_turns = 16 * predicates::unit_roundoff;
+    const double of_last = is_last ? predicates::unit_roundoff * (16 + 4 * fill.size) : 0;
+    if (std::abs(fill.width) <= std::max(of_sums, of_last)) return {};
+    const bool is_filled =
+        std::abs(fill.width - grid_.columns()[column].width) <= std::max(of_turns, of_last);
+    return is_filled ? filled(column) : fill;
+  }
+
+  // Returns the part of a row that is inside from parallel to parallel.
+  [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
+    const PreparedGrid::Parallel& south = grid_.parallel(row);
+    const PreparedGrid::Parallel& north = grid_.parallel(row + 1);
+    GridPiece piece{grid_.cell(column, row), 0, 0, {}};
+    if (fill.width == 0) return piece;
+    piece.length = fill.size * north.cosine;
+    if (has_moments_) {
+      piece.moment = moment_of_row(south, north, grid_.height(row), fill.width, fill.run);
+    }
+    return piece;
+  }
+
+  const CellSetData& cells_;
+  const PreparedGrid& grid_;
+  std::span<const PlaceInGrid> places_;
+  GridWalk walk_;
+  bool has_moments_;
+  std::vector<Strip> strips_;
+  std::vector<GridPiece> pieces_;
+};
+
+}  // namespace
+
+PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_moments,
+                 const Execution& execution) {
+  const Subdivision& subdivision = cells.subdivision();
+  std::vector<PlaceInGrid> places(subdivision.points.size());
+  const GridWalk walk(grid, has_moments);
+  system::parallel_for(execution.threads, places.size(), cells_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           places[i] = walk.place_of(subdivision.points[i]);
+                         }
+                       });
+  LargeVector<Index> boxes(grid.num_cells());
+  std::iota(boxes.begin(), boxes.end(), Index{0});
+  return gathered_rows(subdivision, boxes, has_moments, execution,
+                       [&](Index /*first*/, Index /*end*/) {
+                         return GridPieceMaker(cells, grid, places, has_moments);
+                       });
+}
+
+}  // namespace rondel::overlay
