@@ -49,7 +49,8 @@ struct InterpolateOptions {
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
 };
 
-// The sites and the fields are read from one file.
+// How far the coordinates of a field may be from the sites. Both are read from one file, so they
+// can differ by rounding only.
 constexpr double same_places_deg = 1e-9;
 
 void report(Job& job, const InterpolateOptions& options, const InterpolateCounts& counts) {

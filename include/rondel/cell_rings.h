@@ -102,8 +102,8 @@ struct CellFacts {
   std::vector<Column> columns =
       {};                   ///< texts and numbers for each cell: the properties of polygons
   bool has_corners = true;  ///< whether files of weights get the corners of the cells
-  /// Sentences for who reads the file: what is masked, left out or without an area, and which grid
-  /// of several was read.
+  /// Sentences for whoever reads the file: what is masked, left out or without an area, and which
+  /// grid of several was read.
   std::vector<std::string> remarks = {};
 };
 

@@ -31,8 +31,8 @@ namespace rondel::mesh {
 /// 4. The lists around a cell are counterclockwise seen from outside: entry j of the rows of
 ///    edges_on_cell, an edge, has across it the cell cells_on_cell[j], ends at vertices_on_cell[j]
 ///    and starts at the vertex before.
-/// 5. The three lists around a vertex are counterclockwise: cells_on_vertex[j] and its kite lie
-///    between edges_on_vertex[j] and the next edge.
+/// 5. The three lists around a vertex v are counterclockwise: the cell cells_on_vertex[v][j] and
+///    its kite lie between the edge edges_on_vertex[v][j] and the next edge.
 /// 6. The kite of a vertex and a cell has its corners there and in the middles of two edges of the
 ///    triangle. Areas are signed: where a triangle is obtuse, its vertex lies beyond an edge, and a
 ///    kite may be negative. Kites add up to triangles and cells.
@@ -51,7 +51,7 @@ struct VoronoiMesh {
   std::vector<Index> vertices_on_cell;
 
   std::vector<Point>
-      edge_points;  ///< the points where arcs between cells cross the great circles of edges
+      edge_points;  ///< the middles of arcs between the two sites, on the edges' great circles
   std::vector<std::array<Index, 2>> cells_on_edge;
   std::vector<std::array<Index, 2>> vertices_on_edge;
   std::vector<double> cell_distances;    ///< MPAS's dcEdge: between the two sites

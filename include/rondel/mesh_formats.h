@@ -101,7 +101,8 @@ RONDEL_API VoronoiMesh read_mpas(const FileName& file, const Execution& executio
 /// Reads a mesh of any convention: MPAS as read_mpas() does; UGRID, SCRIP and ESMF by the centers
 /// and corners of their cells.
 ///
-/// 1. If the cells cover the sphere, the mesh is computed again from the centers, as by make_mesh().
+/// 1. If the cells cover the sphere, the mesh is computed again from the centers, as by
+///    make_mesh().
 /// 2. If the cells have a border, the mesh has the rings of the file, in the order of its cells and
 ///    corners. Middles of edges, lengths and kites, which the file does not have, are computed from
 ///    centers and corners. The missing cell beyond an edge of the border is taken to have its site

@@ -57,8 +57,8 @@ struct CentersOutside {
   /// How many of `number` are at longitude and latitude 0, as files have it under land.
   std::size_t zeros = 0;
 
-  /// True if more than half of the centers are outside, but for zeros: corners and centers are of
-  /// different places, or have different orders.
+  /// True if more than half of the centers are outside (zeros do not count): corners and centers
+  /// are then of different places, or have different orders.
   [[nodiscard]] bool are_most() const { return 2 * (number - zeros) > of - zeros; }
 };
 
@@ -96,13 +96,14 @@ RONDEL_API CentersOutside centers_outside(const CellRings& cells, std::span<cons
 /// 4. A cell that the file masks has a mask of 0. So has a cell with a corner that is missing (NaN,
 ///    a fill value); it has no ring.
 ///    Centers of CF that are outside of their cells (centers_outside()) are an error if they are
-///    more than half (zeros under land do not count), and otherwise told.
+///    more than half (zeros under land do not count), and otherwise a remark.
 /// 5. `FILE.nc:NAME` chooses one of several grids by one of its variables: a coordinate, a UGRID
 ///    topology, or values on the grid.
-/// 6. Corners that are no nodes may only stand at the end of rows that no counts belong to, or make up
-///    all of a row. With other conventions the center of a cell is refused if it belongs to another cell by the rule in
-///    docs/guide/formats.md (cells), and otherwise told if it is outside of the circle around the
-///    corners. Masked cells may have any corners and centers.
+/// 6. Numbers of corners that are no nodes may only stand at the end of a row without a count, or
+///    make up all of a row. With conventions other than CF it is an error if the center of a cell
+///    belongs to another cell by the rule in docs/guide/formats.md (cells), and otherwise a remark
+///    if it is outside of the circle around the corners. Masked cells may have any corners and
+///    centers.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
 RONDEL_API CellTable read_cells(const FileName& file);
 

@@ -95,7 +95,7 @@ RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
 /// entirely or in part, and rings that bound no region. `place` is the middle of the part that they
 /// share, or a place where a cell contradicts itself. Corners of one cell on the side of another
 /// are no overlap.
-/// \throws InvalidInput as CellSet(cells).
+/// \throws InvalidInput as CellSet::polygons(cells).
 RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
                                                         const Execution& execution = {});
 

@@ -114,7 +114,7 @@ RONDEL_API WeightSide weight_side(const CellSet& cells);
 RONDEL_API WeightFile weight_file(Remap remap);
 
 /// Writes the weights, and what is known of the cells of both sides, as write_weights() of
-/// rondel/weight_files.h does. \throws what that throws
+/// rondel/weight_files.h does. \throws what that function throws
 RONDEL_API void write_weights(const FileName& file, const Remap& remap,
                               const NetcdfOptions& netcdf = {});
 

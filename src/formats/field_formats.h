@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Readers and writers of fields, one function a format and direction.
+// Readers and writers of fields: one function for each format and direction.
 //
 // in    the bytes of a file and which fields are wanted; or a FieldSet without values, and the
 //       values one field after the other

@@ -16,7 +16,7 @@
 // 4. Where the lengths of the points' grid are known and those of the dimensions are the same in
 //    reverse, the order is reversed; where they are others, the variable is no field at the points.
 //    Where both lengths are equal, names of dimensions and single axes decide
-//    (field_orientation.cpp), and where these say nothing, that is told.
+//    (field_orientation.cpp), and where these say nothing, a remark says so.
 //
 // in    a netCDF file, the number of points or their places, the shape of their grid
 // out   for each variable which of its dimensions are those of the points, and in which order
@@ -116,7 +116,7 @@ class FieldDimensionFinder {
   struct Anchor {
     std::size_t lon = CoordinatePair::none;  // none: the file has no such coordinates
     std::size_t lat = CoordinatePair::none;
-    std::string variable;  // that has them
+    std::string variable;  // the variable that has them
     std::vector<LonLat> places;
   };
   using DimensionSet = std::set<std::size_t>;
@@ -178,12 +178,12 @@ class FieldDimensionFinder {
   std::deque<KnownPlaces> known_;
   std::optional<SetsOfPlaces> sets_of_places_;
   std::optional<Anchor> anchor_;
-  std::vector<std::string> other_pairs_;  // that variables have which are not at the anchor
+  std::vector<std::string> other_pairs_;  // coordinates of variables that are not at the anchor
   // Dimensions that are longer than 1, of the first variable whose points were found by lengths,
   // and that variable.
   std::optional<DimensionSet> dimensions_of_points_;
   std::string first_by_lengths_;
-  bool are_along_cells_ = false;  // that dimension is called so
+  bool are_along_cells_ = false;  // the name of the points' dimension says that it counts cells
   std::string why_not_;
   std::string other_places_;
 };

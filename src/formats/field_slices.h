@@ -58,7 +58,7 @@ class FieldSlices {
                        std::span<double> out) const;
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
-  // Makes the numbers of the file the values that they mean: missing, scaled, offset.
+  // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.
   static void mean(const SlicedVariable& source, std::span<double> values);
   // Reads a block into block_, unless it is there.
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;

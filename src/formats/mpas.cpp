@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Meshes of MPAS by "MPAS Mesh Specification", version 1.0, 2015, with what MPAS-Tools' converter
-// writes besides. Numbers start at 1; rows are filled with 0, which stands for none. The arrays of a
-// whole mesh are read in mpas_arrays.cpp.
+// writes besides. Numbers start at 1; rows are filled with 0, which stands for none.
+//
+// There are two readers: read_mpas() below reads only the cells, with their corners and centers,
+// for read_cells(); mpas_arrays.cpp reads the arrays of a whole mesh, for read_mesh().
 #include "formats/mpas.h"
 
 #include <algorithm>
@@ -192,8 +194,8 @@ void for_each_angle(const Corners& corners, const Visit& visit) {
   }
 }
 
-// Qualities of triangles as in MPAS-Tools: (a + b - c)(b + c - a)(c + a - b) / (a b c) of the
-// sides, which is 1 for equal sides; and the smallest angle over the largest.
+// Returns the triangleQuality of MPAS-Tools: (a + b - c)(b + c - a)(c + a - b) / (a b c) for the
+// sides a, b, c, which is 1 if they are equal.
 double side_quality(const Corners& corners) {
   const double a = norm(corners[1] - corners[2]);
   const double b = norm(corners[2] - corners[0]);
@@ -201,7 +203,8 @@ double side_quality(const Corners& corners) {
   return (a + b - c) / c * ((b + c - a) / a) * ((c + a - b) / b);
 }
 
-// Angles are those of the plane triangle of the three sites.
+// Returns the triangleAngleQuality of MPAS-Tools: the smallest angle over the largest, in the plane
+// triangle of the three sites.
 double angle_quality(const Corners& corners) {
   double least = std::numbers::pi;
   double most = 0;
@@ -319,8 +322,8 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   return mesh;
 }
 
-// The order of the variables is that in which they are written. The file has no times: `Time` is
-// its record dimension.
+// The order of the variables is that in which they are written. `Time`, the
+// record dimension, has no records.
 void define_mpas(MeshFile& file) {
   const VoronoiMesh& arrays = file.arrays();
   MpasSizes sizes{};

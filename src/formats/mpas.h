@@ -17,12 +17,13 @@
 
 namespace rondel::formats {
 
-// Says whether longitudes and latitudes may be no places, as those of cells that are left out.
+// Says whether longitudes and latitudes may be missing (numbers that are no place), as files have
+// it for cells that are left out.
 enum class PlacesMay : std::uint8_t { be_missing, not_be_missing };
 
-// Throws BadValue with the first place, if lonCell and latCell are not the directions of xCell,
-// yCell and zCell, or, as `may` says, no place; `kind` is "Cell", "Edge" or "Vertex". Does nothing
-// if the file lacks one of them.
+// Throws BadValue with the first element whose longitude and latitude (lonCell, latCell) are not
+// the direction of its xCell, yCell, zCell, or are no place although `may` forbids that. `kind` is
+// "Cell", "Edge" or "Vertex". Does nothing if the file lacks one of the five variables.
 void require_one_place(const io::NetcdfReader& file, const std::string& kind, PlacesMay may);
 
 // True if a file has the lists of edges that a whole mesh of MPAS has.

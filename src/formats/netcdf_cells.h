@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the readers of cells share: each convention has a file of its own, ugrid.cpp and others, with
-// its reader beside its writer.
+// The functions that the readers of cells share. Each convention has a file of its own (ugrid.cpp
+// and others), with its reader beside its writer.
 //
 // in    an open netCDF file and the name of a variable, or an empty name
 // out   MeshContent: nodes, rings and attributes of cells
@@ -93,8 +93,9 @@ bool has_rows(std::span<const std::uint64_t> shape);
 // Makes cells that have corners of their own: the nodes, `corners_per_cell` for each cell. If
 // `may_be_fewer`, missing nodes at the end of a cell are no corners.
 void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshContent& mesh);
-// The nodes that are corners of cells. A row has `corners_per_cell` entries, of which the first are in use
-// if there are counts. If `corners_per_cell` is 0, the rows have different lengths, which are the counts.
+// The nodes that are corners of cells. A row has `corners_per_cell` entries; if there are counts,
+// only the first ones of a row, as many as its count, are in use. If `corners_per_cell` is 0, the
+// rows have different lengths, which are the counts.
 struct Connectivity {
   const MeshVariable& variable;
   std::uint64_t num_cells;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads meshes of formats that have only cells and corners: the mesh is computed from the centers
-// of the cells and compared with the cells' corners. If the cells do not cover the sphere, its
-// border follows from the corners.
+// Reads meshes of all formats. MPAS has all arrays (mpas_arrays.cpp). The other formats have only
+// cells and corners: the mesh is computed from the centers of the cells and compared with the
+// cells' corners. If the cells do not cover the sphere, the border of the mesh follows from the
+// corners.
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 // The cell that a target u gets from its natural neighbors, in a plane with the origin at u
 // (docs/theory/interpolation.md).
 //
-// in    one bisector a neighbor, in ring order; for Sibson's method the faces of the conflict
-//       region
-// out   one share a neighbor; the weights are the shares over their sum
+// in    one bisector for each neighbor, in ring order; for Sibson's method the faces of the
+//       conflict region
+// out   one share for each neighbor; the weights are the shares over their sum
 // index neighbors by their position in the ring (natural_region.h)
 //
 // Neighbor i bounds the cell by the line g.p_i = s_i:

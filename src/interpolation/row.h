@@ -7,7 +7,8 @@
 //
 // 1. It fills an empty row, or leaves it empty where the method has no value.
 // 2. The order of the entries depends only on the places of the sites: vertices are spatial ranks,
-//    not sites, and a ring begins with its lowest vertex. So does the order of sums.
+//    not sites, and a ring begins with its lowest vertex. So sums are taken in an order that
+//    depends on the places alone, too.
 // 3. The weights sum up to 1; for Normalization::homogeneous the caller divides them afterwards.
 // 4. It is never called for a target at a vertex, nor outside of all solid faces.
 // 5. Each thread has its own kernel.

@@ -88,8 +88,8 @@ class ValuesSink {
   std::size_t num_targets_;
 };
 
-// Writes tangent vectors of the shape (num_fields / 3, num_targets); each three fields are
-// coordinates.
+// Writes tangent vectors of the shape (num_fields / 3, num_targets); every three fields are the
+// coordinates x, y, z of one field of vectors.
 class VectorsSink {
  public:
   VectorsSink(const FieldSums& sums, std::span<Point> vectors)

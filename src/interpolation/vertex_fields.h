@@ -35,7 +35,7 @@ struct FieldLayout {
 };
 // Returns the layout of fields of doubles, one after the other.
 FieldLayout scalar_fields(std::span<const double> field, std::size_t num_sites);
-// Returns the layout of fields of vectors: each has three fields, one a coordinate.
+// Returns the layout of fields of vectors: each gives three fields, one for each coordinate.
 FieldLayout vector_fields(std::span<const Point> field, std::size_t num_sites);
 
 class VertexFields {

@@ -84,7 +84,7 @@ std::vector<LonLat> corners_between(std::span<const LonLat> nodes, std::size_t o
   return corners;
 }
 
-// Returns the sum of the squared distances of centers, but for zeros, from the middles of four
+// Returns the sum of the squared distances of centers, except for zeros, from the middles of four
 // corners.
 double distance_of(std::span<const LonLat> centers, std::span<const LonLat> corners) {
   double sum = 0;

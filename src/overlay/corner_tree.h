@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the points that are in a box: a k-d tree (Bentley, Comm. ACM 18, 1975), balanced and without
-// pointers.
+// Finds the points that are in a box, by a k-d tree (Bentley, Comm. ACM 18, 1975) that is balanced
+// and has no pointers.
 //
 // in    points, and the indices of some of them
 // out   the indices of those in a box of space
+// index corners: as in `points`; begin, middle, end: positions in corners_
 #pragma once
 
 #include <algorithm>
@@ -40,8 +41,8 @@ class CornerTree {
   }
   static unsigned next(unsigned axis) { return (axis + 1) % num_axes; }
 
-  // The corner in the middle of a part has those not above it along the axis before it, and those not
-  // below it behind it.
+  // Sorts a part so that the corners before its middle one are not above that one along the axis,
+  // and the corners behind it are not below it.
   void build(std::size_t begin, std::size_t end, unsigned axis) {
     if (end - begin <= leaf_size) return;
     const std::size_t middle = begin + (end - begin) / 2;

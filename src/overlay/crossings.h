@@ -5,7 +5,9 @@
 //
 // in    a subdivision, a range of its cells, and a cover
 // out   for each halfedge of these cells, the cover's cell at its origin and all crossings in order
-// index halfedges and cells of the subdivision and of the cover
+// index cells and halfedges, in the spatial order of the subdivision that they belong to: `out` and
+//       `start` are of the cover, all others of the subdivision; `first` and `count` count
+//       crossings
 #pragma once
 
 #include <cstddef>

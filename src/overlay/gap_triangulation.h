@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Triangulates the sphere so that the sides of given cells are edges: a constrained triangulation
-// that makes a cover of cells that are only parts of the sphere.
+// Triangulates the whole sphere, cells and gaps, so that the sides of given cells are edges (a
+// constrained triangulation). So cells that are only parts of the sphere become parts of a cover.
 //
 // in    a subdivision that need not cover the sphere
 // out   a cover by triangles, each with the cell that it belongs to
@@ -25,8 +25,8 @@ namespace rondel::overlay {
 // A cover by triangles.
 struct GapTriangulation {
   Subdivision cover;
-  // For each triangle, the cell of the given subdivision that it is a part of; cells.num_cells()
-  // for a triangle in no cell.
+  // For each triangle (a cell of `cover`), the cell of the given subdivision that it is a part of;
+  // num_cells() of that subdivision for a triangle in no cell.
   std::vector<Index> owners;
 };
 
@@ -48,8 +48,8 @@ class ConflictingSides : public InvalidInput {
   SideConflict conflict_;
 };
 
-// Returns a conflict between sides of the cells, or nothing; exact. Sides with the same cell on
-// both sides bound nothing and are ignored.
+// Returns a conflict between sides of the cells, or nothing; exact. Sides that one cell has
+// in both directions bound nothing and are ignored.
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
 // True if there is no conflict, and no cell has a side in both directions.
 bool has_plain_sides(const Subdivision& cells, const Execution& execution);

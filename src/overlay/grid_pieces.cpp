@@ -58,8 +58,8 @@ class RowStrips {
       has_southern_ = true;
     }
   }
-  // Returns the share of the row's height between the lowest and the highest strip, about, where the
-  // parallels below and above count as strips if the cell is there.
+  // Returns approximately the share of the row's height between the lowest and the highest strip.
+  // The parallels below and above count as strips if the cell reaches them.
   [[nodiscard]] double extent(bool is_below, bool is_above) const {
     const double lowest = is_below ? 0 : lowest_;
     const double highest = is_above ? 1 : highest_;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Computes the weights of conservative remapping of order 2.
+//
+// in    the pieces of a remapping with their moments, and gradients at its sources
+// out   a matrix of weights
+// index rows: targets; columns: sources; both by their indices in the input
 #pragma once
 
 #include <cstdint>
@@ -33,8 +37,8 @@ CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> ce
                              std::span<const std::int32_t> mask, unsigned threads);
 
 // Returns the weights of a remapping with moments, divided by `target_areas`. `gradients` belong to
-// the sources. The targets are computed in the order of `targets`, which is a spatial order, or in
-// their own order if it is empty; the result does not depend on it.
+// the sources. `targets` lists the indices of the targets in the spatial order in which their rows
+// are computed; if it is empty, this is the order of the input. The result does not depend on it.
 Weights linear_weights(const Remap& remap, const CellGradients& gradients,
                        std::span<const double> target_areas, std::span<const Index> targets,
                        unsigned threads);

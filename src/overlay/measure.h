@@ -110,10 +110,10 @@ constexpr double area_of_rounding(double length) {
 // area.
 [[noreturn]] void refuse_pieces(Index name, double sum, double area);
 
-// Drops the pieces of a cell, of this area and length of border, whose areas are not larger than
-// what rounding of their corners can make. A cell that is no larger than rounding of its own corners
-// keeps its largest piece. A cell that is little larger, as a sliver whose tip is such a piece, loses
-// at most a thousandth of its area.
+// Drops the pieces of a cell that are no larger than what rounding of their corners can make.
+// `area` and `length` are the area of the cell and the length of its border. A cell that is itself
+// no larger than rounding keeps its largest piece. A cell that is little larger, such as a sliver
+// whose tip is such a piece, loses at most a thousandth of its area.
 template <class Piece>
 void drop_rounding(std::vector<Piece>& pieces, double area, double length) {
   const auto is_rounding = [](const Piece& piece) {
@@ -142,8 +142,9 @@ void drop_rounding(std::vector<Piece>& pieces, double area, double length) {
   }
 }
 
-// Tests that the pieces of a cell add up to the cell's area. Otherwise drops the pieces if the cell
-// is no wider than rounding, or throws InvalidInput with `name`, the index of the cell in the input.
+// Tests that the pieces of a cell add up to the cell's area. If they do not, drops the pieces if
+// the cell is no wider than rounding, and otherwise throws InvalidInput with `name`, the index of
+// the cell in the input.
 //
 // A piece is off by area_of_rounding() of its border where its triangles are no larger than a
 // radian, and the cell by that of its own border. Large triangles lose some more digits, for which

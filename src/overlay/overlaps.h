@@ -4,7 +4,7 @@
 // Finds cells that overlap each other or themselves by more than rounding of their corners.
 //
 // in    a subdivision
-// out   pairs of cells with a place in both
+// out   pairs of cells, each with a place that is in both cells
 // index pairs: indices of the cells in the input
 #pragma once
 
@@ -26,8 +26,8 @@ namespace rondel::overlay {
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 
-// Returns the first cell of the input that crosses or overlaps itself by more than rounding, twice
-// in one pair, or nothing.
+// Returns the first cell of the input that crosses or overlaps itself by more than rounding, as a
+// pair of the cell with itself; or nothing if there is no such cell.
 std::optional<CrossingCells> first_crossing_itself(const Subdivision& cells,
                                                    const Execution& execution);
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Exact orientations of the points of two sets of cells. The second one, the cover, is perturbed by an
-// infinitesimal rotation: no point of one set lies on an edge of the other, and two edges
-// cross in their insides or not at all. So equal grids, shared corners and shared edges are no
-// special cases.
+// Exact orientations of the points of two sets of cells. The second set, the cover, is perturbed by
+// an infinitesimal rotation, so that no point of one set lies on an edge of the other, and two
+// edges cross in the inside of both or not at all. So equal grids, shared corners and shared edges
+// are no special cases.
 //
 // in    points of a set of cells (a, b, x) and of the perturbed cover (y, z)
 // out   signs, never zero; rounded values with bounds where a filter is enough
@@ -33,10 +33,10 @@ Sign turned_point_sign(const Point& a, const Point& b, const Point& y);
 // Returns the sign of det(x, y, z) with y and z perturbed.
 Sign turned_edge_sign(const Point& x, const Point& y, const Point& z);
 
-// The bounds of the filters. The product of p, or y, and a step between two points, all of them
-// unit vectors up to rounding, is a cross product off by u (1 + 2 sqrt(2)) |step|, and its scalar
-// product with a third vector by 3 u |step| more: 6.9 u. With a difference d to one of the ends of
-// the step for the third vector, it is 7.9 u |d|, and d is at most 2 long.
+// The bounds of the filters. Let p (or y) and both ends of a step be unit vectors up to rounding.
+// The cross product of p and the step is off by u (1 + 2 sqrt(2)) |step|, and its scalar product
+// with a third vector by 3 u |step| more: 6.9 u. With a difference d to one of the ends of the step
+// for the third vector, it is 7.9 u |d|, and d is at most 2 long.
 inline constexpr double line_bound = 8 * predicates::unit_roundoff;
 inline constexpr double edge_bound = 18 * predicates::unit_roundoff;
 

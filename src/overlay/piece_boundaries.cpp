@@ -152,8 +152,8 @@ void PieceBoundaries::flood() {
   }
 }
 
-// True if along each edge the boundary comes in and goes out by turns, and no end of an edge that
-// is outside of the cell was reached from inside.
+// True if the crossings along each edge lead into the cell and out of it alternately, and no corner
+// of the cover was found to be both inside and outside of the cell.
 bool PieceBoundaries::has_clear_ends() const {
   for (std::size_t k = 0; k < passages_.size(); ++k) {
     const auto& [edge, out, by, point] = passages_[k];
@@ -211,7 +211,7 @@ void PieceBoundaries::add_edge(Halfedge h, Index from, Index to) {
   arcs_.push_back({cover_.cell_of[h], cover_.cell_of[cover_.twins[h]], from, to});
 }
 
-// Marks the end of a halfedge as inside.
+// Marks the corner of the cover at the end of a halfedge as inside of the cell.
 void PieceBoundaries::arrive(Halfedge h) {
   if (visited_.insert(cover_.corners[cover_.next(h)])) arrivals_.push_back(h);
 }

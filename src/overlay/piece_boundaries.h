@@ -9,10 +9,14 @@
 // index cells in the spatial orders of the subdivision and of the cover; points of one cell, from 0
 //
 // The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). It
-// determines the parts of the cover's edges inside of the cell without any further decision: an
-// edge that the boundary crosses on its way out of a cell of the cover leads inwards in the
-// direction of its halfedge there, to the next crossing or to its end, and all other edges continue
-// from that end. The arcs with the cell b of the cover to their left bound the piece in b; edges of
+// determines which parts of the cover's edges are inside of the cell. Where the boundary leaves a
+// cell of the cover by one of its halfedges, that edge leads into the cell in the direction of the
+// halfedge. It goes on to the next crossing with the boundary, or else to its end: this corner of
+// the cover is then inside of the cell, and all other edges go on from there. Two decisions are
+// left: the order of crossings along an edge, if the cell is not convex (is_before()), and, if the
+// boundary crosses no edge at all, whether the edges are inside (has_corners_of_cover()).
+//
+// The arcs with the cell b of the cover to their left bound the piece in b; edges of
 // the cover bound two pieces.
 #pragma once
 
@@ -90,7 +94,7 @@ class PieceBoundaries {
   std::vector<Point> points_;
   std::vector<Index> corners_;  // indices into points_
   std::vector<Passage> passages_;
-  std::uint64_t passed_ = 0;        // a union of digits_of() the edges that have passages
+  std::uint64_t passed_ = 0;        // the bits digits_of() of all edges with passages
   std::vector<Halfedge> arrivals_;  // halfedges whose ends are inside and are still to be visited
   query::VisitedSet visited_;       // the points of the cover whose edges were taken
   std::vector<Point> ring_;

@@ -21,7 +21,7 @@ namespace rondel::overlay {
 // columns.
 struct PieceRows {
   std::vector<std::uint64_t> offsets = {0};  // one more than rows
-  std::vector<Index> columns;                // the cell of the other subdivision that has the piece
+  std::vector<Index> columns;                // the other cell, by its index in the input
   std::vector<double> areas;                 // steradians
   std::vector<Point> moments;                // integrals of the unit vector; empty unless asked for
   // The sums of the areas of rows and columns, computed in double_double arithmetic and rounded.

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An index of corners in the plane of longitude and latitude. Longitudes that differ by 360 degrees
-// are the same.
+// Finds corners in the plane of longitude and latitude. Longitudes that differ by 360 degrees are
+// the same.
+//
+// index owners: features
 #pragma once
 
 #include <algorithm>

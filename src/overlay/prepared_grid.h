@@ -51,7 +51,7 @@ inline double rise(const SphereHeight& low, const SphereHeight& high) {
 inline constexpr double same_line_degrees = 0x1p-44 * 360;
 
 // A grid of cells. Where the grid does not go around the globe or does not reach a pole, columns
-// and rows that are no cells fill the rest of the sphere.
+// and rows without cells fill the rest of the sphere.
 class PreparedGrid {
  public:
   // A column: the lune between two meridians.

@@ -22,8 +22,8 @@ struct RingArea {
   double area = 0;
   double rounding = 0;
 
-  // True if rounding of the corners may have made all that is left, or all that is right, of the
-  // ring.
+  // True if the area to the left of the ring, or that to its right, may come from rounding of the
+  // corners alone.
   [[nodiscard]] bool is_nothing() const { return area <= rounding && -area <= rounding; }
 };
 RingArea area_of_ring(std::span<const Point> ring);

@@ -32,8 +32,8 @@ namespace {
 using overlay::CellSetData;
 using overlay::PieceRows;
 
-// Returns the pieces of a cell that is the whole sphere, as row `whole`: all other cells. The
-// result is transposed if the sphere is on the other side.
+// Returns the pieces of one cell that is the whole sphere, in row `whole`: they are all of `cells`,
+// which are the other side. If the whole sphere is a source, the caller transposes the result.
 PieceRows whole_cells(const CellSetData& cells, Index whole, std::size_t num_rows) {
   PieceRows pieces;
   for (std::size_t i = 0; i < cells.areas().size(); ++i) {
@@ -119,8 +119,8 @@ void drop_masked(const CellSet& source, const CellSet& target, PieceRows& pieces
   pieces.row_sums.clear();
 }
 
-// Returns the cells with another mask, unless it is empty. Throws InvalidInput if it has not a value
-// for each cell.
+// Returns the cells with another mask, unless this is empty. Throws InvalidInput if it does not
+// have one value for each cell.
 CellSet masked(const CellSet& cells, const std::vector<std::int32_t>& mask, const char* name) {
   if (mask.empty()) return cells;
   if (mask.size() != cells.num_cells()) {
@@ -226,7 +226,8 @@ Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas
   return weights;
 }
 
-// Computes the weights of the sides, the order and the norm of a result, with all that it has.
+// Completes a result whose sides, order and norm are set: computes the pieces, the areas, the
+// fractions and the weights.
 void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   const CellSetData& sources = CellSetData::of(result.source);
   const CellSetData& targets = CellSetData::of(result.target);

@@ -5,6 +5,7 @@
 //
 // in    points or positions
 // out   for each the index of its representative
+// index points or positions, as given
 #pragma once
 
 #include <span>
@@ -14,8 +15,8 @@
 
 namespace rondel::overlay {
 
-// Returns for each point the index of the first point before it, or of itself, that is within
-// `distance` of it in each coordinate and that represents itself.
+// Returns for each point the index of its representative: the first earlier point that represents
+// itself and is within `distance` of it in each coordinate, or the point itself if there is none.
 std::vector<Index> same_nodes(std::span<const Point> points, double distance);
 
 // The different values, in the order in which they first occur, and for each given value the index

@@ -43,8 +43,8 @@ TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns);
 
-// The area of each cell that counts in the overlay (in steradians), its first moment, and the
-// length of its border.
+// The part of each cell that counts in the overlay: its area (steradians), its first moment, and
+// the length of its border.
 class CountedSizes {
  public:
   CountedSizes(const CellSetData& cells, const TakingPart& part);

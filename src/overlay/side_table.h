@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A hash table of the directed sides of triangles by their ends. It is one array, since the time of
-// filling is that of its look-ups.
+// A hash table of the directed sides of triangles by their ends. It is one array, because
+// gap_triangulation.h spends most of its time on look-ups here.
+//
+// index points, by which sides are found; cells (`owner`); triangles
 #pragma once
 
 #include <bit>

@@ -3,6 +3,8 @@
 
 // Operations on single cells: extraction, complement, concatenation. A single cell is a CellRings
 // with one cell.
+//
+// index cells and rings: as in the CellRings that they belong to (rings counted over all cells)
 #pragma once
 
 #include <cstdint>

@@ -5,8 +5,10 @@
 //
 // in    CellRings
 // out   the arrays below
-// index cells: their places in spatial order, with the index in the input in `names`; halfedges:
-//       places in `corners`
+// index cells: places in spatial order, from 0; `names` has the index in the input of each
+//       rings, halfedges, points: entries of `rings`, `corners`, `points`
+//
+// Halfedges here are not those of a triangulation (3 * face + i, topology/mesh.h).
 //
 // A halfedge leads from its corner to the next one of its ring, and its cell is to its left.
 #pragma once
@@ -24,7 +26,7 @@ namespace rondel::overlay {
 
 using Halfedge = Index;
 
-// The number of cells in a piece of a parallel loop.
+// The number of cells that one task of a parallel loop takes.
 inline constexpr std::size_t cells_per_piece = 4096;
 
 // The shapes of cells, which decide how a walk goes through them.
@@ -46,7 +48,8 @@ struct Subdivision {
   std::vector<Point> points;  // in the order of their first use
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
   LargeVector<Index> rings;   // ring r has the halfedges rings[r] ... rings[r+1]-1
-  // The corner of the input's ring at which each ring begins here; empty if corners were merged.
+  // For each ring, the number of corners in the input's ring before the one at which it begins
+  // here. The array is empty if corners were merged.
   LargeVector<Index> given_starts;
   LargeVector<Index> begins;  // the halfedges of cell i are begins[i] ... begins[i+1]-1
   // The point at the origin of each halfedge.

@@ -94,7 +94,7 @@ bool is_surely_wide(const RingArea& ring, double length) {
   return std::abs(ring.area) > surely * area_of_rounding(length);
 }
 
-// True if a ring has no area, but for rounding, as one with two equal loops.
+// True if a ring has no area up to rounding, such as one with two equal loops.
 bool is_balanced(std::span<const Point> ring) {
   const RingArea area = area_of_ring(ring);
   return !is_surely_wide(area, length_of(ring)) || area.is_nothing();

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Removes the parts of rings that have no inside.
+//
+// index cells, as in the input: their number does not change
 #pragma once
 
 #include <cstddef>
@@ -34,8 +36,8 @@ struct MeasuredCell {
 };
 Turn turn_of(const MeasuredCell& before, const MeasuredCell& after);
 
-// True if a ring of the cell crosses itself by more than rounding and has no area, such as a bow tie
-// with two equal loops.
+// True if a ring of the cell crosses itself by more than rounding and has no area, such as a bow
+// tie with two equal loops.
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell);
 
 // Returns the tidied() cells as a subdivision. The parts of a cover inside of a cell are only known
