@@ -13,7 +13,7 @@ Triangulation triangulated(Job& job, const InterpolationOptions& options, const 
   Triangulation triangulation = job.triangulate(table);
   const auto duplicates = triangulation.duplicates();
   if (options.shared_place == SharedPlace::error && !duplicates.empty()) {
-    throw FileError(table.where(duplicates.front().site) + ": the place of " +
+    throw FileError(table.where(duplicates.front().site) + " is in the same place as " +
                     table.where(duplicates.front().representative));
   }
   counts.duplicates = std::max(counts.duplicates, duplicates.size());

@@ -21,7 +21,7 @@ constexpr std::uint64_t max_parallels = 1'000'000;
 [[noreturn]] void refuse(const std::string& text) {
   throw UsageError("'" + text +
                    "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
-                   "has so many cells");
+                   "has NLON by NLAT cells");
 }
 
 Weights bilinear_from(const NetcdfSites& grid, const Targets& targets) {

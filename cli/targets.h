@@ -33,7 +33,7 @@ Targets read_targets(const FileName& target, const ReadOptions& read);
 /// grid
 GlobalGrid grid_of(const std::string& text);
 
-/// Returns the numbers of the cells that are not masked.
+/// Returns the indices of the sites that are not masked.
 std::vector<Index> unmasked_sites(const NetcdfSites& grid);
 
 /// Returns the weights of --method bilinear or nearest_d2s; sources that are masked take no part.

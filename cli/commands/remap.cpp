@@ -190,7 +190,7 @@ Command add_remap_command(CLI::App& tool) {
         return sites;
       });
   add_second_input(*parser, "TARGET", options->target,
-                   "The cells that want them, in the same forms")
+                   "The cells that get the values, in the same forms")
       ->type_name("");
   add_output_option(
       *parser, options->common,

@@ -49,7 +49,7 @@ formats::MeshContent read_by_convention(const io::NetcdfReader& file, const std:
   const bool is_oasis = file.find(name + ".clo") != nullptr;
   if (!name.empty() && !is_oasis) (void)file.require(name);
   for (const auto read : {&formats::read_ugrid, &formats::read_scrip_grid, &formats::read_esmf_mesh,
-                          &formats::read_mpas, &formats::read_icon, &formats::read_oasis,
+                          &formats::read_mpas_cells, &formats::read_icon, &formats::read_oasis,
                           &formats::read_exodus, &formats::read_cf_grid}) {
     if (std::optional<formats::MeshContent> mesh = read(file, name)) return std::move(*mesh);
   }
@@ -133,7 +133,7 @@ CellRings cells_of(formats::MeshContent& mesh) {
   }
   if (num_empty > 0) {
     mesh.remarks.push_back(std::to_string(num_empty) + " of " + std::to_string(cells.num_cells()) +
-                           " cells have less than three different corners and are empty");
+                           " cells have fewer than three different corners and are empty");
   }
   return cells;
 }
@@ -181,7 +181,7 @@ void require_centers_in_cells(const formats::MeshContent& mesh, CellTable& table
 CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_per_cell) {
   const system::ArithmeticScope arithmetic;
   if (corners_per_cell == 0 || corners.size() % corners_per_cell != 0) {
-    throw InvalidInput(std::to_string(corners.size()) + " corners are none of cells with " +
+    throw InvalidInput(std::to_string(corners.size()) + " corners are no multiple of " +
                            std::to_string(corners_per_cell) + " each",
                        corners.size());
   }

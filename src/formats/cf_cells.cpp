@@ -67,7 +67,7 @@ class CfGrids {
     return &*found;
   }
 
-  [[nodiscard]] const MeshVariable& variable(std::size_t index) const {
+  [[nodiscard]] const io::VariableInFile& variable(std::size_t index) const {
     return file_.variables()[index];
   }
 
@@ -98,7 +98,7 @@ class CfGrids {
     const std::vector<std::string> own = dimensions_of(first);
     if (!axes.are_axes || !are_among(dimensions_of(axes), own) || first.are_axes) return;
     const PlaceArrays places = places_of(file_, variable(first.lon), variable(first.lat));
-    const MeshVariable* const pair[] = {&variable(axes.lon), &variable(axes.lat)};
+    const io::VariableInFile* const pair[] = {&variable(axes.lon), &variable(axes.lat)};
     const std::vector<double> lon =
         degrees_of(file_, *pair[0], UsualUnits::of_name, {nullptr, pair[1]});
     const std::vector<double> lat =
@@ -150,8 +150,9 @@ class CfGrids {
 
 // Returns the bounds of an axis in degrees, two for each cell or one more than cells, or none if it
 // has no bounds.
-std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable& axis,
-                                   const MeshVariable& other, const MeshVariable* bounds) {
+std::vector<double> bounds_of_axis(const NetcdfReader& file, const io::VariableInFile& axis,
+                                   const io::VariableInFile& other,
+                                   const io::VariableInFile* bounds) {
   if (bounds == nullptr) return {};
   const bool are_lines = bounds->num_values == axis.num_values + 1;
   if (bounds->num_values != 2 * axis.num_values && !are_lines) {
@@ -168,11 +169,11 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable&
 }
 
 // Returns the lines between cells along an axis, in degrees.
-std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
-                             const MeshVariable& other, const MeshVariable* bounds,
+std::vector<double> lines_of(const NetcdfReader& file, const io::VariableInFile& axis,
+                             const io::VariableInFile& other, const io::VariableInFile* bounds,
                              bool is_longitude) {
   const std::vector<double> values = degrees_of(file, axis, UsualUnits::of_name, {bounds, &other});
-  const auto refuse = [](const MeshVariable& variable, const InvalidInput& error) {
+  const auto refuse = [](const io::VariableInFile& variable, const InvalidInput& error) {
     throw BadValue("variable " + io::in_quotes(variable.name) + ": " + error.what());
   };
   try {
@@ -189,7 +190,7 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
 }
 
 // Adds a remark if coordinates are outside of their own cells, as with the bounds of others.
-void tell_of_outside(const MeshVariable& axis, const MeshVariable* bounds,
+void tell_of_outside(const io::VariableInFile& axis, const io::VariableInFile* bounds,
                      std::span<const double> values, std::span<const double> lines,
                      std::vector<std::string>& remarks) {
   if (bounds == nullptr) return;
@@ -213,7 +214,7 @@ void tell_of_outside(const MeshVariable& axis, const MeshVariable* bounds,
 
 // Throws BadValue unless bounds are the same wherever the places are the same, as at all times: the
 // cells of a grid that moves are not those of its first time.
-void require_repeated(const MeshVariable& bounds, std::span<const double> values,
+void require_repeated(const io::VariableInFile& bounds, std::span<const double> values,
                       std::size_t size) {
   const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
   for (std::size_t k = size; k < values.size(); ++k) {
@@ -232,7 +233,7 @@ GridShape last_two_of(std::span<const std::uint64_t> lengths) {
 }
 
 // True if bounds are the nodes of a grid, (ny + 1, nx + 1), in either order.
-bool is_of_nodes(const MeshVariable& bounds, const PlaceArrays& places) {
+bool is_of_nodes(const io::VariableInFile& bounds, const PlaceArrays& places) {
   const std::size_t rank = places.shape.size();
   if (rank < 2 || bounds.shape.size() != rank ||
       !std::equal(bounds.shape.begin(), bounds.shape.end() - 2, places.shape.begin())) {
@@ -246,9 +247,11 @@ bool is_of_nodes(const MeshVariable& bounds, const PlaceArrays& places) {
 // Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
 // in `corners_per_cell`. The bounds have one more dimension than the coordinate, or they are the nodes of a
 // grid: then the nodes are returned, and `corners_per_cell` is 0.
-std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
-                                      const MeshVariable& other, const MeshVariable& bounds,
-                                      const PlaceArrays& places, std::size_t& corners_per_cell) {
+std::vector<double> corners_of_bounds(const NetcdfReader& file,
+                                      const io::VariableInFile& coordinate,
+                                      const io::VariableInFile& other,
+                                      const io::VariableInFile& bounds, const PlaceArrays& places,
+                                      std::size_t& corners_per_cell) {
   std::vector<double> values = degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
   const std::size_t num_cells = places.lon.size();
   const auto is_of_bounds = [&](std::size_t dimension) {
@@ -292,10 +295,10 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
 MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
                                const CoordinatePair& pair) {
   MeshContent mesh;
-  const MeshVariable& lon = grids.variable(pair.lon);
-  const MeshVariable& lat = grids.variable(pair.lat);
-  const MeshVariable& lon_bounds = grids.variable(pair.lon_bounds);
-  const MeshVariable& lat_bounds = grids.variable(pair.lat_bounds);
+  const io::VariableInFile& lon = grids.variable(pair.lon);
+  const io::VariableInFile& lat = grids.variable(pair.lat);
+  const io::VariableInFile& lon_bounds = grids.variable(pair.lon_bounds);
+  const io::VariableInFile& lat_bounds = grids.variable(pair.lat_bounds);
   const PlaceArrays places = places_of(file, lon, lat);
   std::size_t corners_per_cell = 0;
   std::size_t of_each_lat = 0;
@@ -330,13 +333,13 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
 MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
                              const CoordinatePair& pair) {
   MeshContent mesh;
-  const MeshVariable& lon = grids.variable(pair.lon);
-  const MeshVariable& lat = grids.variable(pair.lat);
+  const io::VariableInFile& lon = grids.variable(pair.lon);
+  const io::VariableInFile& lat = grids.variable(pair.lat);
   const auto bounds = [&](std::size_t index) {
     return index == no_variable ? nullptr : &grids.variable(index);
   };
-  const MeshVariable* const lon_bounds = bounds(pair.lon_bounds);
-  const MeshVariable* const lat_bounds = bounds(pair.lat_bounds);
+  const io::VariableInFile* const lon_bounds = bounds(pair.lon_bounds);
+  const io::VariableInFile* const lat_bounds = bounds(pair.lat_bounds);
   mesh.grid = LonLatGrid{lines_of(file, lon, lat, lon_bounds, true),
                          lines_of(file, lat, lon, lat_bounds, false)};
   mesh.shape = {lat.num_values, lon.num_values};

@@ -8,14 +8,14 @@
 
 #include "formats/cf_names.h"
 #include "formats/cf_values.h"
-#include "formats/mpas.h"
+#include "formats/mpas_places.h"
 #include "io/bad_value.h"
 #include "io/number.h"
 #include "rondel/error.h"
 
 namespace rondel::formats {
 
-VariableHeader header_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable) {
+VariableHeader header_of(const io::NetcdfReader& file, const io::VariableInFile& variable) {
   VariableHeader header;
   header.name = variable.name;
   header.is_number = variable.type != io::NetcdfType::text;
@@ -33,14 +33,14 @@ VariableHeader header_of(const io::NetcdfReader& file, const io::NetcdfReader::V
 
 std::vector<VariableHeader> headers_of(const io::NetcdfReader& file) {
   std::vector<VariableHeader> headers;
-  for (const io::NetcdfReader::Variable& variable : file.variables()) {
+  for (const io::VariableInFile& variable : file.variables()) {
     headers.push_back(header_of(file, variable));
   }
   return headers;
 }
 
 std::vector<double> meant_numbers(const io::NetcdfReader& file,
-                                  const io::NetcdfReader::Variable& variable) {
+                                  const io::VariableInFile& variable) {
   std::vector<double> values = file.numbers(variable);
   ValueRules(variable).apply(values);
   return values;
@@ -58,15 +58,15 @@ namespace {
 
 // Returns the degrees in a unit of the variable, by its own units, those of relatives, or the usual
 // ones.
-double degrees_per_unit_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
+double degrees_per_unit_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
                            UsualUnits usual,
-                           std::initializer_list<const io::NetcdfReader::Variable*> relatives) {
+                           std::initializer_list<const io::VariableInFile*> relatives) {
   const VariableHeader own = header_of(file, variable);
   std::vector<VariableHeader> headers;
   headers.reserve(relatives.size());
   std::vector<const VariableHeader*> known;
   bool has_units = !without_blanks(own.text("units")).empty();
-  for (const io::NetcdfReader::Variable* const relative : relatives) {
+  for (const io::VariableInFile* const relative : relatives) {
     known.push_back(nullptr);
     if (relative == nullptr) continue;
     known.back() = &headers.emplace_back(header_of(file, *relative));
@@ -79,9 +79,9 @@ double degrees_per_unit_of(const io::NetcdfReader& file, const io::NetcdfReader:
 
 }  // namespace
 
-std::vector<double> degrees_of(const io::NetcdfReader& file,
-                               const io::NetcdfReader::Variable& variable, UsualUnits usual,
-                               std::initializer_list<const io::NetcdfReader::Variable*> relatives) {
+std::vector<double> degrees_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
+                               UsualUnits usual,
+                               std::initializer_list<const io::VariableInFile*> relatives) {
   require_sphere(file);
   double factor = 1;
   try {
@@ -122,7 +122,7 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
   return ordered;
 }
 
-std::vector<double> in_order(const io::NetcdfReader::Variable& variable,
+std::vector<double> in_order(const io::VariableInFile& variable,
                              const std::vector<std::size_t>& wanted, std::vector<double> values) {
   std::vector<std::size_t> order;
   for (const std::size_t dimension : wanted) {
@@ -135,15 +135,14 @@ std::vector<double> in_order(const io::NetcdfReader::Variable& variable,
 namespace {
 
 // True if the first of several dimensions is one of time.
-bool has_time_first(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable) {
+bool has_time_first(const io::NetcdfReader& file, const io::VariableInFile& variable) {
   return variable.shape.size() > 1 && variable.shape.front() > 1 &&
          is_name_of_time(file.dimensions()[variable.dimensions.front()].name);
 }
 
 // True if the values are the same at each index of the first dimension, which are read one after
 // the other.
-bool is_repeated_along_first(const io::NetcdfReader& file,
-                             const io::NetcdfReader::Variable& variable) {
+bool is_repeated_along_first(const io::NetcdfReader& file, const io::VariableInFile& variable) {
   const std::uint64_t size = variable.num_values / variable.shape.front();
   std::vector<double> first(size);
   std::vector<double> other(size);
@@ -157,7 +156,7 @@ bool is_repeated_along_first(const io::NetcdfReader& file,
 }
 
 // Returns the variable with only the first index of its first dimension.
-io::NetcdfReader::Variable at_first_place(io::NetcdfReader::Variable variable) {
+io::VariableInFile at_first_place(io::VariableInFile variable) {
   variable.num_values /= variable.shape.front();
   variable.shape.front() = 1;
   return variable;
@@ -165,8 +164,8 @@ io::NetcdfReader::Variable at_first_place(io::NetcdfReader::Variable variable) {
 
 }  // namespace
 
-PlaceArrays places_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& lon,
-                      const io::NetcdfReader::Variable& lat, UsualUnits usual) {
+PlaceArrays places_of(const io::NetcdfReader& file, const io::VariableInFile& lon,
+                      const io::VariableInFile& lat, UsualUnits usual) {
   for (const std::string kind : {"Cell", "Edge", "Vertex"}) {
     if (lon.name == "lon" + kind && lat.name == "lat" + kind)
       require_one_place(file, kind, PlacesMay::be_missing);

@@ -22,11 +22,10 @@ namespace rondel::formats {
 
 // Return the headers of all variables of the file, in their order, and of one variable.
 std::vector<VariableHeader> headers_of(const io::NetcdfReader& file);
-VariableHeader header_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable);
+VariableHeader header_of(const io::NetcdfReader& file, const io::VariableInFile& variable);
 
 // Returns the values unpacked, with NaN for missing ones. Throws BadValue if they are no numbers.
-std::vector<double> meant_numbers(const io::NetcdfReader& file,
-                                  const io::NetcdfReader::Variable& variable);
+std::vector<double> meant_numbers(const io::NetcdfReader& file, const io::VariableInFile& variable);
 
 // Throws BadValue for a mesh in the plane, whose longitudes and latitudes mean nothing.
 // degrees_of() does so, too.
@@ -38,10 +37,9 @@ enum class UsualUnits { of_name, degrees, radians };
 // the first of its relatives that has some; a relative may be null. The first relative is of the
 // same kind: if the longitudes of corners are west of Greenwich, so are the centers', but latitudes
 // say nothing about that. Throws BadValue for units that are neither degrees nor radians.
-std::vector<double> degrees_of(
-    const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
-    UsualUnits usual = UsualUnits::of_name,
-    std::initializer_list<const io::NetcdfReader::Variable*> relatives = {});
+std::vector<double> degrees_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
+                               UsualUnits usual = UsualUnits::of_name,
+                               std::initializer_list<const io::VariableInFile*> relatives = {});
 
 // Returns an array with its dimensions in another order: order[k] is the new position of dimension
 // k of `shape`.
@@ -49,7 +47,7 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                const std::vector<std::size_t>& order, std::vector<double> values);
 // Returns the values with the dimensions in the wanted order; dimensions are given by their numbers
 // in the file, which differ.
-std::vector<double> in_order(const io::NetcdfReader::Variable& variable,
+std::vector<double> in_order(const io::VariableInFile& variable,
                              const std::vector<std::size_t>& wanted, std::vector<double> values);
 
 // Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
@@ -63,8 +61,7 @@ struct PlaceArrays {
   std::vector<double> lat;
 };
 // Reads the places. Throws BadValue if the dimensions of `lon` and `lat` do not agree.
-PlaceArrays places_of(const io::NetcdfReader& file, const io::NetcdfReader::Variable& lon,
-                      const io::NetcdfReader::Variable& lat,
-                      UsualUnits usual = UsualUnits::of_name);
+PlaceArrays places_of(const io::NetcdfReader& file, const io::VariableInFile& lon,
+                      const io::VariableInFile& lat, UsualUnits usual = UsualUnits::of_name);
 
 }  // namespace rondel::formats

@@ -23,8 +23,8 @@ using io::NetcdfReader;
 constexpr std::int32_t esmf_none = -1;
 
 // Returns the places of one variable with both coordinates of each place, as ESMF has them.
-std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& variable,
-                             const MeshVariable* related) {
+std::vector<LonLat> pairs_of(const NetcdfReader& file, const io::VariableInFile& variable,
+                             const io::VariableInFile* related) {
   if (require_rank(variable, 2).shape[1] != 2) {
     throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                    std::to_string(variable.shape[1]) + " coordinates instead of 2");
@@ -60,14 +60,14 @@ void define_counts(MeshFile& file, io::NetcdfType type, std::size_t cells,
 }  // namespace
 
 std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::string& name) {
-  const MeshVariable* const nodes = file.find("nodeCoords");
-  const MeshVariable* const elements = file.find("elementConn");
+  const io::VariableInFile* const nodes = file.find("nodeCoords");
+  const io::VariableInFile* const elements = file.find("elementConn");
   if (nodes == nullptr || elements == nullptr) return std::nullopt;
-  const MeshVariable& numbers = file.require("numElementConn");
+  const io::VariableInFile& numbers = file.require("numElementConn");
   if (!is_meant(file, name, numbers)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "ESMF";
-  const MeshVariable* const centers = file.find("centerCoords");
+  const io::VariableInFile* const centers = file.find("centerCoords");
   mesh.nodes = pairs_of(file, *nodes, centers);
   mesh.names = io::in_quotes(nodes->name);
   mesh.is_single = nodes->type == io::NetcdfType::float32;

@@ -30,7 +30,7 @@ using io::NetcdfReader;
 // Returns the nodes, which are points in space.
 std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   std::vector<Point> points;
-  if (const MeshVariable* const all = file.find("coord")) {
+  if (const io::VariableInFile* const all = file.find("coord")) {
     if (require_rank(*all, 2).shape[0] != 3) {
       throw BadValue(R"(variable "coord" has not three coordinates)");
     }
@@ -56,7 +56,7 @@ std::vector<Point> points_of_exodus(const NetcdfReader& file) {
 std::vector<double> ids_of_blocks(const NetcdfReader& file, std::size_t num_blocks) {
   std::vector<double> ids;
   for (std::size_t block = 1; block <= num_blocks; ++block) {
-    const MeshVariable* const of_block = file.find("global_id" + std::to_string(block));
+    const io::VariableInFile* const of_block = file.find("global_id" + std::to_string(block));
     if (of_block == nullptr) return {};
     const std::vector<double> numbers = file.numbers(*of_block);
     ids.insert(ids.end(), numbers.begin(), numbers.end());
@@ -84,7 +84,7 @@ std::vector<std::size_t> places_of_numbers(const std::vector<double>& numbers, s
 // corners.
 void order_by_number(const NetcdfReader& file, std::size_t num_blocks, MeshContent& mesh) {
   const std::size_t n = mesh.cells.num_cells();
-  const MeshVariable* const map = file.find("elem_num_map");
+  const io::VariableInFile* const map = file.find("elem_num_map");
   std::vector<std::size_t> places;
   if (map != nullptr) places = places_of_numbers(file.numbers(*map), n);
   if (places.empty()) places = places_of_numbers(ids_of_blocks(file, num_blocks), n);
@@ -130,7 +130,7 @@ std::string element_type(std::size_t corners) { return "SHELL" + std::to_string(
 }  // namespace
 
 std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::string& name) {
-  const MeshVariable* const block_1 = file.find("connect1");
+  const io::VariableInFile* const block_1 = file.find("connect1");
   if (block_1 == nullptr || !is_meant(file, name, *block_1)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "Exodus";
@@ -138,12 +138,12 @@ std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::stri
   mesh.names = "the coordinates";
   std::size_t num_along_parallels = 0;
   std::size_t num_blocks = 0;
-  while (const MeshVariable* const corners =
+  while (const io::VariableInFile* const corners =
              file.find("connect" + std::to_string(num_blocks + 1))) {
     const std::size_t block = ++num_blocks;
     const auto& shape = require_rank(*corners, 2).shape;
     take_connectivity(file, {*corners, shape[0], shape[1], false, 1, 1}, {}, mesh);
-    if (const MeshVariable* const kinds = file.find("edge_type" + std::to_string(block))) {
+    if (const io::VariableInFile* const kinds = file.find("edge_type" + std::to_string(block))) {
       for (const double kind : file.numbers(*kinds)) num_along_parallels += kind == 1 ? 1U : 0U;
     }
   }

@@ -10,8 +10,6 @@
 namespace rondel::formats {
 namespace {
 
-using VariableOfPlaces = io::NetcdfReader::Variable;
-
 bool is_nowhere(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
@@ -49,7 +47,7 @@ bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
 
 // True if the variable is at the places that are wanted; these are then the places of its
 // coordinates.
-bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
+bool FieldDimensionFinder::choose_wanted(const io::VariableInFile& variable) {
   for (PossiblePlaces& candidate : candidates(variable)) {
     if (!are_near(candidate.layout.places, wanted_.positions, wanted_.max_apart_deg)) continue;
     anchor_ = {candidate.lon, candidate.lat, variable.name, std::move(candidate.layout.places)};
@@ -60,9 +58,9 @@ bool FieldDimensionFinder::choose_wanted(const VariableOfPlaces& variable) {
 
 // The places are those that are wanted. Otherwise they are those of the first variable that has
 // only one answer.
-void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const> variables) {
+void FieldDimensionFinder::choose_places(std::span<const io::VariableInFile* const> variables) {
   const bool are_wanted = !wanted_.positions.empty();
-  for (const VariableOfPlaces* const variable : variables) {
+  for (const io::VariableInFile* const variable : variables) {
     if (variable->type == io::NetcdfType::text) continue;
     try {
       if (are_wanted) {
@@ -97,7 +95,7 @@ void FieldDimensionFinder::choose_places(std::span<const VariableOfPlaces* const
 // has them.
 void FieldDimensionFinder::name_wanted_places() {
   for (const bool is_coordinate : {false, true}) {
-    for (const VariableOfPlaces& variable : file_.variables()) {
+    for (const io::VariableInFile& variable : file_.variables()) {
       const bool is_text = variable.type == io::NetcdfType::text;
       if (is_text || is_auxiliary(variable) != is_coordinate) continue;
       try {

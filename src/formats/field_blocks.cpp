@@ -8,7 +8,7 @@
 namespace rondel::formats {
 
 // Takes whole dimensions from the last leading one on, while they fit; the next one is divided.
-FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
+FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile& variable,
                          const FieldDimensions& layout, std::size_t max_values)
     : shape_(variable.shape.begin(), variable.shape.end()), leading_(layout.leading) {
   const std::vector<std::uint64_t> chunk = file.chunk_of(variable);

@@ -35,7 +35,7 @@ inline constexpr std::size_t usual_block = std::size_t{1} << 24U;
 // block of fields, and only once if the fields of a chunk fit into a block.
 class FieldBlocks {
  public:
-  FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
+  FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile& variable,
               const FieldDimensions& layout, std::size_t max_values);
 
   // True if the values of each field are contiguous in the file and in no chunk with those of

@@ -14,8 +14,6 @@
 
 namespace rondel::formats {
 
-using ChosenVariable = io::NetcdfReader::Variable;
-
 std::size_t number_of_field(const FieldArray& several, std::string_view places) {
   std::string meant = several.name;
   meant += places;
@@ -46,30 +44,30 @@ std::size_t number_of_field(const FieldArray& several, std::string_view places) 
   return number;
 }
 
-std::vector<const ChosenVariable*> meant_variables(const io::NetcdfReader& file,
-                                                   const std::string& name) {
-  std::vector<const ChosenVariable*> beginnings;
-  for (const ChosenVariable& variable : file.variables()) {
+std::vector<const io::VariableInFile*> meant_variables(const io::NetcdfReader& file,
+                                                       const std::string& name) {
+  std::vector<const io::VariableInFile*> beginnings;
+  for (const io::VariableInFile& variable : file.variables()) {
     const std::size_t length = variable.name.size();
     const bool is_meant = name.starts_with(variable.name) &&
                           (length == name.size() || name[length] == '[' || name[length] == '_');
     if (is_meant) beginnings.push_back(&variable);
   }
   std::ranges::sort(beginnings, std::ranges::greater(),
-                    [](const ChosenVariable* variable) { return variable->name.size(); });
+                    [](const io::VariableInFile* variable) { return variable->name.size(); });
   return beginnings;
 }
 
-std::vector<const ChosenVariable*> variables_to_read(const io::NetcdfReader& file,
-                                                     std::span<const std::string> names) {
-  std::vector<const ChosenVariable*> variables;
+std::vector<const io::VariableInFile*> variables_to_read(const io::NetcdfReader& file,
+                                                         std::span<const std::string> names) {
+  std::vector<const io::VariableInFile*> variables;
   for (const std::string& given : names) {
     const std::string name = io::full_name(file.variables(), given);
-    const std::vector<const ChosenVariable*> meant = meant_variables(file, name);
+    const std::vector<const io::VariableInFile*> meant = meant_variables(file, name);
     if (!meant.empty()) variables.push_back(meant.front());
   }
   if (!names.empty()) return variables;
-  for (const ChosenVariable& variable : file.variables()) {
+  for (const io::VariableInFile& variable : file.variables()) {
     if (!variable.shape.empty()) variables.push_back(&variable);
   }
   return variables;

@@ -24,11 +24,11 @@ namespace rondel::formats {
 std::size_t number_of_field(const FieldArray& several, std::string_view places);
 // Returns the variables that the name may mean: that of this name, or "tas" of "tas[3]" and
 // "tas_2001-07-15", the longest name first.
-std::vector<const io::NetcdfReader::Variable*> meant_variables(const io::NetcdfReader& file,
-                                                               const std::string& name);
+std::vector<const io::VariableInFile*> meant_variables(const io::NetcdfReader& file,
+                                                       const std::string& name);
 // Returns the variables that are named, or all where no name is given.
-std::vector<const io::NetcdfReader::Variable*> variables_to_read(
-    const io::NetcdfReader& file, std::span<const std::string> names);
+std::vector<const io::VariableInFile*> variables_to_read(const io::NetcdfReader& file,
+                                                         std::span<const std::string> names);
 
 // A list of the first names, and how many more there are.
 class NameList {

@@ -13,8 +13,6 @@
 namespace rondel::formats {
 namespace {
 
-using LayoutVariable = io::NetcdfReader::Variable;
-
 bool has_no_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
@@ -28,7 +26,7 @@ std::vector<std::size_t> FieldDimensions::order() const {
 }
 
 FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
-                                           std::span<const LayoutVariable* const> variables)
+                                           std::span<const io::VariableInFile* const> variables)
     : file_(file),
       num_points_(wanted.num_points),
       shape_(wanted.shape.begin(), wanted.shape.end()),
@@ -36,9 +34,9 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       headers_(headers_of(file)),
       parts_of_grids_(parts_of_grids(headers_)) {
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
-  std::vector<const LayoutVariable*> fields(variables.begin(), variables.end());
+  std::vector<const io::VariableInFile*> fields(variables.begin(), variables.end());
   if (wanted.names.empty()) {
-    std::erase_if(fields, [&](const LayoutVariable* field) { return is_auxiliary(*field); });
+    std::erase_if(fields, [&](const io::VariableInFile* field) { return is_auxiliary(*field); });
   }
   choose_places(fields);
   choose_dimension_of_cells(fields);
@@ -49,8 +47,8 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   for (const KnownPlaces& known : known_) {
     if (known.lon == pair.lon && known.lat == pair.lat) return known;
   }
-  const LayoutVariable& lon = file_.variables()[pair.lon];
-  const LayoutVariable& lat = file_.variables()[pair.lat];
+  const io::VariableInFile& lon = file_.variables()[pair.lon];
+  const io::VariableInFile& lat = file_.variables()[pair.lat];
   KnownPlaces known{pair.lon, pair.lat, {}, {}, {}, 0};
   if (pair.are_axes) {
     known.dimensions = {lat.dimensions[0], lon.dimensions[0]};
@@ -74,7 +72,7 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
 }
 
 // Empty `points` if the lengths are not those of the grid.
-FieldDimensions FieldDimensionFinder::layout_along(const LayoutVariable& variable,
+FieldDimensions FieldDimensionFinder::layout_along(const io::VariableInFile& variable,
                                                    const KnownPlaces& known) const {
   FieldDimensions found;
   for (const std::size_t dimension : known.dimensions) {
@@ -112,14 +110,14 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
 }
 
 std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidates(
-    const LayoutVariable& variable) {
+    const io::VariableInFile& variable) {
   std::vector<PossiblePlaces> found;
   int rank = 0;
   why_not_.clear();
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   for (const CoordinatePair& pair : coordinates_of(headers_, index)) {
     if (!found.empty() && pair.rank < rank) break;
-    const LayoutVariable& lon = file_.variables()[pair.lon];
+    const io::VariableInFile& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
     const KnownPlaces* const known = most < num_points_ ? nullptr : &places_of_pair(pair);
@@ -148,7 +146,7 @@ std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidat
 }
 
 std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
-    const LayoutVariable& variable) {
+    const io::VariableInFile& variable) {
   std::vector<PossiblePlaces> found = candidates(variable);
   other_places_.clear();
   if (found.empty()) return std::nullopt;
@@ -189,7 +187,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
   return std::move(found.front().layout);
 }
 
-std::optional<FieldDimensions> FieldDimensionFinder::layout(const LayoutVariable& variable) {
+std::optional<FieldDimensions> FieldDimensionFinder::layout(const io::VariableInFile& variable) {
   why_not_.clear();
   other_places_.clear();
   if (variable.type == io::NetcdfType::text) return std::nullopt;
@@ -202,7 +200,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::layout(const LayoutVariable
   return by_lengths(variable);
 }
 
-bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
+bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) const {
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
@@ -219,7 +217,7 @@ bool FieldDimensionFinder::is_auxiliary(const LayoutVariable& variable) const {
       headers_, [&](const VariableHeader& other) { return other.text("bounds") == header.name; });
 }
 
-bool FieldDimensionFinder::is_lost(const LayoutVariable& variable) const {
+bool FieldDimensionFinder::is_lost(const io::VariableInFile& variable) const {
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (!header.is_number || parts_of_grids_[index]) return false;

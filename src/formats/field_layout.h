@@ -68,16 +68,14 @@ class SeveralReadings : public io::BadValue {
 
 class FieldDimensionFinder {
  public:
-  using FileVariable = io::NetcdfReader::Variable;
-
   // `wanted` has the number of points, or 0 for those of the first variable whose places the file
   // says. `variables` are those that are read; they decide which places are meant.
   FieldDimensionFinder(const io::NetcdfReader& file, const FieldsToRead& wanted,
-                       std::span<const FileVariable* const> variables);
+                       std::span<const io::VariableInFile* const> variables);
 
   // Returns the dimensions of a variable, or nothing if it is no field at the points. Throws
   // BadValue if it may be one in several ways.
-  [[nodiscard]] std::optional<FieldDimensions> layout(const FileVariable& variable);
+  [[nodiscard]] std::optional<FieldDimensions> layout(const io::VariableInFile& variable);
   // Returns where the variable is for which layout() returned nothing, if that is known: "at lon_u
   // and lat, ...".
   [[nodiscard]] const std::string& why_not() const { return why_not_; }
@@ -91,10 +89,10 @@ class FieldDimensionFinder {
   [[nodiscard]] std::string remark_on_grids() const;
   // True if the variable is a coordinate, bounds, or a part of a mesh or grid: it is no field,
   // unless it is named.
-  [[nodiscard]] bool is_auxiliary(const FileVariable& variable) const;
+  [[nodiscard]] bool is_auxiliary(const io::VariableInFile& variable) const;
   // True if the variable is a number without dimensions, or the bounds of another axis than those
   // of the points: these are not carried to other points.
-  [[nodiscard]] bool is_lost(const FileVariable& variable) const;
+  [[nodiscard]] bool is_lost(const io::VariableInFile& variable) const;
 
  private:
   // A pair of longitudes and latitudes that was read, in degrees.
@@ -130,34 +128,34 @@ class FieldDimensionFinder {
   const KnownPlaces& places_of_pair(const CoordinatePair& pair);
   // Leaves out places without coordinates, if the wanted points are the others.
   void leave_out_missing(const KnownPlaces& known, FieldDimensions& layout) const;
-  [[nodiscard]] FieldDimensions layout_along(const FileVariable& variable,
+  [[nodiscard]] FieldDimensions layout_along(const io::VariableInFile& variable,
                                              const KnownPlaces& known) const;
   // Returns the places that the variable's coordinates give, if these are as many as there are
   // points. Several results are different places of the same rank.
-  [[nodiscard]] std::vector<PossiblePlaces> candidates(const FileVariable& variable);
+  [[nodiscard]] std::vector<PossiblePlaces> candidates(const io::VariableInFile& variable);
   [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, std::span<const LonLat> a,
                                    std::span<const LonLat> b) const;
   [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
-  void choose_places(std::span<const FileVariable* const> variables);
+  void choose_places(std::span<const io::VariableInFile* const> variables);
   void name_wanted_places();
-  bool choose_wanted(const FileVariable& variable);
-  void choose_dimension_of_cells(std::span<const FileVariable* const> variables);
-  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const FileVariable& variable);
-  [[nodiscard]] std::optional<FieldDimensions> by_lengths(const FileVariable& variable);
+  bool choose_wanted(const io::VariableInFile& variable);
+  void choose_dimension_of_cells(std::span<const io::VariableInFile* const> variables);
+  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const io::VariableInFile& variable);
+  [[nodiscard]] std::optional<FieldDimensions> by_lengths(const io::VariableInFile& variable);
   [[nodiscard]] std::string names_of(std::size_t lon, std::size_t lat) const;
   [[nodiscard]] std::string text_of_choice(const std::vector<PossiblePlaces>& found) const;
   const SetsOfPlaces& sets_of_places();
-  [[nodiscard]] bool may_be_of_places(const FileVariable& variable,
+  [[nodiscard]] bool may_be_of_places(const io::VariableInFile& variable,
                                       std::span<const std::size_t> points);
-  [[nodiscard]] bool has_same_dimensions(const FileVariable& variable,
+  [[nodiscard]] bool has_same_dimensions(const io::VariableInFile& variable,
                                          std::span<const std::size_t> points);
-  [[nodiscard]] std::vector<std::size_t> run_of_points(const FileVariable& variable) const;
+  [[nodiscard]] std::vector<std::size_t> run_of_points(const io::VariableInFile& variable) const;
   [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
 
   // A dimension has the coordinate `kind`, if that is known, and the axis, if the file has one.
   struct NamedDirection {
     std::optional<CoordinateKind> kind;
-    const FileVariable* axis = nullptr;
+    const io::VariableInFile* axis = nullptr;
   };
   struct PlacesAlong;
   [[nodiscard]] bool changes_along(const PlacesAlong& line, CoordinateKind kind) const;
@@ -167,7 +165,7 @@ class FieldDimensionFinder {
   [[nodiscard]] bool fits_line(const NamedDirection& direction, const PlacesAlong& line) const;
   // Puts the dimensions of a grid into the order of the points where names or axes say it. False if
   // an axis of the file has other coordinates than the points.
-  [[nodiscard]] bool orient(const FileVariable& variable, FieldDimensions& layout);
+  [[nodiscard]] bool orient(const io::VariableInFile& variable, FieldDimensions& layout);
 
   const io::NetcdfReader& file_;
   std::uint64_t num_points_;
@@ -191,9 +189,9 @@ class FieldDimensionFinder {
 // For variables of which no coordinates say which dimensions are those of points.
 // Reverses the points' dimensions where the lengths of the grid are theirs in reverse; returns
 // false if they are others.
-bool fit_lengths(std::span<const std::uint64_t> wanted, const io::NetcdfReader::Variable& variable,
+bool fit_lengths(std::span<const std::uint64_t> wanted, const io::VariableInFile& variable,
                  std::vector<std::size_t>& points);
 // Makes the dimensions that are not those of the points the leading ones.
-void take_other_dimensions(const io::NetcdfReader::Variable& variable, FieldDimensions& layout);
+void take_other_dimensions(const io::VariableInFile& variable, FieldDimensions& layout);
 
 }  // namespace rondel::formats

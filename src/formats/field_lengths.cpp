@@ -13,8 +13,6 @@
 namespace rondel::formats {
 namespace {
 
-using VariableOfLengths = io::NetcdfReader::Variable;
-
 // Returns the products of the last 0, 1, 2 ... lengths, where lengths of 1 do not count.
 std::vector<std::uint64_t> products(std::span<const std::uint64_t> lengths) {
   std::vector<std::uint64_t> result = {1};
@@ -42,7 +40,7 @@ std::set<std::size_t> long_ones(std::span<const std::size_t> dimensions,
   return result;
 }
 
-std::set<std::size_t> long_ones_of(const VariableOfLengths& variable,
+std::set<std::size_t> long_ones_of(const io::VariableInFile& variable,
                                    std::span<const std::size_t> places) {
   std::vector<std::size_t> dimensions;
   std::vector<std::uint64_t> lengths;
@@ -55,7 +53,7 @@ std::set<std::size_t> long_ones_of(const VariableOfLengths& variable,
 
 }  // namespace
 
-bool fit_lengths(std::span<const std::uint64_t> wanted, const VariableOfLengths& variable,
+bool fit_lengths(std::span<const std::uint64_t> wanted, const io::VariableInFile& variable,
                  std::vector<std::size_t>& points) {
   if (wanted.size() < 2) return true;
   std::vector<std::uint64_t> lengths;
@@ -67,13 +65,14 @@ bool fit_lengths(std::span<const std::uint64_t> wanted, const VariableOfLengths&
   return agree(lengths, wanted);
 }
 
-void take_other_dimensions(const VariableOfLengths& variable, FieldDimensions& layout) {
+void take_other_dimensions(const io::VariableInFile& variable, FieldDimensions& layout) {
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
     if (std::ranges::count(layout.points, d) == 0) layout.leading.push_back(d);
   }
 }
 
-std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(const VariableOfLengths& variable) {
+std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
+    const io::VariableInFile& variable) {
   FieldDimensions layout;
   layout.points = run_of_points(variable);
   const std::vector<std::size_t> before = layout.points;
@@ -90,7 +89,7 @@ const FieldDimensionFinder::SetsOfPlaces& FieldDimensionFinder::sets_of_places()
   if (sets_of_places_) return *sets_of_places_;
   sets_of_places_.emplace();
   for (const CoordinatePair& pair : find_coordinates(headers_, {})) {
-    const VariableOfLengths& lon = file_.variables()[pair.lon];
+    const io::VariableInFile& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
     if (!pair.is_used || most < num_points_) continue;
@@ -112,7 +111,7 @@ const FieldDimensionFinder::SetsOfPlaces& FieldDimensionFinder::sets_of_places()
 
 // True if the variable may be at the points: if the file has longitudes and latitudes of them,
 // values along other dimensions of the same lengths are elsewhere.
-bool FieldDimensionFinder::may_be_of_places(const VariableOfLengths& variable,
+bool FieldDimensionFinder::may_be_of_places(const io::VariableInFile& variable,
                                             std::span<const std::size_t> points) {
   const SetsOfPlaces& sets = sets_of_places();
   const DimensionSet own = long_ones_of(variable, points);
@@ -122,7 +121,7 @@ bool FieldDimensionFinder::may_be_of_places(const VariableOfLengths& variable,
 
 // True if the variable has the points along the same dimensions as the variables before it, as it
 // must where the file has no longitudes and latitudes of them.
-bool FieldDimensionFinder::has_same_dimensions(const VariableOfLengths& variable,
+bool FieldDimensionFinder::has_same_dimensions(const io::VariableInFile& variable,
                                                std::span<const std::size_t> points) {
   if (!sets_of_places().same.empty()) return true;
   DimensionSet own = long_ones_of(variable, points);
@@ -153,8 +152,8 @@ bool FieldDimensionFinder::has_same_dimensions(const VariableOfLengths& variable
 
 // The dimension that is called cells decides before those that only have the right length.
 void FieldDimensionFinder::choose_dimension_of_cells(
-    std::span<const VariableOfLengths* const> variables) {
-  for (const VariableOfLengths* const variable : variables) {
+    std::span<const io::VariableInFile* const> variables) {
+  for (const io::VariableInFile* const variable : variables) {
     for (std::size_t d = 0; d < variable->shape.size(); ++d) {
       const std::size_t dimension = variable->dimensions[d];
       if (variable->shape[d] != num_points_ || num_points_ < 2) continue;
@@ -183,7 +182,7 @@ bool FieldDimensionFinder::is_other_axis(std::size_t dimension) const {
 // those of the grid, or else those whose lengths multiply to the number of points. Dimensions of
 // length 1 are left out where that is possible.
 std::vector<std::size_t> FieldDimensionFinder::run_of_points(
-    const VariableOfLengths& variable) const {
+    const io::VariableInFile& variable) const {
   const std::span<const std::uint64_t> shape = variable.shape;
   const std::size_t rank = shape.size();
   std::vector<std::vector<std::size_t>> best;

@@ -19,8 +19,6 @@
 namespace rondel::formats {
 namespace {
 
-using OrientedVariable = io::NetcdfReader::Variable;
-
 double coordinate_of(const LonLat& place, CoordinateKind kind) {
   return kind == CoordinateKind::lon ? place.lon_deg : place.lat_deg;
 }
@@ -112,7 +110,7 @@ std::optional<CoordinateKind> FieldDimensionFinder::kind_of_rows(std::size_t row
   return std::nullopt;
 }
 
-bool FieldDimensionFinder::orient(const OrientedVariable& variable, FieldDimensions& layout) {
+bool FieldDimensionFinder::orient(const io::VariableInFile& variable, FieldDimensions& layout) {
   std::vector<std::size_t> places;
   for (const std::size_t d : layout.points) {
     if (variable.shape[d] > 1) places.push_back(d);

@@ -21,10 +21,9 @@
 namespace rondel::formats {
 namespace {
 
-using SlicedNetcdf = io::NetcdfReader::Variable;
-
 // Returns the attributes that still hold for values at other points.
-std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNetcdf& variable) {
+std::vector<std::pair<std::string, std::string>> kept_attributes(
+    const io::VariableInFile& variable) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : variable.attributes) {
     for (const char* name :
@@ -44,7 +43,7 @@ std::string written_name(std::string name) {
 }
 
 // Returns the array without values; its dimensions are the leading ones.
-FieldArray array_of(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
                     const std::vector<std::size_t>& leading) {
   FieldArray array;
   array.name = written_name(variable.name);
@@ -60,7 +59,7 @@ bool is_place(const LonLat& place) {
   return std::abs(place.lon_deg) <= 1e6 && std::abs(place.lat_deg) <= 90;
 }
 
-void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places) {
+void require_places(const io::VariableInFile& variable, std::span<const LonLat> places) {
   const auto bad = std::ranges::find_if_not(places, is_place);
   if (bad == places.end()) return;
   throw io::BadValue("place " + std::to_string(bad - places.begin()) + " of variable " +
@@ -69,7 +68,7 @@ void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places
                      system::shortest_text(bad->lat_deg) + ", which is no place");
 }
 
-[[noreturn]] void refuse_shape(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+[[noreturn]] void refuse_shape(const io::NetcdfReader& file, const io::VariableInFile& variable,
                                const FieldsToRead& wanted, std::size_t num_points) {
   std::string lengths;
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
@@ -94,9 +93,9 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   fields_.num_points = wanted.num_points;
   for (const std::string& given : wanted.names) {
     const std::string name = io::full_name(file.variables(), given);
-    const SlicedNetcdf* const variable = file.find(name);
+    const io::VariableInFile* const variable = file.find(name);
     if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
-    const SlicedNetcdf& named = file.require(name);
+    const io::VariableInFile& named = file.require(name);
     if (!layouts_.why_not().empty()) {
       throw io::BadValue("variable " + io::in_quotes(name) + " " + layouts_.why_not());
     }
@@ -118,7 +117,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   if (!are_chosen) fields_.remark_on_grids = layouts_.remark_on_grids();
 }
 
-bool FieldSlices::add(const SlicedNetcdf& variable) {
+bool FieldSlices::add(const io::VariableInFile& variable) {
   std::optional<FieldDimensions> layout = layouts_.layout(variable);
   if (!layout) return false;
   add_with_layout(variable, std::move(*layout));
@@ -129,7 +128,7 @@ bool FieldSlices::add(const SlicedNetcdf& variable) {
 // Adds one field of several: "tas[3]" is field 3 of variable tas, "tas_2001-07-15" the field that
 // has this name as a column of a table.
 bool FieldSlices::add_one_of_several(const std::string& name) {
-  for (const SlicedNetcdf* const variable : meant_variables(file_, name)) {
+  for (const io::VariableInFile* const variable : meant_variables(file_, name)) {
     std::optional<FieldDimensions> layout = layouts_.layout(*variable);
     if (!layout || layout->leading.empty()) continue;
     std::vector<FieldArray> axes;
@@ -154,7 +153,7 @@ bool FieldSlices::add_one_of_several(const std::string& name) {
   return false;
 }
 
-void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions layout) {
+void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimensions layout) {
   file_.require_room(variable);
   ValueRules rules(variable);
   if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
@@ -188,7 +187,7 @@ void FieldSlices::add_all() {
   NameList without_points;
   NameList elsewhere;
   std::vector<std::string> refused;
-  for (const SlicedNetcdf& variable : file_.variables()) {
+  for (const io::VariableInFile& variable : file_.variables()) {
     if (layouts_.is_lost(variable)) without_points.add(variable.name);
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
@@ -226,11 +225,11 @@ void FieldSlices::add_all() {
 }
 
 // Adds the coordinates along the leading dimensions, unless they are known already.
-void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& layout,
+void FieldSlices::add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                            std::vector<FieldArray>& axes) {
   for (const std::size_t d : layout.leading) {
     const std::string& name = file_.dimensions()[variable.dimensions[d]].name;
-    const SlicedNetcdf* const axis = file_.find(name);
+    const io::VariableInFile* const axis = file_.find(name);
     const bool is_known = std::ranges::count(axes, written_name(name), &FieldArray::name) != 0;
     if (is_known || axis == nullptr || axis->type == io::NetcdfType::text ||
         axis->shape.size() != 1) {
@@ -271,7 +270,7 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
   const std::size_t n = source.num_points;
   if (source.blocks.are_apart()) {
     file_.read_numbers(*source.variable, first * n, out);
-    mean(source, out);
+    unpack(source, out);
     return;
   }
   while (!out.empty()) {
@@ -294,12 +293,12 @@ void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& blo
                              std::span<double> out) const {
   io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
                     out);
-  mean(source, out);
+  unpack(source, out);
 }
 
 // Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
 // as in tables.
-void FieldSlices::mean(const SlicedVariable& source, std::span<double> values) {
+void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values) {
   source.rules.apply(values);
   const auto infinite =
       std::ranges::find_if(values, [](double value) { return std::isinf(value); });

@@ -39,7 +39,7 @@ class FieldSlices {
  private:
   // A variable with what is needed to read its fields.
   struct SlicedVariable {
-    const io::NetcdfReader::Variable* variable;
+    const io::VariableInFile* variable;
     std::size_t num_points;  // with the points that are left out
     FieldDimensions layout;
     FieldBlocks blocks;
@@ -48,18 +48,18 @@ class FieldSlices {
   };
 
   // Adds a variable; returns false if it is no field at the points.
-  bool add(const io::NetcdfReader::Variable& variable);
+  bool add(const io::VariableInFile& variable);
   bool add_one_of_several(const std::string& name);
-  void add_with_layout(const io::NetcdfReader::Variable& variable, FieldDimensions layout);
+  void add_with_layout(const io::VariableInFile& variable, FieldDimensions layout);
   void add_all();
-  void add_axes(const io::NetcdfReader::Variable& variable, const FieldDimensions& layout,
+  void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                 std::vector<FieldArray>& axes);
   void read_all_points(const SlicedVariable& source, std::size_t first,
                        std::span<double> out) const;
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
   // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.
-  static void mean(const SlicedVariable& source, std::span<double> values);
+  static void unpack(const SlicedVariable& source, std::span<double> values);
   // Reads a block into block_, unless it is there.
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 

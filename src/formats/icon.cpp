@@ -15,9 +15,9 @@ using io::NetcdfReader;
 }  // namespace
 
 std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string& name) {
-  const MeshVariable* const vertices = file.find("vertex_of_cell");
-  const MeshVariable* const lon = file.find("vlon");
-  const MeshVariable* const lat = file.find("vlat");
+  const io::VariableInFile* const vertices = file.find("vertex_of_cell");
+  const io::VariableInFile* const lon = file.find("vlon");
+  const io::VariableInFile* const lat = file.find("vlat");
   if (vertices == nullptr || lon == nullptr || lat == nullptr || !is_meant(file, name, *vertices)) {
     return std::nullopt;
   }

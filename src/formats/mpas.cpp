@@ -6,8 +6,6 @@
 //
 // There are two readers: read_mpas() below reads only the cells, with their corners and centers,
 // for read_cells(); mpas_arrays.cpp reads the arrays of a whole mesh, for read_mesh().
-#include "formats/mpas.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +19,7 @@
 #include "exact/vector.h"
 #include "formats/cf_reader.h"
 #include "formats/mesh_file.h"
+#include "formats/mpas_places.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/number.h"
@@ -256,7 +255,7 @@ void define_vertices(MeshFile& file, const MpasSizes& sizes) {
 }  // namespace
 
 void require_one_place(const io::NetcdfReader& file, const std::string& kind, PlacesMay may) {
-  const std::array<const io::NetcdfReader::Variable*, 5> variables = {
+  const std::array<const io::VariableInFile*, 5> variables = {
       file.find("lon" + kind), file.find("lat" + kind), file.find("x" + kind),
       file.find("y" + kind), file.find("z" + kind)};
   if (std::ranges::count(variables, nullptr) > 0) return;
@@ -299,8 +298,8 @@ void require_one_place(const io::NetcdfReader& file, const std::string& kind, Pl
   }
 }
 
-std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string& name) {
-  const MeshVariable* const vertices = file.find("verticesOnCell");
+std::optional<MeshContent> read_mpas_cells(const NetcdfReader& file, const std::string& name) {
+  const io::VariableInFile* const vertices = file.find("verticesOnCell");
   if (vertices == nullptr || !is_meant(file, name, *vertices)) return std::nullopt;
   require_sphere(file);
   MeshContent mesh;

@@ -14,7 +14,7 @@
 
 #include "exact/vector.h"
 #include "formats/mesh_file.h"
-#include "formats/mpas.h"
+#include "formats/mpas_places.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
@@ -32,7 +32,6 @@ namespace {
 constexpr std::size_t read_grain = 4096;
 
 using io::BadValue;
-using Variable = io::NetcdfReader::Variable;
 
 // Reads the arrays and derives the lists that are not read.
 class MpasReader {
@@ -96,8 +95,8 @@ class MpasReader {
   }
 
   // Returns a variable with `size` values; with size 0, any number of values.
-  [[nodiscard]] const Variable& require(const char* name, std::uint64_t size) const {
-    const Variable& variable = file_.require(name);
+  [[nodiscard]] const io::VariableInFile& require(const char* name, std::uint64_t size) const {
+    const io::VariableInFile& variable = file_.require(name);
     if (variable.num_values == size || size == 0) return variable;
     throw BadValue("variable " + io::in_quotes(name) + " has " +
                    std::to_string(variable.num_values) + " values instead of " +
@@ -106,7 +105,7 @@ class MpasReader {
 
   // Reads a variable with one finite number for each element.
   void read_numbers(const char* name, std::size_t size, std::vector<double>& values) const {
-    const Variable& variable = require(name, size);
+    const io::VariableInFile& variable = require(name, size);
     values.resize(size);
     in_pieces(size, [&](std::size_t begin, std::size_t end) {
       file_.read_numbers(variable, begin, std::span(values).subspan(begin, end - begin));
@@ -133,7 +132,7 @@ class MpasReader {
   // Reads the three coordinates of points, which lie on the sphere.
   void read_points(const std::array<const char*, 3>& names, std::vector<Point>& points) const {
     const auto size = static_cast<std::size_t>(require(names[0], 0).num_values);
-    const std::array<const Variable*, 3> variables = {
+    const std::array<const io::VariableInFile*, 3> variables = {
         &require(names[0], size), &require(names[1], size), &require(names[2], size)};
     if (size > no_index) throw BadValue("more than 2^32 - 1 points");
     points.resize(size);
@@ -157,7 +156,7 @@ class MpasReader {
 
   // Reads the density; a constant one is left out, as VoronoiMesh documents.
   void read_density() {
-    const Variable* const variable = file_.find("meshDensity");
+    const io::VariableInFile* const variable = file_.find("meshDensity");
     if (variable == nullptr) return;
     read_numbers("meshDensity", arrays_.num_cells(), arrays_.density);
     const bool is_constant =
@@ -177,7 +176,8 @@ class MpasReader {
     }
     const std::string where =
         "variable " + io::in_quotes(name) + ", row " + std::to_string(row) + ": ";
-    if (number == 0) throw BadValue(where + "nothing there");
+    if (number == 0)
+      throw BadValue(where + "is 0, which stands for no element, where one is needed");
     throw BadValue(where + std::to_string(number) + " is not in 1 to " + std::to_string(end));
   }
 
@@ -192,7 +192,7 @@ class MpasReader {
   void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
                  bool may_lack) const {
     constexpr std::size_t row_size = std::tuple_size_v<Row>;
-    const Variable& variable = require(name, static_cast<std::uint64_t>(size) * row_size);
+    const io::VariableInFile& variable = require(name, static_cast<std::uint64_t>(size) * row_size);
     rows.resize(size);
     in_pieces(size, [&](std::size_t first, std::size_t last) {
       std::vector<std::int64_t> numbers((last - first) * row_size);
@@ -217,7 +217,7 @@ class MpasReader {
       num_border_edges_ += b == no_index ? 1U : 0U;
     }
     if (num_border_edges_ == 0 && arrays_.num_cells() < 4) {
-      throw BadValue("less than four cells do not cover a sphere");
+      throw BadValue("fewer than four cells do not cover a sphere");
     }
   }
 
@@ -270,12 +270,13 @@ class MpasReader {
   // Reads the edges around each cell, which are rows of a fixed length in the file.
   void read_rings() {
     const std::size_t size = arrays_.num_cells();
-    const Variable& counts = require("nEdgesOnCell", size);
+    const io::VariableInFile& counts = require("nEdgesOnCell", size);
     std::vector<std::int64_t> sides(size);
     file_.read_integers(counts, 0, sides);
-    const Variable& rings = require("edgesOnCell", 0);
+    const io::VariableInFile& rings = require("edgesOnCell", 0);
     const std::uint64_t room = rings.num_values / size;
-    if (room * size != rings.num_values) throw BadValue("variable \"edgesOnCell\" has no rows");
+    if (room * size != rings.num_values)
+      throw BadValue("the size of variable \"edgesOnCell\" is no multiple of the number of cells");
     for (std::size_t i = 0; i < size; ++i) {
       if (sides[i] < 3 || static_cast<std::uint64_t>(sides[i]) > room) {
         throw BadValue("variable \"nEdgesOnCell\", row " + std::to_string(i) + ": " +
@@ -348,7 +349,8 @@ class MpasReader {
   // Reads the areas of kites; those of missing cells are any finite numbers.
   void read_kites() {
     const std::size_t size = arrays_.num_vertices();
-    const Variable& variable = require("kiteAreasOnVertex", 3 * static_cast<std::uint64_t>(size));
+    const io::VariableInFile& variable =
+        require("kiteAreasOnVertex", 3 * static_cast<std::uint64_t>(size));
     arrays_.kite_areas.resize(size);
     in_pieces(size, [&](std::size_t begin, std::size_t end) {
       std::array<double, 3 * read_grain> values;

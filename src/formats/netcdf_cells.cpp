@@ -178,22 +178,23 @@ class ConnectivityReader {
 
 }  // namespace
 
-bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells) {
-  const MeshVariable* const variable = file.find(name);
+bool is_meant(const io::NetcdfReader& file, const std::string& name,
+              const io::VariableInFile& cells) {
+  const io::VariableInFile* const variable = file.find(name);
   return name.empty() ||
          (variable != nullptr && std::ranges::any_of(variable->dimensions, [&](std::size_t d) {
             return std::ranges::count(cells.dimensions, d) != 0;
           }));
 }
 
-void require_values(const MeshVariable& variable, std::uint64_t wanted) {
+void require_values(const io::VariableInFile& variable, std::uint64_t wanted) {
   if (variable.num_values == wanted) return;
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                  std::to_string(variable.num_values) + " values instead of " +
                  std::to_string(wanted));
 }
 
-const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank) {
+const io::VariableInFile& require_rank(const io::VariableInFile& variable, std::size_t rank) {
   if (variable.shape.size() == rank) return variable;
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                  std::to_string(variable.shape.size()) + " dimensions instead of " +
@@ -220,8 +221,8 @@ std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
 
 std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
                                  const MeshCoordinates& related, UsualUnits usual) {
-  const MeshVariable& lon = *wanted.lon;
-  const MeshVariable& lat = *wanted.lat;
+  const io::VariableInFile& lon = *wanted.lon;
+  const io::VariableInFile& lat = *wanted.lat;
   require_values(lat, lon.num_values);
   auto [lons, lats] = degrees_of_both(file, wanted, related, usual);
   if (lon.dimensions != lat.dimensions &&
@@ -280,7 +281,7 @@ void take_connectivity(const io::NetcdfReader& file, const Connectivity& connect
 
 void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
                MaskedBy masked_by, MeshContent& mesh) {
-  const MeshVariable* const variable = file.find(name);
+  const io::VariableInFile* const variable = file.find(name);
   if (variable == nullptr) return;
   require_values(*variable, num_cells);
   for (const double value : meant_numbers(file, *variable)) {
@@ -343,7 +344,7 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
                          " have corners that are missing and are left out");
 }
 
-double number_or(const MeshVariable& variable, std::string_view name, double otherwise) {
+double number_or(const io::VariableInFile& variable, std::string_view name, double otherwise) {
   const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
   return attribute == nullptr || attribute->numbers.empty() ? otherwise : attribute->numbers[0];
 }

@@ -52,21 +52,20 @@ bool has_mesh(std::span<const VariableHeader> variables);
 std::optional<MeshContent> read_ugrid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file, const std::string& name);
-std::optional<MeshContent> read_mpas(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_mpas_cells(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_icon(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_oasis(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_exodus(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std::string& name);
 
-using MeshVariable = io::NetcdfReader::Variable;
-
 // True if `name` is empty, or names a variable that shares a dimension with `cells`.
-bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells);
+bool is_meant(const io::NetcdfReader& file, const std::string& name,
+              const io::VariableInFile& cells);
 
 // The variables of longitudes and latitudes; null if there is no such variable.
 struct MeshCoordinates {
-  const MeshVariable* lon = nullptr;
-  const MeshVariable* lat = nullptr;
+  const io::VariableInFile* lon = nullptr;
+  const io::VariableInFile* lat = nullptr;
 };
 // Returns longitudes, then latitudes in degrees. A variable without units gets the units of the
 // related one, or of another one of the four, or else the usual ones.
@@ -97,7 +96,7 @@ void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshCon
 // only the first ones of a row, as many as its count, are in use. If `corners_per_cell` is 0, the
 // rows have different lengths, which are the counts.
 struct Connectivity {
-  const MeshVariable& variable;
+  const io::VariableInFile& variable;
   std::uint64_t num_cells;
   std::uint64_t corners_per_cell;
   bool is_transposed;  // true if the cells are the last dimension
@@ -122,10 +121,10 @@ void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
 // remark with their number. Throws BadValue for other nodes that are no places.
 void leave_out_cells_without_corners(MeshContent& mesh);
 // Returns the first number of an attribute, or `otherwise` if there is no such attribute.
-double number_or(const MeshVariable& variable, std::string_view name, double otherwise);
+double number_or(const io::VariableInFile& variable, std::string_view name, double otherwise);
 // Throws BadValue unless the variable has this number of values.
-void require_values(const MeshVariable& variable, std::uint64_t wanted);
+void require_values(const io::VariableInFile& variable, std::uint64_t wanted);
 // Throws BadValue unless the variable has this number of dimensions; returns the variable.
-const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank);
+const io::VariableInFile& require_rank(const io::VariableInFile& variable, std::size_t rank);
 
 }  // namespace rondel::formats

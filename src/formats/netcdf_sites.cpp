@@ -26,7 +26,7 @@ namespace {
 std::string variable_of(const io::NetcdfReader& reader, const std::string& name) {
   if (name.empty() || reader.find(name) != nullptr) return name;
   std::string longest;
-  for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+  for (const io::VariableInFile& variable : reader.variables()) {
     const std::size_t length = variable.name.size();
     const bool is_beginning = name.starts_with(variable.name) && length < name.size() &&
                               (name[length] == '[' || name[length] == '_');

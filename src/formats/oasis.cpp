@@ -23,7 +23,7 @@ using io::NetcdfReader;
 // Returns the names of the grids that have corners: "bt42" for variables bt42.clo and bt42.cla.
 std::vector<std::string> oasis_grids(const NetcdfReader& file) {
   std::vector<std::string> names;
-  for (const MeshVariable& variable : file.variables()) {
+  for (const io::VariableInFile& variable : file.variables()) {
     if (!variable.name.ends_with(".clo")) continue;
     const std::string name = variable.name.substr(0, variable.name.size() - 4);
     if (file.find(name + ".cla") != nullptr) names.push_back(name);
@@ -33,7 +33,7 @@ std::vector<std::string> oasis_grids(const NetcdfReader& file) {
 
 // Returns which dimension counts the corners of a cell: the one that the centers do not have, or
 // else the last one.
-std::size_t corner_dimension(const MeshVariable& corners, const MeshVariable* centers) {
+std::size_t corner_dimension(const io::VariableInFile& corners, const io::VariableInFile* centers) {
   for (std::size_t d = 0; centers != nullptr && d < corners.dimensions.size(); ++d) {
     if (std::ranges::count(centers->dimensions, corners.dimensions[d]) == 0) return d;
   }
@@ -42,7 +42,7 @@ std::size_t corner_dimension(const MeshVariable& corners, const MeshVariable* ce
 
 // Returns positions with the corners of each cell one after the other. `corner` is the dimension
 // that counts corners.
-std::vector<LonLat> corners_last(const MeshVariable& variable, std::size_t corner,
+std::vector<LonLat> corners_last(const io::VariableInFile& variable, std::size_t corner,
                                  const std::vector<double>& lon, const std::vector<double>& lat) {
   std::vector<std::size_t> order;
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
@@ -75,8 +75,8 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
     mesh.remarks.push_back("the file has several grids; " + *chosen + " is read, not " + others +
                            "; FILE.nc:NAME names one");
   }
-  const MeshVariable& lon = file.require(*chosen + ".clo");
-  const MeshVariable& lat = file.require(*chosen + ".cla");
+  const io::VariableInFile& lon = file.require(*chosen + ".clo");
+  const io::VariableInFile& lat = file.require(*chosen + ".cla");
   const MeshCoordinates centers = {file.find(*chosen + ".lon"), file.find(*chosen + ".lat")};
   if (lon.shape.size() < 2 || lon.shape != lat.shape || lon.num_values >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name) +

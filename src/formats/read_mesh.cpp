@@ -19,7 +19,7 @@
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/field_choice.h"
-#include "formats/mpas.h"
+#include "formats/mpas_places.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
@@ -54,7 +54,8 @@ bool has_corner(const VoronoiMesh& arrays, std::size_t cell, const Point& corner
 void require_rings(const CellTable& table) {
   for (std::size_t i = 0; i < table.cells.num_cells(); ++i) {
     if (table.cells.cells[i + 1] - table.cells.cells[i] == 1) continue;
-    throw io::BadValue("cell " + std::to_string(i) + " has not one ring of corners");
+    throw io::BadValue("cell " + std::to_string(i) +
+                       " has several rings or none, where one is needed");
   }
 }
 
@@ -178,7 +179,7 @@ VoronoiMesh mesh_of_centers(const CellTable& table, const MeshOptions& options,
   if (table.grid) throw FileError(facts.name + ": a grid of longitudes and latitudes is no mesh");
   if (facts.centers.size() != table.num_cells()) {
     throw FileError(facts.name + ": " + facts.convention +
-                    " without centers of cells, of which the mesh is made");
+                    ": the file has no centers of cells, from which the mesh is computed");
   }
   try {
     return io::in_file(facts.name, [&] {

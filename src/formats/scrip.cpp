@@ -37,8 +37,8 @@ void define_corners(MeshFile& file, const char* name, std::vector<std::size_t> d
 }  // namespace
 
 std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::string& name) {
-  const MeshVariable* const lon = file.find("grid_corner_lon");
-  const MeshVariable* const lat = file.find("grid_corner_lat");
+  const io::VariableInFile* const lon = file.find("grid_corner_lon");
+  const io::VariableInFile* const lat = file.find("grid_corner_lat");
   if (lon == nullptr || lat == nullptr || !is_meant(file, name, *lon)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "SCRIP";
@@ -63,7 +63,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
     }
     mesh.nodes = std::move(nodes);
   }
-  if (const MeshVariable* const dims = file.find("grid_dims")) {
+  if (const io::VariableInFile* const dims = file.find("grid_dims")) {
     mesh.shape = io::shape_of_grid(file, *dims, num_cells);
   }
   end_cells_of_nodes(corners_per_cell, !has_rows(mesh.shape), mesh);

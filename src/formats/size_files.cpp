@@ -89,7 +89,7 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
     }
     const std::vector<bool> is_part = parts_of_grids(headers);
     for (std::size_t v = 0; v < is_part.size(); ++v) {
-      const io::NetcdfReader::Variable& variable = reader.variables()[v];
+      const io::VariableInFile& variable = reader.variables()[v];
       const std::string units = io::netcdf_text(variable.attributes, "units");
       const bool is_axis = variable.shape.size() == 1 &&
                            reader.dimensions()[variable.dimensions[0]].name == variable.name;

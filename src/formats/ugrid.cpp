@@ -24,20 +24,20 @@ using io::NetcdfReader;
 
 // Returns the longitudes and latitudes among the variables that an attribute names: those that say
 // what they are, or else the first two.
-MeshCoordinates coordinates_named_by(const NetcdfReader& file, const MeshVariable& of,
+MeshCoordinates coordinates_named_by(const NetcdfReader& file, const io::VariableInFile& of,
                                      const char* attribute) {
   const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
   if (names.size() < 2) return {};
-  const MeshVariable* lon = nullptr;
-  const MeshVariable* lat = nullptr;
+  const io::VariableInFile* lon = nullptr;
+  const io::VariableInFile* lat = nullptr;
   for (const std::string& name : names) {
-    const MeshVariable& variable = file.require(name);
+    const io::VariableInFile& variable = file.require(name);
     const VariableHeader header = header_of(file, variable);
     if (lon == nullptr && coordinate_evidence(header, CoordinateKind::lon) > 0) lon = &variable;
     if (lat == nullptr && coordinate_evidence(header, CoordinateKind::lat) > 0) lat = &variable;
   }
-  const MeshVariable& first = file.require(names[0]);
-  const MeshVariable& second = file.require(names[1]);
+  const io::VariableInFile& first = file.require(names[0]);
+  const io::VariableInFile& second = file.require(names[1]);
   if (lon == nullptr) lon = lat == &first ? &second : &first;
   if (lat == nullptr) lat = lon == &second ? &first : &second;
   return {lon, lat};
@@ -45,20 +45,20 @@ MeshCoordinates coordinates_named_by(const NetcdfReader& file, const MeshVariabl
 
 // Returns the topology of faces that `name` names or that the variable `name` is on, or the first
 // one for an empty name; null if there is none.
-const MeshVariable* topology_of(const NetcdfReader& file, const std::string& name,
-                                MeshContent& mesh) {
-  const MeshVariable* const named = file.find(name);
+const io::VariableInFile* topology_of(const NetcdfReader& file, const std::string& name,
+                                      MeshContent& mesh) {
+  const io::VariableInFile* const named = file.find(name);
   const std::string mesh_of_named =
       named == nullptr ? std::string() : io::netcdf_text(named->attributes, "mesh");
-  const MeshVariable* found = nullptr;
+  const io::VariableInFile* found = nullptr;
   std::string others;
-  for (const MeshVariable& variable : file.variables()) {
+  for (const io::VariableInFile& variable : file.variables()) {
     const bool is_topology =
         (io::netcdf_text(variable.attributes, "cf_role") == "mesh_topology" ||
          io::netcdf_text(variable.attributes, "standard_name") == "mesh_topology") &&
         number_or(variable, "topology_dimension", 2) == 2;
     if (!is_topology) continue;
-    const MeshVariable* const faces =
+    const io::VariableInFile* const faces =
         file.find(io::netcdf_text(variable.attributes, "face_node_connectivity"));
     const bool is_wanted =
         variable.name == name || variable.name == mesh_of_named ||
@@ -78,10 +78,10 @@ const MeshVariable* topology_of(const NetcdfReader& file, const std::string& nam
 }
 
 // Throws BadValue for a variable on nodes or edges of the mesh.
-void require_on_faces(const NetcdfReader& file, const MeshVariable& topology,
+void require_on_faces(const NetcdfReader& file, const io::VariableInFile& topology,
                       const std::string& name) {
-  const MeshVariable* const named = file.find(name);
-  const MeshVariable* const faces =
+  const io::VariableInFile* const named = file.find(name);
+  const io::VariableInFile* const faces =
       file.find(io::netcdf_text(topology.attributes, "face_node_connectivity"));
   if (named == nullptr || faces == nullptr || named->shape.empty() || is_meant(file, name, *faces))
     return;
@@ -166,7 +166,7 @@ void define_pairs(MeshFile& file, io::NetcdfVariable variable, const std::vector
 
 std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::string& name) {
   MeshContent mesh;
-  const MeshVariable* const topology = topology_of(file, name, mesh);
+  const io::VariableInFile* const topology = topology_of(file, name, mesh);
   if (topology == nullptr) return std::nullopt;
   require_on_faces(file, *topology, name);
   const MeshCoordinates nodes = coordinates_named_by(file, *topology, "node_coordinates");
@@ -176,7 +176,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   }
   mesh.convention = "UGRID";
   take_nodes(file, nodes, centers, UsualUnits::degrees, mesh);
-  const MeshVariable& faces = require_rank(
+  const io::VariableInFile& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
   const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
   const bool is_transposed = !dimension.empty() &&

@@ -70,7 +70,7 @@ void require_size(const std::string& name, const Values& values, std::size_t siz
 
 std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& name,
                                std::size_t size) {
-  const io::NetcdfReader::Variable* const variable = file.find(name);
+  const io::VariableInFile* const variable = file.find(name);
   if (variable == nullptr) return {};
   std::vector<double> values = meant_numbers(file, *variable);
   require_size(name, values, size);

@@ -135,7 +135,7 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
   const std::size_t num_targets = dimension_of(file, "dst_grid_size");
   read_side(file, names_of("src"), num_sources, content.source);
   read_side(file, names_of("dst"), num_targets, content.target);
-  const io::NetcdfReader::Variable& matrix = file.require("remap_matrix");
+  const io::VariableInFile& matrix = file.require("remap_matrix");
   if (matrix.shape.size() == 2 && matrix.shape[1] != 1) {
     throw io::BadValue("remap_matrix has " + std::to_string(matrix.shape[1]) +
                        " weights a link, of which all but the first need gradients");

@@ -13,7 +13,7 @@
 namespace rondel::interpolation {
 
 bool HermiteKernel::all_have_gradients() const {
-  return has_gradient_.empty() || std::ranges::all_of(flat_, [this](const Share& share) {
+  return has_gradient_.empty() || std::ranges::all_of(flat_, [this](const WeightedVertex& share) {
            return has_gradient_[share.vertex] != 0;
          });
 }

@@ -125,7 +125,7 @@ std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t si
   if (num_sites == 0 && size == 0) return 1;
   if (num_sites == 0 || size == 0 || size % num_sites != 0) {
     throw InvalidInput(std::string(name) + " has " + std::to_string(size) +
-                           " values, which are no fields of " + std::to_string(num_sites) +
+                           " values, which are no multiple of the " + std::to_string(num_sites) +
                            " sites",
                        size);
   }

@@ -35,11 +35,11 @@ struct LocatedTarget {
 };
 
 // The weight of the value at a vertex.
-struct Share {
+struct WeightedVertex {
   Index vertex = no_index;  // spatial rank
   double weight = 0;
 };
-using Row = std::vector<Share>;
+using Row = std::vector<WeightedVertex>;
 
 // The weight of the value at a vertex and, as a vector, that of its tangent gradient: the entry
 // contributes weight * value + slope . gradient.

@@ -60,7 +60,7 @@ inline void make_homogeneous(const PreparedTriangulation& prepared, const exact:
   }
   const double r = 1 - lacking / 2;
   if (!(r >= min_r)) row.clear();
-  for (Share& share : row) share.weight /= r;
+  for (WeightedVertex& share : row) share.weight /= r;
 }
 // Clears the row if its weights, which the kernel has divided by r, are too large.
 inline void make_homogeneous(const PreparedTriangulation& /*prepared*/,

@@ -174,9 +174,9 @@ const Row& GradientJoiner::operator()(const GradientRow& row) {
 }
 
 void GradientJoiner::merge() {
-  std::ranges::stable_sort(shares_, {}, &Share::vertex);
+  std::ranges::stable_sort(shares_, {}, &WeightedVertex::vertex);
   joined_.clear();
-  for (const Share& share : shares_) {
+  for (const WeightedVertex& share : shares_) {
     if (!joined_.empty() && joined_.back().vertex == share.vertex) {
       joined_.back().weight += share.weight;
     } else {

@@ -100,7 +100,7 @@ class Netcdf4Header {
       header_.passed_over.push_back(prefix + name.data());
       return;
     }
-    NetcdfReader::Variable variable;
+    VariableInFile variable;
     variable.name = prefix + name.data();
     variable.type = type == netcdf_string_type ? NetcdfType::text : static_cast<NetcdfType>(type);
     variable.group = group;
@@ -224,7 +224,7 @@ NetcdfHeader Netcdf4File::header() const {
   return header;
 }
 
-void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,
+void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<double> out) const {
   const NetcdfLock lock(netcdf_library_lock());
   for_each_slab(variable.shape, begin, out.size(),
@@ -235,14 +235,14 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
                 });
 }
 
-void Netcdf4File::read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+void Netcdf4File::read_box(const VariableInFile& variable, const NetcdfBox& box,
                            std::span<double> out) const {
   const NetcdfLock lock(netcdf_library_lock());
   require_netcdf(library_, library_.read_doubles(variable.group, variable.number, box.start.data(),
                                                  box.count.data(), out.data()));
 }
 
-void Netcdf4File::take_chunk(const NetcdfReader::Variable& variable,
+void Netcdf4File::take_chunk(const VariableInFile& variable,
                              std::span<std::uint64_t> lengths) const {
   const NetcdfLock lock(netcdf_library_lock());
   int storage = 0;
@@ -252,7 +252,7 @@ void Netcdf4File::take_chunk(const NetcdfReader::Variable& variable,
   for (std::size_t d = 0; d < lengths.size(); ++d) lengths[d] = std::max<std::size_t>(chunk[d], 1);
 }
 
-void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,
+void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<std::int64_t> out) const {
   static_assert(sizeof(long long) == sizeof(std::int64_t));
   const bool is_natural = variable.type == NetcdfType::uint64;
@@ -269,7 +269,7 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
   for_each_slab(variable.shape, begin, out.size(), read);
 }
 
-void Netcdf4File::read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+void Netcdf4File::read_box(const VariableInFile& variable, const NetcdfBox& box,
                            std::span<std::int64_t> out) const {
   const NetcdfLock lock(netcdf_library_lock());
   require_netcdf(

@@ -39,16 +39,13 @@ class Netcdf4File {
 
   // Reads as many values as `out` has room for, from value `begin` on. Throws BadValue if reading
   // fails.
-  void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
-            std::span<double> out) const;
-  void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
-                std::span<double> out) const;
+  void read(const VariableInFile& variable, std::uint64_t begin, std::span<double> out) const;
+  void read_box(const VariableInFile& variable, const NetcdfBox& box, std::span<double> out) const;
   // Sets the lengths of the variable's chunks, if it has chunks.
-  void take_chunk(const NetcdfReader::Variable& variable, std::span<std::uint64_t> lengths) const;
+  void take_chunk(const VariableInFile& variable, std::span<std::uint64_t> lengths) const;
   // Reads integers. Precondition: the variable has a type of integers.
-  void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
-            std::span<std::int64_t> out) const;
-  void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+  void read(const VariableInFile& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
+  void read_box(const VariableInFile& variable, const NetcdfBox& box,
                 std::span<std::int64_t> out) const;
 
  private:

@@ -11,7 +11,6 @@
 namespace rondel::io {
 namespace {
 
-using BoxVariable = NetcdfReader::Variable;
 using BoxLengths = std::vector<std::size_t>;
 
 // Returns the number of values in a box.
@@ -78,7 +77,7 @@ BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint6
 
 }  // namespace
 
-void read_in_order(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box,
+void read_in_order(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box,
                    std::span<const std::size_t> order, std::span<double> out,
                    std::size_t max_per_piece) {
   const std::size_t rank = order.size();
@@ -126,7 +125,7 @@ namespace {
 // once if the runs and the gaps between them are short.
 class RunReader {
  public:
-  RunReader(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box)
+  RunReader(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box)
       : file_(file), variable_(variable), box_(box), steps_(steps_of(variable.shape)) {
     // The values of dimensions that are wanted as a whole, and of the dimension before these, are
     // contiguous.
@@ -189,7 +188,7 @@ class RunReader {
   }
 
   const NetcdfReader& file_;
-  const BoxVariable& variable_;
+  const VariableInFile& variable_;
   const NetcdfBox& box_;
   BoxLengths steps_;
   std::size_t first_of_run_ =
@@ -200,7 +199,7 @@ class RunReader {
 
 }  // namespace
 
-void NetcdfReader::read_box(const Variable& variable, const NetcdfBox& box,
+void NetcdfReader::read_box(const VariableInFile& variable, const NetcdfBox& box,
                             std::span<double> out) const {
   if (netcdf4_ != nullptr) {
     require_numbers(variable);

@@ -23,8 +23,8 @@ inline constexpr std::size_t usual_piece = std::size_t{1} << 20U;
 // pieces of about `max_per_piece` values, which consist of whole chunks if the file is divided into
 // chunks. Throws BadValue like NetcdfReader::read_numbers(). Precondition: the box lies in the
 // variable, and `out` has its size.
-void read_in_order(const NetcdfReader& file, const NetcdfReader::Variable& variable,
-                   const NetcdfBox& box, std::span<const std::size_t> order, std::span<double> out,
+void read_in_order(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box,
+                   std::span<const std::size_t> order, std::span<double> out,
                    std::size_t max_per_piece = usual_piece);
 
 }  // namespace rondel::io

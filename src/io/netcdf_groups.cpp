@@ -49,8 +49,8 @@ std::string looked_up(const std::string& word, std::string group, const Variable
 
 void resolve_names(NetcdfHeader& header) {
   VariableNames names;
-  for (const NetcdfReader::Variable& variable : header.variables) names.insert(variable.name);
-  for (NetcdfReader::Variable& variable : header.variables) {
+  for (const VariableInFile& variable : header.variables) names.insert(variable.name);
+  for (VariableInFile& variable : header.variables) {
     const std::string group = group_of(variable.name);
     for (NetcdfAttribute& attribute : variable.attributes) {
       const bool has_paths = !group.empty() || attribute.text.find('/') != std::string::npos;
@@ -65,15 +65,15 @@ void resolve_names(NetcdfHeader& header) {
   }
 }
 
-std::string full_name(std::span<const NetcdfReader::Variable> variables, const std::string& name) {
+std::string full_name(std::span<const VariableInFile> variables, const std::string& name) {
   const auto has = [&](std::string_view wanted) {
-    return std::ranges::count(variables, wanted, &NetcdfReader::Variable::name) != 0;
+    return std::ranges::count(variables, wanted, &VariableInFile::name) != 0;
   };
   std::string whole = name.starts_with('/') ? name.substr(1) : name;
   const std::string wanted = whole.substr(0, whole.find('['));
   if (wanted.empty() || has(wanted)) return whole;
   std::string found;
-  for (const NetcdfReader::Variable& variable : variables) {
+  for (const VariableInFile& variable : variables) {
     if (!variable.name.ends_with("/" + wanted)) continue;
     if (!found.empty()) return name;  // several groups have one
     found = variable.name;

@@ -24,6 +24,6 @@ void resolve_names(NetcdfHeader& header);
 // Returns the variable's name in the reader for one that a user wrote: "/group/name", or the name
 // alone if only one group has it. An index in brackets may follow. Other names are returned as they
 // are.
-std::string full_name(std::span<const NetcdfReader::Variable> variables, const std::string& name);
+std::string full_name(std::span<const VariableInFile> variables, const std::string& name);
 
 }  // namespace rondel::io

@@ -122,8 +122,7 @@ std::vector<NetcdfAttribute> attributes_of(HeaderFields& fields) {
 }
 
 // Reads the name, dimensions, attributes, type and offset of a variable.
-void read_variable(HeaderFields& fields, std::size_t num_dimensions,
-                   NetcdfReader::Variable& variable) {
+void read_variable(HeaderFields& fields, std::size_t num_dimensions, VariableInFile& variable) {
   variable.name = fields.name();
   variable.dimensions.resize(fields.count_of(4));
   for (std::size_t& dimension : variable.dimensions) {
@@ -168,7 +167,7 @@ NetcdfHeader parse_netcdf_header(std::string_view bytes) {
   // A member has at least an empty name, no dimensions, no attributes, a type, a size and an
   // offset.
   header.variables.resize(fields.list(netcdf_variables_tag, 28));
-  for (NetcdfReader::Variable& variable : header.variables) {
+  for (VariableInFile& variable : header.variables) {
     read_variable(fields, header.dimensions.size(), variable);
   }
   return header;

@@ -25,8 +25,8 @@ struct NetcdfHeader {
   bool counts_records = true;     // true if num_records is known
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfAttribute> attributes;
-  std::vector<NetcdfReader::Variable> variables;  // types, dimensions, attributes, offset
-  std::vector<std::string> passed_over;           // names of variables of types that are not read
+  std::vector<VariableInFile> variables;  // types, dimensions, attributes, offset
+  std::vector<std::string> passed_over;   // names of variables of types that are not read
 };
 
 // Throws BadValue if the header is damaged or cut off.

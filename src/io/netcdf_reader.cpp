@@ -18,19 +18,19 @@ namespace rondel::io {
 namespace {
 
 // Throws BadValue with the name of the variable.
-[[noreturn]] void refuse(const NetcdfReader::Variable& variable, const std::string& why) {
+[[noreturn]] void refuse(const VariableInFile& variable, const std::string& why) {
   throw BadValue("variable " + in_quotes(variable.name) + " " + why);
 }
 
 // Products and sums of numbers that a damaged header may hold. They throw BadValue where they
 // overflow.
-std::uint64_t product(const NetcdfReader::Variable& variable, std::uint64_t a, std::uint64_t b) {
+std::uint64_t product(const VariableInFile& variable, std::uint64_t a, std::uint64_t b) {
   std::uint64_t result = 0;
   if (__builtin_mul_overflow(a, b, &result)) refuse(variable, "is too large");
   return result;
 }
 
-std::uint64_t sum(const NetcdfReader::Variable& variable, std::uint64_t a, std::uint64_t b) {
+std::uint64_t sum(const VariableInFile& variable, std::uint64_t a, std::uint64_t b) {
   std::uint64_t result = 0;
   if (__builtin_add_overflow(a, b, &result)) refuse(variable, "is too large");
   return result;
@@ -39,15 +39,14 @@ std::uint64_t sum(const NetcdfReader::Variable& variable, std::uint64_t a, std::
 constexpr const char* not_numbers = "is a text where numbers are needed";
 
 // Throws BadValue for the first value that was 2^63 or more.
-void require_signed(const NetcdfReader::Variable& variable, std::span<const std::int64_t> values) {
+void require_signed(const VariableInFile& variable, std::span<const std::int64_t> values) {
   for (const std::int64_t value : values) {
     if (value < 0) refuse(variable, "has an integer beyond 2^63");
   }
 }
 
 // Throws BadValue if the `size` bytes at the variable's offset end after the file.
-void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
-                   std::uint64_t file_size) {
+void require_bytes(const VariableInFile& variable, std::uint64_t size, std::uint64_t file_size) {
   if (size == 0) return;
   const std::uint64_t end = sum(variable, variable.offset, size);
   if (end <= file_size) return;
@@ -100,7 +99,7 @@ void NetcdfReader::parse(std::string_view head) {
   const bool counts_records = header.counts_records;
   const std::uint64_t num_records = header.num_records;
   take(std::move(header));
-  for (Variable& variable : variables_) {
+  for (VariableInFile& variable : variables_) {
     variable.record_values = 1;
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i) {
       const std::uint64_t size = dimensions_[variable.dimensions[i]].size;
@@ -126,7 +125,7 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
   std::size_t num_variables = 0;
   std::uint64_t unpadded = 0;
   std::uint64_t first = size_;
-  for (const Variable& variable : variables_) {
+  for (const VariableInFile& variable : variables_) {
     if (!variable.has_records) continue;
     ++num_variables;
     unpadded = variable.record_values * size_of(variable.type);
@@ -141,7 +140,7 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
   if (number == std::numeric_limits<std::uint64_t>::max()) {
     number = record_size_ == 0 ? 0 : (size_ - first) / record_size_;
   }
-  for (Variable& variable : variables_) {
+  for (VariableInFile& variable : variables_) {
     if (!variable.has_records) continue;
     variable.shape.front() = number;
     variable.num_values = product(variable, number, variable.record_values);
@@ -155,13 +154,13 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
   }
 }
 
-const NetcdfReader::Variable* NetcdfReader::find(std::string_view name) const {
-  const auto at = std::ranges::find(variables_, name, &Variable::name);
+const VariableInFile* NetcdfReader::find(std::string_view name) const {
+  const auto at = std::ranges::find(variables_, name, &VariableInFile::name);
   return at == variables_.end() ? nullptr : &*at;
 }
 
-const NetcdfReader::Variable& NetcdfReader::require(std::string_view name) const {
-  if (const Variable* const variable = find(name)) return *variable;
+const VariableInFile& NetcdfReader::require(std::string_view name) const {
+  if (const VariableInFile* const variable = find(name)) return *variable;
   if (std::ranges::find(passed_over_, name) != passed_over_.end()) {
     throw BadValue("variable " + in_quotes(name) +
                    " has a type that the file defines itself, which is not read");
@@ -169,7 +168,7 @@ const NetcdfReader::Variable& NetcdfReader::require(std::string_view name) const
   throw BadValue("no variable " + in_quotes(name));
 }
 
-std::uint64_t NetcdfReader::place(const Variable& variable, std::uint64_t index) const {
+std::uint64_t NetcdfReader::place(const VariableInFile& variable, std::uint64_t index) const {
   const std::size_t size = size_of(variable.type);
   if (!variable.has_records) return variable.offset + index * size;
   const std::uint64_t record = index / variable.record_values;
@@ -178,7 +177,8 @@ std::uint64_t NetcdfReader::place(const Variable& variable, std::uint64_t index)
 
 // Reads contiguous values together: all of them, or the rest of a record.
 template <typename T, typename Out>
-void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const {
+void NetcdfReader::copy(const VariableInFile& variable, std::uint64_t begin,
+                        std::span<Out> out) const {
   std::vector<char> buffer;
   while (!out.empty()) {
     std::size_t count = out.size();
@@ -204,7 +204,7 @@ void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span
   }
 }
 
-void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
+void NetcdfReader::read_numbers(const VariableInFile& variable, std::uint64_t begin,
                                 std::span<double> out) const {
   if (is_wide(variable.type)) {
     std::vector<std::int64_t> wide(out.size());
@@ -224,7 +224,7 @@ void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
   }
 }
 
-void NetcdfReader::read_wide(const Variable& variable, std::uint64_t begin,
+void NetcdfReader::read_wide(const VariableInFile& variable, std::uint64_t begin,
                              std::span<std::int64_t> out) const {
   if (netcdf4_ != nullptr) {
     netcdf4_->read(variable, begin, out);
@@ -233,7 +233,7 @@ void NetcdfReader::read_wide(const Variable& variable, std::uint64_t begin,
   }
 }
 
-std::vector<double> NetcdfReader::rounded_numbers(const Variable& variable,
+std::vector<double> NetcdfReader::rounded_numbers(const VariableInFile& variable,
                                                   bool& is_rounded) const {
   if (!is_wide(variable.type)) return numbers(variable);
   require_room(variable);
@@ -255,38 +255,38 @@ std::uint64_t NetcdfReader::max_values() const {
                              : std::min(size_, ~std::uint64_t{0} >> max_packed) << max_packed;
 }
 
-std::vector<std::uint64_t> NetcdfReader::chunk_of(const Variable& variable) const {
+std::vector<std::uint64_t> NetcdfReader::chunk_of(const VariableInFile& variable) const {
   std::vector<std::uint64_t> lengths(variable.shape.size(), 1);
   if (netcdf4_ != nullptr) netcdf4_->take_chunk(variable, lengths);
   return lengths;
 }
 
-void NetcdfReader::require_numbers(const Variable& variable) {
+void NetcdfReader::require_numbers(const VariableInFile& variable) {
   if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
 }
 
-void NetcdfReader::require_room(const Variable& variable) const {
+void NetcdfReader::require_room(const VariableInFile& variable) const {
   require_numbers(variable);
   if (netcdf4_ == nullptr || variable.num_values <= max_values()) return;
   refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
                        std::to_string(size_) + " bytes");
 }
 
-std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
+std::vector<double> NetcdfReader::numbers(const VariableInFile& variable) const {
   require_room(variable);
   std::vector<double> values(variable.num_values);
   read_numbers(variable, 0, values);
   return values;
 }
 
-std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const {
+std::vector<std::int64_t> NetcdfReader::integers(const VariableInFile& variable) const {
   require_room(variable);
   std::vector<std::int64_t> values(variable.num_values);
   read_integers(variable, 0, values);
   return values;
 }
 
-void NetcdfReader::read_integers(const Variable& variable, std::uint64_t begin,
+void NetcdfReader::read_integers(const VariableInFile& variable, std::uint64_t begin,
                                  std::span<std::int64_t> out) const {
   const NetcdfType type = variable.type;
   const bool is_floating = type == NetcdfType::float32 || type == NetcdfType::float64;
@@ -340,8 +340,7 @@ std::string netcdf_text(std::span<const NetcdfAttribute> attributes, std::string
   return attribute == nullptr ? std::string() : attribute->text;
 }
 
-std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
-                                         const NetcdfReader::Variable& lengths,
+std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file, const VariableInFile& lengths,
                                          std::uint64_t size) {
   std::vector<std::uint64_t> shape;
   std::uint64_t product = 1;

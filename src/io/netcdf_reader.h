@@ -34,6 +34,17 @@ struct NetcdfBox {
 // True if a netCDF file of any format begins with these bytes.
 bool is_netcdf(std::string_view head);
 
+// A variable with its place in the file.
+struct VariableInFile : NetcdfVariable {
+  std::vector<std::uint64_t> shape;  // with the number of records that the file has
+  std::uint64_t offset = 0;          // in the file
+  bool has_records = false;
+  std::uint64_t record_values = 0;  // values in a record; all values if there are no records
+  std::uint64_t num_values = 0;
+  int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for the variable
+  int number = 0;
+};
+
 // A file of netCDF-4 has what the classic formats have, and more:
 // 1. Variables of a group are called "group/name", and come after those of the file itself, as do
 //    dimensions. Attributes that name variables have these names, too (netcdf_groups.h).
@@ -43,17 +54,6 @@ bool is_netcdf(std::string_view head);
 //    require() says so of such a variable.
 class NetcdfReader {
  public:
-  // A variable with its place in the file.
-  struct Variable : NetcdfVariable {
-    std::vector<std::uint64_t> shape;  // with the number of records that the file has
-    std::uint64_t offset = 0;          // in the file
-    bool has_records = false;
-    std::uint64_t record_values = 0;  // values in a record; all values if there are no records
-    std::uint64_t num_values = 0;
-    int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for the variable
-    int number = 0;
-  };
-
   // Reads the header and checks it against the bytes, which must outlive this object. Throws
   // BadValue if it is not valid. Nothing is allocated for a count before the bytes can hold as
   // much, and every value of every variable is present. netCDF-4 is compressed, and is checked
@@ -70,51 +70,53 @@ class NetcdfReader {
   [[nodiscard]] std::uint64_t max_values() const;
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
-  [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
+  [[nodiscard]] std::span<const VariableInFile> variables() const { return variables_; }
   // Returns the names of variables of types that the file defines itself.
   [[nodiscard]] std::span<const std::string> passed_over() const { return passed_over_; }
   // Returns null if there is no variable of this name.
-  [[nodiscard]] const Variable* find(std::string_view name) const;
+  [[nodiscard]] const VariableInFile* find(std::string_view name) const;
   // Throws BadValue if there is none, or none of a type that is read.
-  [[nodiscard]] const Variable& require(std::string_view name) const;
+  [[nodiscard]] const VariableInFile& require(std::string_view name) const;
 
   // Returns all values as doubles. Throws BadValue if they are a text, and for integers of 64 bits
   // that are no doubles; those that are missing, as wide_integers.h says, are NaN.
-  [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  [[nodiscard]] std::vector<double> numbers(const VariableInFile& variable) const;
   // Returns what numbers() returns, with integers that are no doubles rounded; sets `is_rounded` if
   // there are some.
-  [[nodiscard]] std::vector<double> rounded_numbers(const Variable& variable,
+  [[nodiscard]] std::vector<double> rounded_numbers(const VariableInFile& variable,
                                                     bool& is_rounded) const;
   // Throws BadValue if the variable is a text, or has more values than the file can have: before
   // there is room for them.
-  void require_room(const Variable& variable) const;
+  void require_room(const VariableInFile& variable) const;
   // Read as many values as `out` has room for, from value `begin` on. Throw BadValue like numbers()
   // and integers().
-  void read_numbers(const Variable& variable, std::uint64_t begin, std::span<double> out) const;
-  void read_integers(const Variable& variable, std::uint64_t begin,
+  void read_numbers(const VariableInFile& variable, std::uint64_t begin,
+                    std::span<double> out) const;
+  void read_integers(const VariableInFile& variable, std::uint64_t begin,
                      std::span<std::int64_t> out) const;
   // Reads the numbers of a box of one or more values, its last dimension varying fastest. Throws
   // BadValue like numbers().
-  void read_box(const Variable& variable, const NetcdfBox& box, std::span<double> out) const;
+  void read_box(const VariableInFile& variable, const NetcdfBox& box, std::span<double> out) const;
   // Returns the lengths of the compressed chunks along the variable's dimensions; 1 if there are
   // none.
-  [[nodiscard]] std::vector<std::uint64_t> chunk_of(const Variable& variable) const;
+  [[nodiscard]] std::vector<std::uint64_t> chunk_of(const VariableInFile& variable) const;
   // Returns all values as integers. Throws BadValue if they are a text, floating-point numbers, or
   // 2^63 or more.
-  [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
+  [[nodiscard]] std::vector<std::int64_t> integers(const VariableInFile& variable) const;
 
  private:
   // Keeps the definitions of a header.
   void take(NetcdfHeader&& header);
   // Parses a classic header and places the variables in the file.
   void parse(std::string_view head);
-  static void require_numbers(const Variable& variable);
+  static void require_numbers(const VariableInFile& variable);
   // Returns the offset in the file of a value, by its number in the variable.
-  [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
+  [[nodiscard]] std::uint64_t place(const VariableInFile& variable, std::uint64_t index) const;
   // Reads integers of 64 bits, uint64 as bits.
-  void read_wide(const Variable& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
+  void read_wide(const VariableInFile& variable, std::uint64_t begin,
+                 std::span<std::int64_t> out) const;
   template <typename T, typename Out>
-  void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
+  void copy(const VariableInFile& variable, std::uint64_t begin, std::span<Out> out) const;
   // Places the variables of records; `claimed` is the number of records by the header, or all bits
   // 1.
   void place_records(std::uint64_t claimed);
@@ -125,7 +127,7 @@ class NetcdfReader {
   std::uint64_t size_ = 0;
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
-  std::vector<Variable> variables_;
+  std::vector<VariableInFile> variables_;
   std::vector<std::string> passed_over_;
   std::uint64_t record_size_ = 0;
 };
@@ -139,7 +141,7 @@ const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attribute
 // Returns the lengths of a grid of `size` cells, which SCRIP lists from the fastest dimension on,
 // with the slowest dimension first. Returns an empty vector if there are fewer than two. Throws
 // BadValue if their product is not the size.
-std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
-                                         const NetcdfReader::Variable& lengths, std::uint64_t size);
+std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file, const VariableInFile& lengths,
+                                         std::uint64_t size);
 
 }  // namespace rondel::io

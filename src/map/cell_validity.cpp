@@ -14,7 +14,7 @@
 namespace rondel::map {
 namespace {
 
-constexpr std::size_t cells_per_piece = 1024;
+constexpr std::size_t cells_per_task = 1024;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ bool CellMap::has_invalid(const Execution& execution) const {
   if (only_vertex_ < sites_.size()) return false;
   std::atomic<bool> found{false};
   system::parallel_for(
-      execution.threads, sites_.size(), cells_per_piece, [&](std::size_t begin, std::size_t end) {
+      execution.threads, sites_.size(), cells_per_task, [&](std::size_t begin, std::size_t end) {
         Pen pen;
         for (std::size_t site = begin; site < end && !found; ++site) {
           if (has_cell(site) && !is_unchanged(site) && is_in_trouble(loops_of(site, pen)))
@@ -45,7 +45,7 @@ std::vector<Loop> CellMap::loops_of(std::size_t site, Pen& pen) const {
 
 void CellMap::settle(const Execution& execution) {
   std::vector<std::vector<DirectedLine>> sides(sites_.size());
-  system::parallel_for(execution.threads, sites_.size(), cells_per_piece,
+  system::parallel_for(execution.threads, sites_.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          Pen pen;
                          for (std::size_t site = begin; site < end; ++site) {

@@ -146,7 +146,7 @@ CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> ce
   const std::size_t n = centers.size();
   CellGradients result;
   result.offsets.assign(n + 1, 0);
-  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+  system::parallel_for(threads, n, cells_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
       result.offsets[neighbors_of.name(c) + std::size_t{1}] =
           neighbors_of(static_cast<Index>(c)).size();
@@ -176,7 +176,7 @@ CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> ce
       ++k;
     }
   };
-  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+  system::parallel_for(threads, n, cells_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) fit(static_cast<Index>(c));
   });
   return result;

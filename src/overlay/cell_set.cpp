@@ -76,7 +76,7 @@ CellSetData::CellSetData(Subdivision subdivision, std::vector<Index> whole, unsi
       lengths_[subdivision_.names[c]] = measures.length;
     }
   };
-  system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
+  system::parallel_for(threads, subdivision_.num_cells(), cells_per_task, measure);
   for (const Index cell : all_whole_) areas_[cell] = 4 * std::numbers::pi;
   // Cells that turn counterclockwise and meet another cell at each edge cover the sphere, once or
   // several times; the area tells how often.

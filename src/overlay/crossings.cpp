@@ -43,8 +43,8 @@ Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   const Point& z = edge.end();
   if (from == y || from == z) return from;
   if (to == y || to == z) return to;
-  const double of_start = edge.distance(from);
-  const double of_end = edge.distance(to);
+  const double of_start = edge.scaled_distance(from);
+  const double of_end = edge.scaled_distance(to);
   const double drop = of_start - of_end;
   double part = of_start / drop;
   if (!(part >= 0)) part = 0;  // both distances are 0

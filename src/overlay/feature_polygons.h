@@ -30,6 +30,8 @@ CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions
 // --- the steps, one file each ---
 
 // Detects rings around a pole that straight lines in longitude and latitude do not represent.
+//
+// index sides of a ring: side k leads from corner k to the next one
 // Returns the index of the only side of a ring that spans more than 180 degrees of longitude, for a
 // ring on one side of the equator: if this side led the other way round, the ring would go around
 // the pole. Returns nothing if there is no such side, or if it lies at the pole, or if it is
@@ -37,10 +39,12 @@ CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions
 std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 
 // Adds corners to neighboring features where only one of them has a corner on their common border.
+//
+// in, out  features[f][r]: ring r of feature f
 // Inserts corners into sides: those of other features that lie on the side up to rounding, and
 // those of the same feature that lie there after a shift by 360 degrees. Sides are then straight
-// only up to rounding, and neighbors have the same corners. Rings that may run to and fro after
-// that keep the positions that they had as `thin_positions`.
+// only up to rounding, and neighbors have the same corners. A ring that is so thin that it may
+// run to and fro after that keeps its former positions in `thin_positions`.
 void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads);
 
 // Returns "longitude latitude" in degrees, with 10 significant digits.

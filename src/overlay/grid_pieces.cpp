@@ -257,7 +257,7 @@ PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_mo
   const Subdivision& subdivision = cells.subdivision();
   std::vector<PlaceInGrid> places(subdivision.points.size());
   const GridWalk walk(grid, has_moments);
-  system::parallel_for(execution.threads, places.size(), cells_per_piece,
+  system::parallel_for(execution.threads, places.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            places[i] = walk.place_of(subdivision.points[i]);

@@ -74,7 +74,7 @@ class LinearRowMaker {
     };
     if (sources.size() <= SmallSort::most) {
       const SmallSort sorted(sources.size(), [&](std::size_t k) { return sources[k]; });
-      for (std::size_t k = 0; k < sources.size(); ++k) put(ranks[k], k);
+      for (std::size_t k = 0; k < sources.size(); ++k) put(sorted[k], k);
       return;
     }
     order_.resize(sources.size());

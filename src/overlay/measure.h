@@ -22,7 +22,7 @@ namespace rondel::overlay {
 
 // Local coordinates of a point p of the sphere around a point o: (x, y, z) = p - o along three
 // axes, of which o is the third.
-using Place = exact::Vector3<double>;
+using LocalPoint = exact::Vector3<double>;
 
 // The axes at o. They are the coordinate axes, rotated along the shortest path from the nearer pole
 // to o.
@@ -30,7 +30,7 @@ class LocalAxes {
  public:
   explicit LocalAxes(const Point& o) : LocalAxes(o, o.z < 0 ? -1 : 1) {}
   // Returns the local coordinates of a unit vector. Its z is computed from the distance to o.
-  [[nodiscard]] Place place_of(const Point& p) const {
+  [[nodiscard]] LocalPoint place_of(const Point& p) const {
     const Point step = p - o_;
     return {dot(x_, step), dot(y_, step), -0.5 * dot(step, step)};
   }
@@ -52,8 +52,8 @@ class LocalAxes {
 //     tan(area / 2) = o.(P x S) / (1 + o.p + p.q + q.o),    o.p = 1 + z(p), p.q = 1 - |S|^2 / 2.
 class Triangle {
  public:
-  Triangle(const Place& p, const Place& q) {
-    const Place side = q - p;
+  Triangle(const LocalPoint& p, const LocalPoint& q) {
+    const LocalPoint side = q - p;
     above_ = p.x * side.y - p.y * side.x;
     below_ = 4 + (p.z + q.z) - 0.5 * dot(side, side);
     length_ = std::abs(side.x) + std::abs(side.y) + std::abs(side.z);

@@ -20,7 +20,7 @@
 #include "exact/vector.h"
 #include "map/arc.h"
 #include "overlay/cell_set_data.h"
-#include "overlay/gap_triangulation.h"
+#include "overlay/cover_triangulation.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "rondel/predicates.h"

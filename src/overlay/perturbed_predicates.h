@@ -100,7 +100,7 @@ class CoverEdge {
 
   // Returns how far an unperturbed point x is to the left of the edge, times the length of the
   // edge; rounded.
-  [[nodiscard]] double distance(const Point& x) const {
+  [[nodiscard]] double scaled_distance(const Point& x) const {
     return dot(normal_, exact::to_vector(x) - exact::to_vector(y_));
   }
   [[nodiscard]] const Point& start() const { return y_; }
@@ -108,12 +108,12 @@ class CoverEdge {
   [[nodiscard]] double squared_length() const { return dot(step_, step_); }
   // True if an unperturbed point x is to the left of the perturbed edge.
   [[nodiscard]] bool is_left(const Point& x) const {
-    const double value = distance(x);
+    const double value = scaled_distance(x);
     return is_sure(value) ? value > 0 : is_left_nearby(x);
   }
   // True if an unperturbed point x is on the great circle of the edge before the perturbation.
   [[nodiscard]] bool is_on_circle(const Point& x) const {
-    return !is_sure(distance(x)) && nearby_sign(x) == Sign::zero &&
+    return !is_sure(scaled_distance(x)) && nearby_sign(x) == Sign::zero &&
            orientation(y_, z_, x) == Sign::zero;
   }
 

@@ -56,7 +56,7 @@ std::span<const BoundaryArc> PieceBoundaries::operator()(Index cell) {
   follow_inwards();
   flood();
   is_consistent_ = cells_.shapes[cell] != Shape::other || has_clear_ends();
-  if (passages_.empty() && has_corners_of_cover(cell)) take_all_edges();
+  if (passages_.empty() && has_all_edges_inside(cell)) take_all_edges();
   return arcs_;
 }
 
@@ -79,7 +79,7 @@ void PieceBoundaries::follow_boundary(Index cell) {
         const Index to = add_point(crossing.point);
         arcs_.push_back({beyond, no_index, from, to});
         passages_.push_back({std::min(out, in), out, h, to});
-        passed_ |= digits_of(std::min(out, in));
+        passed_ |= bit_of(std::min(out, in));
         from = to;
         beyond = cover_.cell_of[in];
       }
@@ -123,13 +123,13 @@ void PieceBoundaries::follow_inwards() {
     const Passage& passage = passages_[k];
     if (passage.out != passage.edge) {  // the part before it is inside
       add_edge(passage.edge, add_point(cover_.origin(passage.edge)), passage.point);
-      arrive(passage.out);
+      mark_end_inside(passage.out);
     } else if (k + 1 < passages_.size() && passages_[k + 1].edge == passage.edge) {
       add_edge(passage.edge, passage.point, passages_[k + 1].point);
       ++k;
     } else {
       add_edge(passage.edge, passage.point, add_point(cover_.end(passage.edge)));
-      arrive(passage.out);
+      mark_end_inside(passage.out);
     }
   }
 }
@@ -145,7 +145,7 @@ void PieceBoundaries::flood() {
       const Halfedge edge = std::min(h, cover_.twins[h]);
       if (!has_passage(edge)) {
         if (h == edge) add_edge(h, add_point(cover_.origin(h)), add_point(cover_.end(h)));
-        arrive(h);
+        mark_end_inside(h);
       }
       h = cover_.twins[cover_.previous(h)];
     } while (h != first);
@@ -172,7 +172,7 @@ bool PieceBoundaries::has_clear_ends() const {
 // the cover. If the edges are outside, the areas to the left of the rings within these cells,
 // negative for holes, add up to the area of the cell; otherwise they add up to that area minus the
 // sphere's.
-bool PieceBoundaries::has_corners_of_cover(Index cell) {
+bool PieceBoundaries::has_all_edges_inside(Index cell) {
   if (cells_.shapes[cell] != Shape::other) return false;
   double inside_of_rings = 0;
   for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
@@ -212,12 +212,12 @@ void PieceBoundaries::add_edge(Halfedge h, Index from, Index to) {
 }
 
 // Marks the corner of the cover at the end of a halfedge as inside of the cell.
-void PieceBoundaries::arrive(Halfedge h) {
+void PieceBoundaries::mark_end_inside(Halfedge h) {
   if (visited_.insert(cover_.corners[cover_.next(h)])) arrivals_.push_back(h);
 }
 
 bool PieceBoundaries::has_passage(Halfedge edge) const {
-  if ((passed_ & digits_of(edge)) == 0) return false;
+  if ((passed_ & bit_of(edge)) == 0) return false;
   constexpr std::size_t few = 12;
   if (passages_.size() <= few) {
     return std::ranges::any_of(passages_,

@@ -14,7 +14,7 @@
 // halfedge. It goes on to the next crossing with the boundary, or else to its end: this corner of
 // the cover is then inside of the cell, and all other edges go on from there. Two decisions are
 // left: the order of crossings along an edge, if the cell is not convex (is_before()), and, if the
-// boundary crosses no edge at all, whether the edges are inside (has_corners_of_cover()).
+// boundary crosses no edge at all, whether the edges are inside (has_all_edges_inside()).
 //
 // The arcs with the cell b of the cover to their left bound the piece in b; edges of
 // the cover bound two pieces.
@@ -74,7 +74,7 @@ class PieceBoundaries {
   void follow_inwards();
   void flood();
   [[nodiscard]] bool has_clear_ends() const;
-  [[nodiscard]] bool has_corners_of_cover(Index cell);
+  [[nodiscard]] bool has_all_edges_inside(Index cell);
   [[nodiscard]] double area_within(Index beyond) const;
   void take_all_edges();
   // Adds a point to those of the cell, and returns its index.
@@ -83,9 +83,9 @@ class PieceBoundaries {
     return static_cast<Index>(points_.size() - 1);
   }
   void add_edge(Halfedge h, Index from, Index to);
-  void arrive(Halfedge h);
+  void mark_end_inside(Halfedge h);
   [[nodiscard]] bool has_passage(Halfedge edge) const;
-  static std::uint64_t digits_of(Halfedge edge) { return std::uint64_t{1} << edge % 64; }
+  static std::uint64_t bit_of(Halfedge edge) { return std::uint64_t{1} << edge % 64; }
 
   const Subdivision& cells_;
   const Subdivision& cover_;
@@ -94,7 +94,7 @@ class PieceBoundaries {
   std::vector<Point> points_;
   std::vector<Index> corners_;  // indices into points_
   std::vector<Passage> passages_;
-  std::uint64_t passed_ = 0;        // the bits digits_of() of all edges with passages
+  std::uint64_t passed_ = 0;        // the bits bit_of() of all edges with passages
   std::vector<Halfedge> arrivals_;  // halfedges whose ends are inside and are still to be visited
   query::VisitedSet visited_;       // the points of the cover whose edges were taken
   std::vector<Point> ring_;

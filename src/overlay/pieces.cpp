@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "exact/eft.h"
+#include "overlay/cover_triangulation.h"
 #include "overlay/crossings.h"
-#include "overlay/gap_triangulation.h"
 #include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
 #include "overlay/piece_boundaries.h"
@@ -181,7 +181,7 @@ class PieceMaker {
   std::vector<BoundaryArc> owned_;
   bool has_moments_;
   std::array<Index, 64> known_{};
-  std::vector<Place> places_;
+  std::vector<LocalPoint> places_;
   std::vector<SideOfPiece> sides_;
   std::vector<BorderArc> border_;
   std::vector<MeasuredPiece> pieces_;
@@ -198,9 +198,10 @@ PieceRows pieces(const Subdivision& cells, const CellSizes& sizes, const Subdivi
 
 PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
                           const Subdivision& others, bool has_moments, const Execution& execution) {
-  const GapTriangulation gaps = triangulate_gaps(others, execution);
+  const CoverTriangulation completed = triangulate_cover(others, execution);
   return gathered_rows(cells, others.names, has_moments, execution, [&](Index first, Index end) {
-    return PieceMaker(cells, sizes, gaps.cover, others.names, gaps.owners, first, end, has_moments);
+    return PieceMaker(cells, sizes, completed.cover, others.names, completed.owners, first, end,
+                      has_moments);
   });
 }
 

@@ -12,8 +12,8 @@
 
 #include "overlay/border_rings.h"
 #include "overlay/cell_set_data.h"
+#include "overlay/cover_triangulation.h"
 #include "overlay/disjoint_cells.h"
-#include "overlay/gap_triangulation.h"
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
 #include "overlay/piece_boundaries.h"
@@ -141,13 +141,13 @@ std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover
 // Returns the arcs of all pieces of the cells in others that need not cover the sphere.
 std::vector<NamedArc> arcs_of_parts(const Subdivision& cells, const Subdivision& others,
                                     const Execution& execution) {
-  const overlay::GapTriangulation gaps = overlay::triangulate_gaps(others, execution);
+  const overlay::CoverTriangulation completed = overlay::triangulate_cover(others, execution);
   std::vector<Index> beyond;
-  beyond.reserve(gaps.owners.size());
-  for (const Index owner : gaps.owners) {
+  beyond.reserve(completed.owners.size());
+  for (const Index owner : completed.owners) {
     beyond.push_back(owner < others.num_cells() ? others.names[owner] : no_index);
   }
-  return arcs_of(cells, gaps.cover, beyond, execution);
+  return arcs_of(cells, completed.cover, beyond, execution);
 }
 
 // Returns the sides of all cells, with the cell that is the whole sphere as the region.

@@ -13,7 +13,7 @@
 
 #include "exact/vector.h"
 #include "overlay/cell_set_data.h"
-#include "overlay/gap_triangulation.h"
+#include "overlay/cover_triangulation.h"
 #include "overlay/grid_pieces.h"
 #include "overlay/linear_weights.h"
 #include "overlay/measure.h"
@@ -213,7 +213,7 @@ Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas
   weights.offsets = remap.pieces.offsets;
   weights.columns.resize(remap.pieces.values.size());
   weights.values.resize(remap.areas.size());
-  system::parallel_for(threads, target_areas.size(), overlay::cells_per_piece,
+  system::parallel_for(threads, target_areas.size(), overlay::cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t j = begin; j < end; ++j) {
                            for (std::uint64_t k = remap.pieces.offsets[j];
@@ -233,9 +233,9 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   const CellSetData& targets = CellSetData::of(result.target);
   const std::vector<std::int32_t>& source_mask = result.source.facts().mask;
   const bool is_second = result.order == 2;
-  const overlay::TakingPart of_sources =
+  const overlay::OverlaySide of_sources =
       overlay::taking_part(sources, source_mask, overlap, "source", execution);
-  const overlay::TakingPart of_targets =
+  const overlay::OverlaySide of_targets =
       overlay::taking_part(targets, result.target.facts().mask, overlap, "target", execution);
   const std::size_t num_sources = result.source.num_cells();
   PieceRows pieces =

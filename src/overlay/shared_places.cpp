@@ -51,10 +51,10 @@ std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
 }
 
 // Cuts cells into parts; others[i] are the cells whose overlaps with cell i are to be separated.
-TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
-                  const Execution& execution) {
+OverlaySide cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
+                   const Execution& execution) {
   const Execution told{.threads = execution.threads, .stop = execution.stop};
-  TakingPart result;
+  OverlaySide result;
   CellRings all;
   all.points = cells.points;
   for (Index i = 0; i < cells.num_cells(); ++i) {
@@ -98,8 +98,8 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
 
 }  // namespace
 
-TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
-                       CellOverlap rule, const char* what, const Execution& execution) {
+OverlaySide taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
+                        CellOverlap rule, const char* what, const Execution& execution) {
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);
@@ -115,12 +115,12 @@ TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>
   return cut_up(rings, others, execution);
 }
 
-std::span<const Index> TakingPart::owners_of(const Index& part) const {
+std::span<const Index> OverlaySide::owners_of(const Index& part) const {
   return has_parts() ? owners[part] : std::span(&part, 1);
 }
 
-PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
-                       const TakingPart& columns) {
+PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t num_rows,
+                       const OverlaySide& columns) {
   if (!rows.has_parts() && !columns.has_parts()) return pieces;
   // A piece as an entry of the table of cells.
   struct PartPiece {
@@ -164,7 +164,7 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
   return joined;
 }
 
-CountedSizes::CountedSizes(const CellSetData& cells, const TakingPart& part)
+CountedSizes::CountedSizes(const CellSetData& cells, const OverlaySide& part)
     : cells_(cells), of_parts_(part.has_parts()) {
   if (!of_parts_) return;
   const std::size_t n = cells.areas().size();

@@ -22,7 +22,7 @@
 namespace rondel::overlay {
 
 // The cells that take part in an overlay, as given or cut into parts.
-struct TakingPart {
+struct OverlaySide {
   // The cells or the parts.
   const CellSetData* data = nullptr;
   std::shared_ptr<const CellSetData> parts = nullptr;  // owns `data` if these are parts
@@ -36,18 +36,18 @@ struct TakingPart {
 
 // Returns the cells that are not masked. If some of them overlap and `rule` is error, or if one
 // overlaps itself, throws InvalidInput with `what` ("source" or "target"), the cells and a place.
-TakingPart taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
-                       CellOverlap rule, const char* what, const Execution& execution);
+OverlaySide taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
+                        CellOverlap rule, const char* what, const Execution& execution);
 
 // Converts rows and columns of parts into those of the cells that own them.
-PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
-                       const TakingPart& columns);
+PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t num_rows,
+                       const OverlaySide& columns);
 
 // The part of each cell that counts in the overlay: its area (steradians), its first moment, and
 // the length of its border.
 class CountedSizes {
  public:
-  CountedSizes(const CellSetData& cells, const TakingPart& part);
+  CountedSizes(const CellSetData& cells, const OverlaySide& part);
   [[nodiscard]] const std::vector<double>& areas() const {
     return of_parts_ ? areas_ : cells_.areas();
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A hash table of the directed sides of triangles by their ends. It is one array, because
-// gap_triangulation.h spends most of its time on look-ups here.
+// cover_triangulation.h spends most of its time on look-ups here.
 //
 // index points, by which sides are found; cells (`owner`); triangles
 #pragma once

@@ -132,7 +132,7 @@ std::span<const Snaps::PassedCorner> Snaps::passed_by(const OwnedSide& side) con
   return {first, std::ranges::upper_bound(first, passed_.end(), ends_of(side), {}, ends)};
 }
 
-bool Snaps::change(std::span<const OwnedSide> sides) const {
+bool Snaps::would_change(std::span<const OwnedSide> sides) const {
   return std::ranges::any_of(sides, [&](const OwnedSide& side) {
     return name(side.from) != side.from || name(side.to) != side.to || !passed_by(side).empty();
   });

@@ -37,7 +37,7 @@ class Snaps {
         double distance = snapping_distance);
   [[nodiscard]] bool is_empty() const { return passed_.empty() && !has_joined_; }
   // True if snapping changes any of these sides, which need not be those of the constructor.
-  [[nodiscard]] bool change(std::span<const OwnedSide> sides) const;
+  [[nodiscard]] bool would_change(std::span<const OwnedSide> sides) const;
   // Returns the sides divided at all corners near them, without those that then cancel for their
   // owner, and sorted.
   [[nodiscard]] std::vector<OwnedSide> applied(std::span<const OwnedSide> sides) const;

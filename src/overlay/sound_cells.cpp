@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "overlay/border_rings.h"
-#include "overlay/gap_triangulation.h"
+#include "overlay/cover_triangulation.h"
 #include "overlay/overlaps.h"
 #include "overlay/single_cells.h"
 #include "overlay/snapped_sides.h"
@@ -59,19 +59,19 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
   for (Index i = 0; i < cells.num_cells(); ++i) {
     const std::vector<OwnedSide> sides = sides_of_cell(cells, i, 0);
     CellRings one = one_cell(cells, i);
-    if (snaps.change(sides)) {
+    if (snaps.would_change(sides)) {
       std::vector<KeyedArc> arcs;
       for (const auto& [from, to, owner] : snaps.applied(sides)) {
         arcs.push_back({owner, cells.points[from], cells.points[to]});
       }
       const double before = areas(one).front();
       CellRings rest = rings_around(arcs, 1, 1);
-      const Turn turn = turn_of({one, 0, before}, {rest, 0, areas(rest).front()});
-      if (turn == Turn::of_rounding) {
+      const Inversion inversion = inversion_of({one, 0, before}, {rest, 0, areas(rest).front()});
+      if (inversion == Inversion::of_rounding) {
         rest = CellRings{};
         rest.cells.push_back(0);
       }
-      if (turn != Turn::of_wide_rings) one = std::move(rest);
+      if (inversion != Inversion::of_wide_rings) one = std::move(rest);
       if (before > half_of_sphere && !has_any(one)) one.whole = {0};
     }
     append(one, result);

@@ -98,7 +98,7 @@ void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
   sorted.indices.resize(n);
   std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
   std::vector<Point> places(n);
-  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+  system::parallel_for(threads, n, cells_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) places[i] = center_of(input, i);
     order::place_keys(std::span(places).subspan(begin, end - begin), Model::projected, {},
                       std::span(sorted.keys).subspan(begin, end - begin));
@@ -328,7 +328,7 @@ void Subdivision::find_shapes(unsigned threads) {
     if (is_convex(cell)) return Shape::convex;
     return is_star(cell) ? Shape::star : Shape::other;
   };
-  system::parallel_for(threads, num_cells(), cells_per_piece,
+  system::parallel_for(threads, num_cells(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t c = begin; c < end; ++c) {
                            shapes[c] = shape_of(static_cast<Index>(c));

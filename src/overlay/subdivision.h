@@ -27,7 +27,7 @@ namespace rondel::overlay {
 using Halfedge = Index;
 
 // The number of cells that one task of a parallel loop takes.
-inline constexpr std::size_t cells_per_piece = 4096;
+inline constexpr std::size_t cells_per_task = 4096;
 
 // The shapes of cells, which decide how a walk goes through them.
 enum class Shape : std::uint8_t {

@@ -170,9 +170,9 @@ class NamesOfCorners {
 
 }  // namespace
 
-Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
+Inversion inversion_of(const MeasuredCell& before, const MeasuredCell& after) {
   constexpr double half_of_sphere = 2 * std::numbers::pi;
-  if (std::abs(after.area - before.area) < half_of_sphere) return Turn::none;
+  if (std::abs(after.area - before.area) < half_of_sphere) return Inversion::none;
   double length = 0;
   for (std::uint64_t r = before.cells.cells[before.cell]; r < before.cells.cells[before.cell + 1];
        ++r) {
@@ -181,9 +181,9 @@ Turn turn_of(const MeasuredCell& before, const MeasuredCell& after) {
   for (std::uint64_t r = after.cells.cells[after.cell]; r < after.cells.cells[after.cell + 1];
        ++r) {
     const RingArea area = area_of_ring(points_of_ring(after.cells, r));
-    if (is_surely_wide(area, length)) return Turn::of_wide_rings;
+    if (is_surely_wide(area, length)) return Inversion::of_wide_rings;
   }
-  return Turn::of_rounding;
+  return Inversion::of_rounding;
 }
 
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell) {
@@ -214,12 +214,12 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   const std::vector<double> areas_after = areas(left);
   const auto turned = [&](std::size_t cell) {
     const Index key = keys[cell];
-    return turn_of({cells, cell, areas_before[key]}, {left, key, areas_after[key]});
+    return inversion_of({cells, cell, areas_before[key]}, {left, key, areas_after[key]});
   };
   const auto has_changed = [&](std::size_t cell) {
     return keys[cell] != no_index &&
            num_corners_of(left, keys[cell]) != num_corners_of(cells, cell) &&
-           turned(cell) != Turn::of_wide_rings;
+           turned(cell) != Inversion::of_wide_rings;
   };
   CellRings result;
   bool has_any = false;
@@ -235,7 +235,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
       if (left.cells[key] == left.cells[key + std::size_t{1}]) {
         require_nothing(cells, i, std::span(arcs).subspan(begins[key], end - begins[key]));
       }
-      if (turned(i) == Turn::of_rounding) {
+      if (turned(i) == Inversion::of_rounding) {
         if (areas_after[key] < areas_before[key]) result.whole.push_back(static_cast<Index>(i));
         result.end_cell();
         continue;

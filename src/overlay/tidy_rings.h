@@ -26,7 +26,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
 // Whether tidying has made a region its complement: its area was less than half of the sphere, and
 // is more, or the other way. That happens where rounding is all that is left of one of the two; if
 // wide rings are left, the region crosses itself.
-enum class Turn : std::uint8_t { none, of_rounding, of_wide_rings };
+enum class Inversion : std::uint8_t { none, of_rounding, of_wide_rings };
 
 // A cell, and its area.
 struct MeasuredCell {
@@ -34,16 +34,17 @@ struct MeasuredCell {
   std::size_t cell;
   double area;
 };
-Turn turn_of(const MeasuredCell& before, const MeasuredCell& after);
+Inversion inversion_of(const MeasuredCell& before, const MeasuredCell& after);
 
 // True if a ring of the cell crosses itself by more than rounding and has no area, such as a bow
 // tie with two equal loops.
 bool has_balanced_crossing(const CellRings& cells, std::size_t cell);
 
-// Returns the tidied() cells as a subdivision. The parts of a cover inside of a cell are only known
-// if the cell's sides do not cross. Where they do because corners are on sides up to rounding,
-// these corners become corners of the sides, in all cells that have them. `whole` has the cells
-// that are the whole sphere, before and after.
+// Returns the tidied() cells as a subdivision. Which parts of a cover are inside of a cell can only
+// be found if the cell's sides do not cross. Where they cross because a corner is on a side up to
+// rounding, this corner becomes a corner of the side, in all cells that have the side. `whole`
+// lists the cells that are the whole sphere, by their indices in the input: before the call those
+// of `cells`, after it those of the result.
 Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
                         const Execution& execution);
 

@@ -200,14 +200,14 @@ class Messages(Told):
         text = "lon,lat,a\n" + "".join(f"{lon},{lat},{1000 if k == 0 else 1}\n" for k, (lon, lat) in enumerate(rows))
         (self.folder / "big.csv").write_text(text)
         for options in ((), ("--quiet",)):
-            done = self.run_tool("mesh", "partition", "big.csv", "--area", "a", "-o", "o.csv", *options)
+            done = self.run_tool("mesh", "equal-area", "big.csv", "--area", "a", "-o", "o.csv", *options)
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"\Arondel: big\.csv: the areas are not reached: \w+ after .* big\.csv:\d+\n\Z")
         results = []
         for unit in ("1", "1e308", "1e-320"):  # in any unit
             text = "lon,lat,a\n" + "".join(f"{lon},{lat},{unit}\n" for lon, lat in rows)
             (self.folder / "equal.csv").write_text(text)
-            self.succeed("mesh", "partition", "equal.csv", "--area", "a", "-o", "o.csv")
+            self.succeed("mesh", "equal-area", "equal.csv", "--area", "a", "-o", "o.csv")
             results.append((self.folder / "o.csv").read_text())
         self.assertEqual(results[0], results[1])
 

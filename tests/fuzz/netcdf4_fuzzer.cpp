@@ -119,7 +119,7 @@ void test_box(ByteSource& source, const NetcdfReader& file, const WrittenArray& 
 }
 
 void test_reader(ByteSource& source, const NetcdfReader& file, const WrittenArray& array) {
-  const NetcdfReader::Variable& variable = file.require("v");
+  const io::VariableInFile& variable = file.require("v");
   require(variable.shape == array.shape && variable.type == array.type, "a variable has its form");
   require_same(file.numbers(variable), array.values, "values survive");
   const std::size_t begin = source.below(array.values.size());

@@ -23,13 +23,13 @@ using io::NetcdfType;
 // So many values are written again: a small file may have a thousand variables that are the same bytes.
 constexpr std::size_t max_values = 1 << 16;
 
-void require_numbers(const NetcdfReader::Variable& variable, const std::vector<double>& values) {
+void require_numbers(const io::VariableInFile& variable, const std::vector<double>& values) {
   std::uint64_t size = 1;
   for (const std::uint64_t length : variable.shape) size *= length;
   require(values.size() == size, "a variable has the values of its shape");
 }
 
-void test_round_trip(const std::string& path, const NetcdfReader::Variable& variable,
+void test_round_trip(const std::string& path, const io::VariableInFile& variable,
                      const std::vector<double>& values) {
   io::AtomicFile file(path);
   io::NetcdfWriter writer(file);
@@ -55,7 +55,7 @@ void test_round_trip(const std::string& path, const NetcdfReader::Variable& vari
 void test(const std::string& path, std::string_view bytes) {
   const NetcdfReader reader(bytes);
   std::size_t num_values = 0;
-  for (const NetcdfReader::Variable& variable : reader.variables()) {
+  for (const io::VariableInFile& variable : reader.variables()) {
     if (variable.type == NetcdfType::text) continue;
     num_values += variable.num_values;
     if (num_values > max_values) return;

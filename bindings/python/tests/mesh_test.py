@@ -52,7 +52,7 @@ def test_files_come_back(tmp_path):
         assert np.allclose(rondel.mesh.read(tmp_path / f"{name}.nc").cell_areas, mesh.cell_areas)
     with pytest.raises(ValueError, match="kind is 'hdf5'"):
         mesh.to_mpas(tmp_path / "m.nc", kind="hdf5")
-    with pytest.raises(OSError, match=r"exodus\.nc: Exodus without centers of cells"):
+    with pytest.raises(OSError, match=r"exodus\.nc: Exodus: the file has no centers of cells"):
         rondel.mesh.read(tmp_path / "exodus.nc")
     # Its blocks have the cells in another order.
     areas = rondel.CellSet.read(tmp_path / "exodus.nc").areas

@@ -188,7 +188,7 @@ void expect_refused(const Triangulation& t, const std::string& reason) {
 
 TEST(from_arrays, is_proved_before_walks) {
   for (const Input& in : inputs()) {
-    Arrays make_mesh(delaunay(in.sites, in.options));
+    Arrays arrays(delaunay(in.sites, in.options));
     const Triangulation taken = arrays.of(in.sites, in.options);
     DynamicTriangulation dynamic(taken);
     EXPECT_EQ(dynamic.num_vertices(), taken.num_vertices());

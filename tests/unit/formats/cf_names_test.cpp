@@ -331,7 +331,7 @@ TEST(cf_coordinates, of_a_mesh_are_those_of_its_topology) {
 TEST(netcdf_groups, names_are_searched_from_the_group_up) {
   io::NetcdfHeader header;
   const auto add = [&](const std::string& name, const Texts& texts = {}) {
-    io::NetcdfReader::Variable variable;
+    io::VariableInFile variable;
     variable.name = name;
     for (const auto& [key, text] : texts) {
       variable.attributes.push_back({key, io::NetcdfType::text, text, {}});

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-#include "formats/mpas.h"
+#include "formats/mpas_places.h"
 #include "io/bad_value.h"
 #include "support/random.h"
 #include "unit/io/classic_file.h"
@@ -36,7 +36,7 @@ struct OpenFile {
   NetcdfReader reader;
 
   explicit OpenFile(const ClassicFile& file) : bytes(file.bytes()), reader(bytes) {}
-  [[nodiscard]] const NetcdfReader::Variable& at(std::string_view name) const {
+  [[nodiscard]] const io::VariableInFile& at(std::string_view name) const {
     return reader.require(name);
   }
 };
@@ -81,7 +81,7 @@ TEST(cf_reader, degrees_are_of_units_relatives_or_what_is_usual) {
   const OpenFile open(file);
   // The first value of the variable, which is 1 in its unit.
   const auto first = [&](const char* name, UsualUnits usual = UsualUnits::of_name,
-                         std::initializer_list<const NetcdfReader::Variable*> relatives = {}) {
+                         std::initializer_list<const io::VariableInFile*> relatives = {}) {
     const Doubles values = formats::degrees_of(open.reader, open.at(name), usual, relatives);
     EXPECT_EQ(values.size(), 2U);
     EXPECT_EQ(values[1], -2 * values[0]);
@@ -137,7 +137,7 @@ TEST(cf_reader, arrays_are_transposed_in_every_order) {
     do {
       const Doubles found = formats::transposed(shape, order, values);
       ASSERT_EQ(found.size(), size);
-      NetcdfReader::Variable variable;
+      io::VariableInFile variable;
       variable.shape = shape;
       Sizes wanted;
       for (std::size_t d = 0; d < shape.size(); ++d) {

@@ -179,7 +179,7 @@ TEST(netcdf_boxes, are_read_in_any_order_and_in_pieces_of_any_size) {
     }
     io::FileBytes bytes(path);
     const io::NetcdfReader file(bytes);
-    const io::NetcdfReader::Variable& variable = file.require("v");
+    const io::VariableInFile& variable = file.require("v");
     const std::vector<io::NetcdfBox> boxes = {{{0, 0, 0}, {4, 3, 1500}}, {{1, 1, 100}, {3, 2, 700}},
                                               {{0, 0, 1499}, {4, 3, 1}}, {{3, 2, 5}, {1, 1, 20}},
                                               {{0, 1, 0}, {4, 1, 1500}}, {{2, 0, 3}, {2, 3, 10}}};

@@ -319,7 +319,7 @@ TEST(overlay_mesh_faults, further_corners_behind_the_count_and_cells_without_cor
   const auto nothing = [](Values& entries, Values&) {
     std::fill(entries.begin() + 6, entries.begin() + 12, -1);
   };
-  const Remarks empty = {"1 of 3 cells have less than three different corners and are empty"};
+  const Remarks empty = {"1 of 3 cells have fewer than three different corners and are empty"};
   EXPECT_EQ(cells_read(esmf_of(mesh, nothing)).facts.remarks, empty);
   EXPECT_EQ(cells_read(ugrid_of(mesh, nothing)).facts.remarks, empty);
 }

@@ -564,7 +564,7 @@ TEST(fields, have_the_columns_of_their_points) {
   EXPECT_EQ(numbers[0], 1.5);
   EXPECT_TRUE(std::isnan(numbers[1]));
   EXPECT_EQ(numbers[2], -2000);
-  const io::NetcdfReader::Variable& names = file.require("tas_");
+  const io::VariableInFile& names = file.require("tas_");
   EXPECT_EQ(names.shape, (std::vector<std::uint64_t>{3, 5}));
   EXPECT_EQ(text.substr(names.offset, 15), std::string("Fiji\0\0\0\0\0\0\u00c9ire", 15));
   write_fields(directory.file("f.csv"), fields, side);

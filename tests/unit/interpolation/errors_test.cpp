@@ -49,12 +49,13 @@ TEST(interpolation_errors, what_breaks_the_contract_is_refused) {
   expect_refused(1, "target 1: (nan, 0, 0) is not finite", [&] { ask(field, bad); });
   expect_refused(2, "target 2: (0, 0, 0) is the center of the sphere and has no direction",
                  [&] { ask(field, center); });
-  expect_refused(3, "field has 3 values, which are no fields of 4 sites",
+  expect_refused(3, "field has 3 values, which are no multiple of the 4 sites",
                  [&] { ask(std::span(field).first(3), sites); });
-  expect_refused(0, "field has 0 values, which are no fields of 4 sites", [&] { ask({}, sites); });
+  expect_refused(0, "field has 0 values, which are no multiple of the 4 sites",
+                 [&] { ask({}, sites); });
   expect_refused(InvalidInput::no_index, "there is no such method",
                  [&] { ask(field, sites, {.method = static_cast<Method>(17)}); });
-  expect_refused(1, "field has 1 values, which are no fields of 0 sites", [&] {
+  expect_refused(1, "field has 1 values, which are no multiple of the 0 sites", [&] {
     static_cast<void>(Interpolator(Triangulation()).values(std::array{1.0}, sites));
   });
 }

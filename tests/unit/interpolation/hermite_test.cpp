@@ -85,7 +85,8 @@ TEST(interpolation_hermite, is_sibson_where_a_neighbor_has_no_gradient) {
     Row flat;
     kernel(place, row);
     sibson(place, flat);
-    if (std::ranges::all_of(flat, [&](const Share& s) { return has_gradient[s.vertex] != 0; })) {
+    if (std::ranges::all_of(flat,
+                            [&](const WeightedVertex& s) { return has_gradient[s.vertex] != 0; })) {
       continue;
     }
     ++num_without;

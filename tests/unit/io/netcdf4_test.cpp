@@ -86,7 +86,7 @@ TEST_F(netcdf4, has_what_was_written) {
     ASSERT_GE(reader.dimensions().size(), 3U);
     EXPECT_EQ(reader.dimensions()[1].name, "columns");
     EXPECT_EQ(reader.dimensions()[1].size, num_columns);
-    const NetcdfReader::Variable& v = reader.require("v");
+    const io::VariableInFile& v = reader.require("v");
     EXPECT_EQ(v.shape, (Shape{num_rows, num_columns}));
     EXPECT_EQ(v.num_values, num_rows * num_columns);
     EXPECT_EQ(reader.numbers(v), values_);
@@ -126,7 +126,7 @@ TEST_F(netcdf4, refuses_what_is_asked_for_as_another_type) {
               }),
               "variable \"letters\" is a text where numbers are needed");
   }
-  NetcdfReader::Variable large = reader.require("v");
+  io::VariableInFile large = reader.require("v");
   large.num_values = (bytes_.size() << 20U) + 1;
   EXPECT_NE(refused([&] { reader.require_room(large); }), "");
   --large.num_values;
@@ -135,7 +135,7 @@ TEST_F(netcdf4, refuses_what_is_asked_for_as_another_type) {
 
 TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
   const NetcdfReader reader(bytes_);
-  const NetcdfReader::Variable& v = reader.require("v");
+  const io::VariableInFile& v = reader.require("v");
   for (const std::size_t begin : {0U, 1U, 249U, 250U, 1234U, 74'990U}) {
     for (const std::size_t size : {1U, 2U, 10U, 250U, 1000U}) {
       if (begin + size > values_.size()) continue;

@@ -177,7 +177,7 @@ TEST(netcdf_reader, has_every_number_wherever_reading_begins) {
         EXPECT_EQ(reader.dimensions()[1].size, num_records);
         EXPECT_EQ(reader.max_values(), bytes.size());
         for (const ClassicVariable& expected : file.variables) {
-          const NetcdfReader::Variable& variable = reader.require(expected.name);
+          const io::VariableInFile& variable = reader.require(expected.name);
           EXPECT_EQ(variable.num_values, expected.values.size());
           EXPECT_EQ(reader.chunk_of(variable), Shape(variable.shape.size(), 1));
           if (variable.type == NetcdfType::text) {
@@ -228,7 +228,7 @@ TEST(netcdf_reader, counts_whole_records_if_the_header_does_not) {
       for (std::size_t cut = 0; cut <= 2 * record; ++cut) {
         const NetcdfReader reader(std::string_view(bytes).substr(0, bytes.size() - cut));
         const std::size_t whole = 5 - (cut + record - 1) / record;
-        for (const NetcdfReader::Variable& variable : reader.variables()) {
+        for (const io::VariableInFile& variable : reader.variables()) {
           EXPECT_EQ(variable.shape, (Shape{whole, 3})) << cut;
           EXPECT_EQ(reader.numbers(variable), some_numbers(NetcdfType::int8, 3 * whole));
         }

@@ -29,7 +29,7 @@ std::string bytes_of(const std::string& name) { return read_all(corpus / "netcdf
 std::string refusal(std::string_view bytes) {
   return thrown_message<io::BadValue>([&] {
     const NetcdfReader reader(bytes);
-    for (const NetcdfReader::Variable& variable : reader.variables()) {
+    for (const io::VariableInFile& variable : reader.variables()) {
       if (variable.type != NetcdfType::text) static_cast<void>(reader.numbers(variable));
     }
   });

@@ -296,7 +296,7 @@ TEST_F(BorderedFiles, whose_cells_are_those_of_no_mesh_are_refused) {
             "cells " + std::to_string(inner) + " and " + std::to_string(rings.size()) +
                 " have the same center");
   EXPECT_EQ(refusal_of([&](auto&, auto& changed) { changed[inner].resize(2); }),
-            name + " has not one ring of corners");
+            name + " has several rings or none, where one is needed");
 }
 
 TEST_F(BorderedFiles, whose_rings_do_not_run_once_around_their_centers_are_refused) {

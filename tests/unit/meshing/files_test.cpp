@@ -90,7 +90,7 @@ TEST_F(MeshFiles, the_content_of_mpas_is_that_of_the_file) {
   const mesh::MpasContent content = mesh::mpas_content(arrays);
   EXPECT_EQ(content.variables.size(), 30U);
   for (const mesh::FileVariable& variable : content.variables) {
-    const io::NetcdfReader::Variable& there = file.require(variable.name);
+    const io::VariableInFile& there = file.require(variable.name);
     EXPECT_EQ(there.shape, variable.shape) << variable.name;
     std::visit(
         [&](const auto& values) {
@@ -360,7 +360,9 @@ TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
   };
   EXPECT_EQ(refusal("cellsOnEdge", 7, 52), "variable \"cellsOnEdge\", row 3: 52 is not in 1 to 50");
   EXPECT_EQ(refusal("cellsOnEdge", 7, 0), "the cells have 288 edges, and the edges 287 cells");
-  EXPECT_EQ(refusal("verticesOnEdge", 7, 0), "variable \"verticesOnEdge\", row 3: nothing there");
+  EXPECT_EQ(
+      refusal("verticesOnEdge", 7, 0),
+      "variable \"verticesOnEdge\", row 3: is 0, which stands for no element, where one is needed");
   EXPECT_NE(refusal("cellsOnVertex", 0, 0), "");
   EXPECT_EQ(refusal("nEdgesOnCell", 2, 2),
             "variable \"nEdgesOnCell\", row 2: 2 is not in 3 to " +
@@ -540,7 +542,7 @@ TEST_F(MeshFiles, three_cells_without_a_border_are_refused) {
   file.add_whole("verticesOnEdge", {{"nEdge", 5}, {"two", 2}}, {2, 1, 3, 1, 2, 3, 4, 1, 2, 4});
   file.write(path("three.nc"));
   EXPECT_EQ(file_error([&] { mesh::read_mpas(path("three.nc")); }),
-            path("three.nc") + ": less than four cells do not cover a sphere");
+            path("three.nc") + ": fewer than four cells do not cover a sphere");
 }
 
 // Huge coordinates overflowed in the report on quality.

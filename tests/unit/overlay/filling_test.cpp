@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// GapTriangulation: triangles of the whole sphere, some of which are parts of given cells. Squares around (1, 0, 0) are the cells, with
+// CoverTriangulation: triangles of the whole sphere, some of which are parts of given cells. Squares around (1, 0, 0) are the cells, with
 // corners in tenths of the radius to the east and to the north.
 #include <gtest/gtest.h>
 
@@ -15,12 +15,12 @@
 
 #include "exact/vector.h"
 #include "map/ring_area.h"
-#include "overlay/gap_triangulation.h"
+#include "overlay/cover_triangulation.h"
 
 namespace rondel::test::of_filling {
 namespace {
 
-using overlay::GapTriangulation;
+using overlay::CoverTriangulation;
 using overlay::SideConflict;
 using overlay::Subdivision;
 using Ring = std::vector<Point>;
@@ -55,7 +55,7 @@ std::optional<SideConflict> conflict_of(const std::vector<Ring>& rings) {
 // Expects triangles that cover the sphere, and those of each cell to add up to its area.
 void expect_filling(const std::vector<Ring>& rings) {
   const Subdivision cells = subdivision_of(rings);
-  const GapTriangulation filling = overlay::triangulate_gaps(cells, {});
+  const CoverTriangulation filling = overlay::triangulate_cover(cells, {});
   EXPECT_TRUE(filling.cover.is_closed);
   ASSERT_EQ(filling.owners.size(), filling.cover.num_cells());
   std::vector<double> areas(rings.size() + 1);
@@ -75,7 +75,7 @@ void expect_filling(const std::vector<Ring>& rings) {
 
 TEST(filling, of_an_octant_is_the_eight_octants) {
   const Subdivision cells = subdivision_of({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}});
-  const GapTriangulation filling = overlay::triangulate_gaps(cells, {});
+  const CoverTriangulation filling = overlay::triangulate_cover(cells, {});
   EXPECT_EQ(filling.cover.num_cells(), 8U);
   EXPECT_EQ(std::ranges::count(filling.owners, Index{0}), 1);
   EXPECT_EQ(std::ranges::count(filling.owners, Index{1}), 7);
@@ -115,7 +115,7 @@ TEST(side_conflict, is_where_sides_cross) {
   const Point& place = conflict->place;
   const auto away = [&](const Point& p) { return norm(place - p); };
   EXPECT_LT(std::min(away(near_x(2, 0)), away(near_x(4, 2))), 1e-14);
-  EXPECT_THROW(overlay::triangulate_gaps(subdivision_of({box(0, 4, 0, 4), box(2, 6, -2, 2)}), {}),
+  EXPECT_THROW(overlay::triangulate_cover(subdivision_of({box(0, 4, 0, 4), box(2, 6, -2, 2)}), {}),
                overlay::ConflictingSides);
 }
 
@@ -130,7 +130,7 @@ TEST(side_conflict, is_a_place_in_two_cells) {
   EXPECT_GE(place.y / place.x, 0.1 - 1e-9);
   EXPECT_LE(place.y / place.x, 0.2 + 1e-9);
   try {
-    overlay::triangulate_gaps(subdivision_of({box(0, 5, 0, 5), box(1, 2, 1, 2)}), {});
+    overlay::triangulate_cover(subdivision_of({box(0, 5, 0, 5), box(1, 2, 1, 2)}), {});
     ADD_FAILURE() << "cells overlap";
   } catch (const overlay::ConflictingSides& error) {
     EXPECT_EQ(error.conflict().first, 0U);

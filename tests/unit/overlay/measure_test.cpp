@@ -35,15 +35,15 @@ TEST(local_axes, keep_distances) {
     const LocalAxes axes(o);
     const Point p = random.direction();
     const Point q = random.direction();
-    const overlay::Place at_p = axes.place_of(p);
-    const overlay::Place at_q = axes.place_of(q);
+    const overlay::LocalPoint at_p = axes.place_of(p);
+    const overlay::LocalPoint at_q = axes.place_of(q);
     EXPECT_NEAR(at_p.z, dot(o, p) - 1, 1e-15);
     EXPECT_NEAR(dot(at_p, at_p), dot(p - o, p - o), 1e-14);
     EXPECT_NEAR(dot(at_q - at_p, at_q - at_p), dot(q - p, q - p), 1e-14);
     // Counterclockwise stays counterclockwise.
     EXPECT_NEAR(at_p.x * at_q.y - at_p.y * at_q.x, dot(o, cross(p, q)), 1e-14);
   }
-  const overlay::Place at_o = LocalAxes({0.6, 0, 0.8}).place_of({0.6, 0, 0.8});
+  const overlay::LocalPoint at_o = LocalAxes({0.6, 0, 0.8}).place_of({0.6, 0, 0.8});
   EXPECT_EQ(dot(at_o, at_o), 0);
 }
 

@@ -76,8 +76,8 @@ TEST(snaps, divide_a_side_at_a_corner_on_it) {
     const Sides sides = {side, {2, 3, b}, {3, 2, b}};
     const Snaps snaps(points, sides);
     EXPECT_FALSE(snaps.is_empty());
-    EXPECT_TRUE(snaps.change(sides));
-    EXPECT_FALSE(snaps.change(Sides{{2, 3, b}}));
+    EXPECT_TRUE(snaps.would_change(sides));
+    EXPECT_FALSE(snaps.would_change(Sides{{2, 3, b}}));
     EXPECT_EQ(snaps.applied(Sides{side}),
               is_forward ? (Sides{{0, 2, a}, {2, 1, a}}) : (Sides{{2, 0, a}, {1, 2, a}}));
     // The sides of b lead there and back.
@@ -138,7 +138,7 @@ TEST(snaps, merge_corners_in_one_place) {
       beside_equator(0), beside_equator(1), {0, 0, 1}, beside_equator(0, near)};
   const Sides sides = {{0, 1, a}, {1, 2, a}, {2, 3, a}, {3, 0, a}};
   const Snaps snaps(points, sides);
-  EXPECT_TRUE(snaps.change(sides));
+  EXPECT_TRUE(snaps.would_change(sides));
   EXPECT_EQ(snaps.applied(sides), (Sides{{0, 1, a}, {2, 0, a}, {1, 2, a}}));
   // Corners that are no ends of one side are merged as well, and one that is near an end of a side divides it nowhere.
   const Sides apart = {{0, 1, a}, {2, 3, b}};

@@ -158,10 +158,9 @@ TEST(trace_line, of_less_than_two_points_is_nothing) {
 }
 
 TEST(seen, turns_positions_into_the_view) {
-  const std::vector<LonLat> line = {{10, 20}, {370, 20}};
-  const LineLayer layer = seen(line, std::vector<std::uint64_t>{0, 2}, View({10, 20}));
-  ASSERT_EQ(layer.points.size(), 2U);
-  for (const Point& p : layer.points) EXPECT_NEAR(p.z, 1, 1e-15);
+  const LineLayer layer = seen({{0, 2}, {{10, 20}, {370, 20}}}, View({10, 20}));
+  ASSERT_EQ(layer.values.size(), 2U);
+  for (const Point& p : layer.values) EXPECT_NEAR(p.z, 1, 1e-15);
 }
 
 std::size_t num_paths(const Figure& figure) {
@@ -176,9 +175,9 @@ TEST(draw, shows_the_coast_that_is_in_front) {
   Figure figure;
   figure.style.size = 200;
   const std::size_t bare = num_paths(figure);
-  figure.coast = {{{0, 0, 1}, normalized({0.1, 0, 1}), normalized({0.1, 0.1, 1})}, {0, 3}};
+  figure.coast = {{0, 3}, {{0, 0, 1}, normalized({0.1, 0, 1}), normalized({0.1, 0.1, 1})}};
   EXPECT_EQ(num_paths(figure), bare + 1);
-  for (Point& p : figure.coast.points) p.z = -p.z;
+  for (Point& p : figure.coast.values) p.z = -p.z;
   EXPECT_EQ(num_paths(figure), bare);
 }
 

@@ -23,7 +23,7 @@
 namespace rondel::overlay {
 
 // A cover by triangles.
-struct GapTriangulation {
+struct CoverTriangulation {
   Subdivision cover;
   // For each triangle (a cell of `cover`), the cell of the given subdivision that it is a part of;
   // num_cells() of that subdivision for a triangle in no cell.
@@ -60,7 +60,7 @@ bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 // the sides of the cells inserted; all decisions are exact. Where cells would overlap otherwise,
 // corners that are on a side up to rounding become corners of the side. Throws InvalidInput
 // (ConflictingSides) if cells overlap by more.
-GapTriangulation triangulate_gaps(const Subdivision& cells, const Execution& execution);
+CoverTriangulation triangulate_cover(const Subdivision& cells, const Execution& execution);
 
 // Calls work(is_first_filled, execution) with the subdivision of fewer sides as the one to be
 // triangulated. If its cells overlap, calls it again for the other one, without a progress callback
@@ -82,7 +82,7 @@ auto with_one_filled(const Subdivision& first, const Subdivision& second,
   } catch (const InvalidInput& error) {
     errors[is_first ? 1 : 0] = error.what();
     throw InvalidInput(std::string("of the ") + what[0] + ' ' + errors[0] + ", of the " + what[1] +
-                           ' ' + errors[1] + ": one of the two must have none that do",
+                           ' ' + errors[1] + ": the cells of one side must not overlap",
                        error.index());
   }
 }

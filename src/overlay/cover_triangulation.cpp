@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "overlay/gap_triangulation.h"
+#include "overlay/cover_triangulation.h"
 
 #include <algorithm>
 #include <array>
@@ -371,14 +371,14 @@ bool is_region(std::span<const BorderArc> sides, const Execution& execution) {
   return true;
 }
 
-GapTriangulation triangulate_gaps(const Subdivision& cells, const Execution& execution) {
+CoverTriangulation triangulate_cover(const Subdivision& cells, const Execution& execution) {
   const auto [triangles, owners_by_name, has_to_and_fro] = filled_by_rounding(cells, execution);
-  GapTriangulation gaps{Subdivision(triangles, false, execution.threads), {}};
+  CoverTriangulation completed{Subdivision(triangles, false, execution.threads), {}};
   const auto none = static_cast<Index>(cells.num_cells());
-  for (const Index name : gaps.cover.names) {
-    gaps.owners.push_back(std::min(owners_by_name[name], none));
+  for (const Index name : completed.cover.names) {
+    completed.owners.push_back(std::min(owners_by_name[name], none));
   }
-  return gaps;
+  return completed;
 }
 
 }  // namespace rondel::overlay
