@@ -254,7 +254,8 @@ def equal_area(
     found = _core.make_equal_area(sites, targets, float(tolerance), as_threads(threads))
     if found.end not in ("converged", "rounded"):
         warn_caller(
-            f"equal_area() ended as {found.end!r}, with areas off by up to {found.largest_error:.3g}"
+            f"equal_area() ended as {found.end!r}, "
+            f"with areas off by up to {found.largest_error:.3g}"
             + (f": {found.reason}" if found.reason else "")
         )
     return EqualArea(*(getattr(found, name) for name in EqualArea._fields))

@@ -29,11 +29,11 @@ __all__ = [
     "Culled",
     "Defects",
     "EdgeWeights",
-    "Mesh",
     "EqualArea",
+    "Mesh",
     "ScvtReport",
-    "from_points",
     "equal_area",
+    "from_points",
     "read",
     "scvt",
 ]
