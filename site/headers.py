@@ -131,8 +131,9 @@ def page(header):
             continue
         name = name_of(re.sub(r"//.*", "", code))
         code = code.replace("RONDEL_API ", "")
+        kind = re.sub(r"^template\s*<[^>]*>\s*", "", code)
         if name != last:
-            names = [name] if re.match(r"class|struct|enum|using|inline constexpr", code) else functions_of("", code)
+            names = [name] if re.match(r"class|struct|enum|using|inline constexpr", kind) else functions_of("", code)
             new = [each for each in names if each not in seen]  # overloads may stand apart
             seen.update(new)
             result += [*(anchor(each, f"cpp-{header.stem}-{each}") for each in new), f"## {name}"]
@@ -141,7 +142,7 @@ def page(header):
             head = code.split(" {\n", 1)[0]
             result += [prose(comment), f"```cpp\n{head};\n```", *pages_of_members(name, code)]
             continue
-        fields = fields_of(code) if re.match(r"struct|enum", code) else []
-        fields += functions_in(code) if code.startswith("struct") else []
+        fields = fields_of(kind) if re.match(r"struct|enum", kind) else []
+        fields += functions_in(kind) if kind.startswith("struct") else []
         result += [prose(comment), *(anchor(field, f"{name}-{field}") for field in fields), f"```cpp\n{code}\n```"]
     return "\n\n".join(part for part in result if part) + "\n"
