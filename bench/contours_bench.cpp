@@ -65,12 +65,12 @@ int main(int argc, char** argv) {
                                   });
   };
   const auto smooth_lines = lines_of(false);
-  num_points = smooth_lines.result->points.size();
+  num_points = smooth_lines.result->lines.rows.values.size();
   const auto smooth_bands = bands_of(false);
   const auto rough_lines = lines_of(true);
   const auto rough_bands = bands_of(true);
   const double faces = 2 * static_cast<double>(n) - 4;
-  const auto rough_points = static_cast<double>(rough_lines.result->points.size());
+  const auto rough_points = static_cast<double>(rough_lines.result->lines.rows.values.size());
   rondel::bench::print_json(
       {{"sites", static_cast<double>(n)},
        {"threads", static_cast<double>(threads)},
