@@ -37,6 +37,7 @@ struct ApplyCommandOptions {
   ApplyOptions apply;                // --fill --most-missing
   NetcdfOptions netcdf;              // --kind --deflate
 
+  // Return the two inputs with their formats; --input-format is for the one on standard input.
   [[nodiscard]] FileName weights_file() const { return common.source_beside(values_file); }
   [[nodiscard]] FileName values() const { return common.other_source(values_file); }
 };
@@ -47,7 +48,7 @@ constexpr double max_apart_deg = 1e-4;
 // This is the bound in radians; for such small angles it is also the length of a chord.
 constexpr double max_apart = max_apart_deg * std::numbers::pi / 180;
 
-// Compares unit vectors by the square of their chord.
+// True if two unit vectors are at most max_apart_deg apart, by the square of their chord.
 bool is_near(const Point& a, const Point& b) {
   const double x = a.x - b.x;
   const double y = a.y - b.y;
@@ -55,13 +56,15 @@ bool is_near(const Point& a, const Point& b) {
   return x * x + y * y + z * z <= max_apart * max_apart;
 }
 
-// Files of weights have NaN, or numbers that are no degrees, for places that they do not know.
+// True if a longitude and latitude are a place. Files of weights have NaN, or numbers that are no
+// degrees, for places that they do not know.
 bool is_known(const LonLat& place) {
   return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
 }
 
 // How many pairs of places are known on both sides, and whether these are near each other.
 struct ComparedPlaces {
+  // The number of compared pairs; without any, are_near says nothing.
   std::size_t count = 0;
   bool are_near = true;
 };
@@ -96,7 +99,8 @@ void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                   options.common.input + ", or not in this order");
 }
 
-// The weights of a file, if apply() takes them.
+// Reads the file of weights and prints the reader's remarks. Throws FileError if it cannot be read,
+// or if its arrays do not fit together: an application to no fields checks them.
 WeightFile readable_weights(const ApplyCommandOptions& options) {
   const CommonOptions& common = options.common;
   WeightFile file = read_weights(options.weights_file());
@@ -109,14 +113,18 @@ WeightFile readable_weights(const ApplyCommandOptions& options) {
   return file;
 }
 
-// The places of the weights' sources; none if some are not known.
+// Returns the places of the sources as the file of weights gives them; an empty span if the place
+// of any source is unknown.
 std::span<const LonLat> places_of_sources(const WeightFile& file) {
   const std::vector<LonLat>& sources = file.source.points;
   const bool are_known = std::ranges::all_of(sources, is_known);
   return are_known ? std::span<const LonLat>(sources) : std::span<const LonLat>();
 }
 
-// The fields at the sources. Where all are elsewhere, the message is about the weights.
+// Opens the file of values and finds the variables whose dimensions are those of the sources.
+// `names` are the wanted variables; empty: all that fit. If no variable is at the places of the
+// sources, the file is opened again without places, to say whether the points differ or a variable
+// is missing. Throws FileError.
 std::unique_ptr<FieldFile> open_fields(const ApplyCommandOptions& options, const WeightFile& file,
                                        const FileName& values_file,
                                        const std::vector<std::string>& names) {
@@ -157,7 +165,9 @@ bool is_table(const FileName& file) {
   return file.format.empty() || file.format == "csv" || file.format == "tsv";
 }
 
-// The values, field by field.
+// The values at the sources, field by field: those of a file that is read slice by slice, or
+// columns of a table in memory. An array is a variable or a column; a field is one of its slices,
+// such as a time, with a value for each source.
 class ValuesAtSources {
  public:
   explicit ValuesAtSources(std::unique_ptr<FieldFile> file) : file_(std::move(file)) {}
@@ -172,12 +182,14 @@ class ValuesAtSources {
 
   [[nodiscard]] const FieldSet& fields() const { return file_ ? file_->fields() : own_; }
   // Reads fields of an array from the first one on.
+  // `values` has room for whole fields, one after another; missing values are NaN.
   void read(std::size_t array, std::size_t first, std::span<double> values) const {
     if (file_) return file_->read(array, first, values);
     std::ranges::copy(columns_[array], values.begin());
   }
 
  private:
+  // Null for a table, whose values are in columns_.
   std::unique_ptr<FieldFile> file_;
   FieldSet own_;  // without the values
   std::vector<std::vector<double>> columns_;
@@ -212,9 +224,12 @@ struct AppliedCounts {
 template <typename Function>
 void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
                     const ValuesAtSources& in, Function take) {
+  // A slice has as many whole fields as fit into max_values at the sources and at the targets; it
+  // has one field at least.
   const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
   const std::size_t of_slice = std::max<std::size_t>(max_values / largest, 1);
   ApplyOptions unfilled = options.apply;
+  // NaN marks targets without a value here, as --fill may be a number that other targets have.
   unfilled.fill = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   std::vector<double> applied;
@@ -259,6 +274,8 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   out.arrays = in.fields().arrays;
   out.axes = in.fields().axes;
   out.fill = options.apply.fill;
+  // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it
+  // is written only if there are none.
   out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
   FieldWriter writer(options.common.target(), out, file.target, options.netcdf);
   AppliedCounts counts;
@@ -277,6 +294,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
 
 // Reads the values at the sources.
 ValuesAtSources values_of(const ApplyCommandOptions& options, const WeightFile& file) {
+  // A table is read as sites, so that its columns of places can be compared; other files as fields.
   const bool has_rows = is_table(options.values());
   if (!has_rows && are_columns_named(options.common.read)) {
     throw UsageError("columns of places are named, but '" + options.values_file +
@@ -293,6 +311,9 @@ ValuesAtSources values_of(const ApplyCommandOptions& options, const WeightFile& 
   return in;
 }
 
+// Reads the weights, applies them to all fields, writes these and reports the numbers. Throws
+// UsageError for options that do not fit OUTPUT or VALUES, FileError where values are not at the
+// sources of the weights.
 ExitStatus run_apply(const ApplyCommandOptions& options) {
   const CommonOptions& common = options.common;
   require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4",

@@ -4,6 +4,9 @@
 // rondel check: proves by exact arithmetic that triangles are the triangulation of sites, or says
 // why they are not. A refutation is a result, so its JSON goes to standard output with exit status
 // 1.
+// in    sites, and triangles as indices of them
+// out   a proof in a few lines, or one JSON object; nothing is written
+// index sites in the order of INPUT; triangles in the order of their file
 #include "rondel/check.h"
 
 #include <CLI/CLI.hpp>
@@ -56,6 +59,8 @@ std::string proof_of(const CheckReport& verdict, const CheckOptions& options, st
   return text;
 }
 
+// Reads both files and prints the verdict. A refutation gives the exit status `failed`; without
+// --json it is thrown as FileError with the reason. The faces may be in any order.
 ExitStatus run_check(const CheckOptions& options) {
   Job job(options.common);
   const SiteTable table = job.read();

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel check-weights: tells what is wrong with a file of weights.
+// in    a file of weights: ESMF, SCRIP (as CDO writes it), or .npz (SciPy)
+// out   a summary or one JSON object; nothing is written
+// index rows are targets, columns are sources, from 0
+//
+// The checks themselves are those of rondel/weight_check.h; this file prints their report.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -23,18 +28,22 @@ struct CheckWeightsOptions {
   WeightCheckOptions check;  // --allow-negative
 };
 
+// Returns a number in three digits, for the summary.
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
 }
 
+// Returns a hash of points in 16 hexadecimal digits; empty for 0, which stands for no hash.
 std::string hash_text(std::uint64_t hash) {
   char text[32];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   return hash == 0 ? std::string() : text;
 }
 
+// Returns a few lines: the size of the matrix, the range of the weights, and how far sums and
+// directions are off. A line about areas or places is left out where the file has none.
 std::string summary_of(const WeightFile& file, const WeightReport& report) {
   const Weights& weights = file.weights;
   std::string text = count(weights.num_rows(), "row", "rows") + " of " +
@@ -62,12 +71,14 @@ std::string summary_of(const WeightFile& file, const WeightReport& report) {
   return text;
 }
 
+// Returns all faults in one line; empty if there are none.
 std::string reason_of(const WeightReport& report) {
   std::string text;
   for (const WeightFault& fault : report.faults) text += (text.empty() ? "" : "; ") + fault.what;
   return text;
 }
 
+// Returns the faults as an array of objects; its keys are a contract, like those of json_of().
 nlohmann::ordered_json faults_of(const WeightReport& report) {
   nlohmann::ordered_json faults = nlohmann::ordered_json::array();
   for (const WeightFault& fault : report.faults) {
@@ -76,6 +87,7 @@ nlohmann::ordered_json faults_of(const WeightReport& report) {
   return faults;
 }
 
+// Returns the object of --json; a number that the file does not allow to compute is null.
 nlohmann::ordered_json json_of(const WeightFile& file, const WeightReport& report) {
   const auto maybe = [](const std::optional<double>& value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
@@ -101,6 +113,8 @@ nlohmann::ordered_json json_of(const WeightFile& file, const WeightReport& repor
           {"target_hash", hash_text(weights.targets_hash)}};
 }
 
+// Reads the weights and prints the report. The exit status is `failed` if there is a fault: with
+// --json the report is the message, otherwise FileError is thrown with all faults in one line.
 ExitStatus run_check_weights(const CheckWeightsOptions& options) {
   const CommonOptions& common = options.common;
   Job job(common);

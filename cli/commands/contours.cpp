@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel contours writes isolines and bands of a column.
+// in    sites with a column of values, and levels as a list or a step
+// out   GeoJSON: a feature for each level (lines) or for each interval between levels (polygons)
+// index values are indexed by site, in the order of the input
 #include "rondel/contours.h"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +35,9 @@ std::vector<double> levels_for(const ContoursOptions& options, const std::vector
   return options.step > 0 ? levels_at(options.step, values, "--step") : options.levels;
 }
 
+// Reads and triangulates the sites, traces the lines or polygons, and writes them. A site without a
+// value takes part in the triangulation, but its triangles are left out. Throws UsageError before
+// any work if no levels are given or the sites are weighted.
 ExitStatus run_contours(const ContoursOptions& options) {
   CommonOptions common = options.common;
   require_output(common, common.format() == "geojson", ".geojson");
@@ -41,6 +47,7 @@ ExitStatus run_contours(const ContoursOptions& options) {
   if (common.build.model == Model::weighted) {
     throw UsageError("--model: weighted sites have no isolines");
   }
+  // Values are in a column, which the reader would drop otherwise.
   common.read.keep_columns = true;
   Job job(common);
   const SiteTable table = job.read(common.source(), common.read, {&options.value, 1});

@@ -5,6 +5,9 @@
 // in    sites
 // out   triangles, and arrays beside them
 // index sites in the order of the input; faces in the canonical order
+//
+// In memory: read, triangulate, compute the arrays that are asked for, write. With --scratch the
+// library's delaunay_file() does all of this, in buckets that fit into --memory.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstddef>
@@ -43,12 +46,14 @@ std::span<const Number> numbers_of(std::span<const Row> rows) {
   return {reinterpret_cast<const Number*>(rows.data()), width * rows.size()};
 }
 
+// Writes rows of `width` indices as a .npy array of the shape (rows, width). Throws FileError.
 template <std::size_t width, class Row>
 void write_rows(const std::string& path, std::span<const Row> rows) {
   const std::array<std::uint64_t, 2> shape = {rows.size(), width};
   write_indices(path, numbers_of<width, Index>(rows), shape);
 }
 
+// Writes points as a .npy array of the shape (points, 3). Throws FileError.
 void write_points(const std::string& path, std::span<const Point> points) {
   const std::array<std::uint64_t, 2> shape = {points.size(), 3};
   write_numbers(path, numbers_of<3, double>(points), shape);
@@ -67,7 +72,8 @@ void require_one_file(const CommonOptions& common) {
     throw UsageError(output + ".pvtp is not written; .vtp has all triangles in one file");
 }
 
-// Triangulates from a file to files.
+// Triangulates from a file to files, .npy only, within the memory of --memory. Throws UsageError
+// for other formats and for --radius, before any work.
 ExitStatus run_out_of_core(const DelaunayOptions& options) {
   const CommonOptions& common = options.common;
   if (common.input == "-" || format_of(common.source()) != "npy")
@@ -95,6 +101,8 @@ ExitStatus run_out_of_core(const DelaunayOptions& options) {
   return done;
 }
 
+// Triangulates in memory and writes OUTPUT and the arrays beside it. Areas and circumcenters are
+// computed only if their options are given. Throws UsageError if two of the files are one.
 ExitStatus run_delaunay(const DelaunayOptions& options) {
   require_one_file(options.common);
   if (!options.scratch.empty()) return run_out_of_core(options);

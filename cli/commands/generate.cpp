@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel generate: sites of a named kind, the same bytes for the same options on every machine.
+// in    the name of a kind, a number of sites, a seed
+// out   sites as points x, y, z, as longitudes and latitudes, or as circles with a radius in
+//       degrees
+// index sites in the order in which the kind makes them
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -23,12 +27,14 @@ using inputs::Recipe;
 // The options of `rondel generate`.
 struct GenerateOptions {
   CommonOptions common;
+  // KIND; find_kind() knows it, as the parser has checked.
   std::string kind;
   Recipe recipe;
   double angle = 0;  // in the unit of the command line; 0: the kind's own
 };
 
 // Checks that the options fit the kind: a number of sites, a grid, or an angle in degrees.
+// Throws UsageError, which names the option.
 void require_parts(const Kind& kind, const Recipe& recipe) {
   const std::string name(kind.name);
   const bool has_grid = recipe.rows > 0;
@@ -52,6 +58,8 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
   }
 }
 
+// Makes the sites and writes them; a table on standard output is CSV by default. Throws UsageError
+// for options that do not fit the kind.
 ExitStatus run_generate(const GenerateOptions& options) {
   CommonOptions common = options.common;
   if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
@@ -133,6 +141,7 @@ Command add_generate_command(CLI::App& tool) {
   for (CLI::Option* option : {rows, columns}) {
     option->check(count_error)->transform(digits_of_whole)->type_name("N");
   }
+  // A grid is given by the numbers of its rows and columns, or by -n, which chooses them.
   rows->needs(columns)->excludes(number);
   columns->needs(rows);
   add_report_options(*parser, options->common);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel graph makes graphs of near sites, hulls, alpha shapes and empty circles.
+// in    sites that are not weighted
+// out   GeoJSON: edges, polygons or circles; edges also as rows of two sites, circles as a table
+// index sites in the order of the input
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <numbers>
@@ -75,6 +78,9 @@ void tell_of_other_circles(const GraphOptions& options, const SiteTable& table,
   }
 }
 
+// Triangulates the sites, finds what --kind asks for and writes it. All kinds rest on the
+// triangulation: the graphs are parts of it, and hull, alpha shape and circles are made of its
+// faces. Throws UsageError, FileError.
 ExitStatus run_graph(const GraphOptions& options) {
   require_options(options);
   Job job(options.common);
@@ -101,6 +107,7 @@ ExitStatus run_graph(const GraphOptions& options) {
   } else if (options.kind == "hull") {
     run([&] { return hull_polygon(triangulation); }, write_polygons, "the hull");
   } else if (options.kind == "alpha") {
+    // The library takes angles in radians.
     const double radius = options.radius_deg * std::numbers::pi / 180;
     run([&] { return alpha_shape(triangulation, radius, job.execution()); }, write_polygons,
         "the alpha shape");

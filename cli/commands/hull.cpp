@@ -25,6 +25,7 @@ struct HullCommandOptions {
 
 // Returns a polygon as a closed surface: both sides of each triangle of a fan.
 Triangulation two_sided(const Triangulation& flat) {
+  // The ring has the corners of the polygon in order; the fan has its apex at ring[0].
   const auto ring = flat.ring();
   std::vector<Triple> faces;
   std::vector<Triple> neighbors;
@@ -41,9 +42,11 @@ Triangulation two_sided(const Triangulation& flat) {
     faces.push_back({ring[0], ring[i + 2], ring[i + 1]});
     neighbors.push_back({i, i > 0 ? lower - 1 : i, i + 1 < triangles ? lower + 1 : i});
   }
+  // The center of the sphere is in the plane of the polygon, so it sees no face: all are ghosts.
   std::vector<Index> ghost_faces(faces.size());
   std::iota(ghost_faces.begin(), ghost_faces.end(), Index{0});
   std::vector<Hidden> hidden(flat.hidden().begin(), flat.hidden().end());
+  // In dimension 2 each hidden site names a face; below it none has one.
   for (Hidden& h : hidden) h.face = 0;
   return Triangulation::from_arrays(flat.sites(),
                                     {.dimension = 2,
@@ -76,6 +79,7 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
     name[i] = static_cast<Index>(mesh.table.sites.size());
     mesh.table.sites.push_back(table.sites[i]);
   }
+  // Faces and ring get the new numbers; neighbors and ghost faces are numbers of faces, which stay.
   std::vector<Triple> faces;
   std::vector<Index> ring;
   for (const auto& [a, b, c] : surface.faces()) faces.push_back({name[a], name[b], name[c]});
@@ -101,6 +105,9 @@ void require_mesh(const HullCommandOptions& options) {
   }
 }
 
+// Computes the hull, its volume and its area, and writes the surface. A flat hull is written with
+// two sides; points on one line give a file without triangles. Throws FileError for longitudes and
+// latitudes, which are points of a sphere and all extreme.
 ExitStatus run_hull(const HullCommandOptions& options) {
   require_mesh(options);
   Job job(options.common);

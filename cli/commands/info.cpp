@@ -3,6 +3,8 @@
 
 // rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
 // are in one place or hidden, and which columns there are.
+// in    sites; a file whose sites are all in one place, or at the center, is described as well
+// out   text for people, or one JSON object
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -44,6 +46,7 @@ struct NamedRange {
 struct Facts {
   std::vector<NamedRange> bounds;
   Range height;  // |p - center| - radius
+  // The number of sites at the center of the sphere, which have no direction.
   std::size_t at_center = 0;
   Triangulation triangulation;  // of the sites that are not at the center
 };
@@ -80,7 +83,8 @@ std::vector<NamedRange> bounds_of(const SiteTable& table) {
   return bounds;
 }
 
-// Scales the coordinates, so that no square overflows or underflows.
+// Returns the Euclidean length of a vector, 0 for the zero vector. The coordinates are scaled by
+// the largest one, so that no square overflows or underflows.
 double length(double x, double y, double z) {
   const double scale = std::max({std::abs(x), std::abs(y), std::abs(z)});
   if (scale == 0) return 0;
@@ -102,7 +106,8 @@ Range heights_of(std::span<const Point> sites, const Sphere& sphere) {
   return range;
 }
 
-// A site at the center is reported here, and is not an error.
+// Returns the bounds, the heights and the triangulation. A site at the center of the sphere is
+// counted, and left out of the triangulation, which would not accept it.
 Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
   Facts facts;
   facts.bounds = bounds_of(table);
@@ -195,6 +200,8 @@ std::string text_of(const SiteTable& table, const Facts& facts) {
   return text + '\n';
 }
 
+// Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and
+// prints the facts. No file is written. Throws FileError for a file that cannot be read.
 ExitStatus run_info(const CommonOptions& options) {
   CommonOptions common = options;
   common.read.keep_columns = true;

@@ -5,6 +5,9 @@
 // in    sites, with values or without; targets
 // out   values at the targets, weights
 // index sources (columns of the weights) and targets (rows), in the order of their files
+//
+// Steps: read sources and targets, make weights (bilinear, nearest_d2s) or a triangulation (the
+// other methods), then carry one field after another, or write the weights themselves.
 #include "rondel/interpolate.h"
 
 #include <CLI/CLI.hpp>
@@ -53,6 +56,8 @@ struct InterpolateOptions {
 // can differ by rounding only.
 constexpr double same_places_deg = 1e-9;
 
+// Prints the counts, as JSON or as text that names the duplicates, the sites left out and the file
+// of weights.
 void report(Job& job, const InterpolateOptions& options, const InterpolateCounts& counts) {
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {{"sites", counts.sites},
@@ -80,6 +85,9 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
   job.report(json.dump(2) + '\n', text);
 }
 
+// Interpolates the columns that --value names, and writes them as fields of those names. The index
+// of `table` counts sites; `weights` are those of bilinear or nearest_d2s. All columns are in
+// memory at once, as a table was.
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
                          const Targets& targets, const std::optional<Weights>& weights,
                          InterpolateCounts& counts) {
@@ -105,6 +113,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   const auto [file, variable] = netcdf_part(options.source_file());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
+  // The fields must be at the places of the sites, in the same order.
   const FieldFile in(file, names, table.sites.size(), {}, {}, {table.positions, same_places_deg});
   FieldSet out;
   out.num_points = targets.table.sites.size();
@@ -118,6 +127,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
       std::vector<double> values(table.sites.size());
       in.read(a, f, values);
       for (std::size_t i = 0; i < grid.mask.size(); ++i) {
+        // A masked cell has no value, whatever number the file has there.
         if (grid.mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
       }
       const std::vector<double> carried = carrier.carry(std::move(values));
@@ -127,7 +137,8 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   job.time(Stage::write, [&] { writer.finish(); });
 }
 
-// Turns weights of the cells that are not masked into weights of all cells.
+// Turns weights of the cells that are not masked into weights of all cells. `numbers` has the index
+// in `table` of each cell that is not masked. Masked cells get the area 0 and no entries.
 void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFile& file) {
   Weights& weights = file.weights;
   for (Index& column : weights.columns) column = numbers[column];
@@ -158,6 +169,9 @@ void interpolate_weights(Job& job, const InterpolateOptions& options, const Netc
   if (has_masked) spread(numbers, table, file);
 }
 
+// Writes the file of --weights: the matrix, both sides and the name of the method. Columns count
+// the sites of the file, rows the targets. `counts.missing` becomes the number of targets without
+// an entry. `weights` and the targets' side are moved into the file.
 void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                       Targets& targets, std::optional<Weights>& weights,
                       InterpolateCounts& counts) {
@@ -169,6 +183,8 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
     interpolate_weights(job, options, grid, targets, counts, file);
     file.method = name_of(options.interpolation.method);
   }
+  // Weights of points are not divided by areas. Areas and corners serve programs that read the
+  // file.
   file.normalization = "none";
   file.source.points = grid.table.is_lonlat() ? grid.table.positions : lonlats(grid.table.sites);
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
@@ -186,6 +202,9 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   });
 }
 
+// Checks the options, reads both files, then interpolates values, makes weights, or does both.
+// netCDF needs no --value: all variables at the places of the sites are carried. Throws UsageError
+// for options that contradict each other, FileError for files that cannot be read.
 ExitStatus run_interpolate(const InterpolateOptions& options) {
   const CommonOptions& common = options.common;
   const bool is_netcdf = is_netcdf_file(netcdf_part(options.source_file()).first);
@@ -219,6 +238,7 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, weights, counts);
   if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, weights, counts);
   if (!options.weights.empty()) {
+    // With --weights the report counts rows without entries instead of missing values.
     counts.missing = 0;
     write_weights_of(job, options, grid, targets, weights, counts);
   }
@@ -236,6 +256,7 @@ void add_method(CLI::App& parser, InterpolateOptions& options) {
   }
   const auto take = [&options, methods](const std::string& text) {
     const AnyMethod& method = methods.at(text);
+    // A name is either a method of the library's interpolation or one of its regridding.
     if (const auto* regrid = std::get_if<RegridMethod>(&method)) options.regrid = *regrid;
     if (const auto* plain = std::get_if<Method>(&method)) options.interpolation.method = *plain;
   };
@@ -325,6 +346,7 @@ Command add_interpolate_command(CLI::App& tool) {
                      [given = options.get()] { return netcdf_outputs(*given); });
   add_methods(*parser, *options);
   add_build_options(*parser, options->common);
+  // bilinear follows the axes of a grid, so it needs no triangulation, no model and no center.
   for (const char* const name : {"--model", "--center"}) {
     require_effect(
         options->common, parser->get_option(name),

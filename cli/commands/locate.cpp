@@ -38,6 +38,8 @@ std::string table_of(const std::vector<Location>& locations, char separator) {
   return text + '\n';
 }
 
+// Locates the queries, writes a row for each, and reports how many meet a vertex, an edge, a face,
+// and none of these. An array .npy holds the faces alone.
 ExitStatus run_locate(const QueryOptions& options) {
   QueryJob job(options);
   job.prepare();
@@ -50,6 +52,7 @@ ExitStatus run_locate(const QueryOptions& options) {
   } else {
     job.write_text(table_of(locations, job.separator()));
   }
+  // The report counts the queries by the kind of place that they are in.
   QueryJob::Counts counts;
   for (const std::string_view name : names_of<Where>()) {
     const auto number = std::ranges::count(locations, from_name<Where>(name), &Location::where);

@@ -10,6 +10,8 @@
 
 namespace rondel::cli {
 
+// Each of the commands below adds itself to `rondel mesh`; exactly one of them is parsed, and run()
+// passes the call on to it.
 Command add_mesh_command(CLI::App& tool) {
   CLI::App* const parser = tool.add_subcommand("mesh", "Make, judge and convert meshes of models");
   parser->require_subcommand(1);

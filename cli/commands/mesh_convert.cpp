@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel mesh convert: writes the mesh of sites, or a mesh of another file, in a format of models.
+// in    sites, or a mesh of netCDF: MPAS, UGRID, SCRIP, ESMF
+// out   the mesh in the format of OUTPUT, and its graph and report where these are asked for
+// index cells in the order of the input
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -16,6 +19,8 @@ struct MeshConvertOptions {
   bool allow_zero_edges = false;
 };
 
+// Reads or computes the mesh and writes it. Throws FileError for sites on one circle, unless
+// --allow-zero-edges is given, and for sites that do not surround the center.
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   const MeshOutput& written = options.written;
   require_mesh_output(written, MeshOutputKind::mesh);

@@ -36,13 +36,14 @@ struct MeshCullOptions {
   std::string vertex_map;  // --vertex-map
 };
 
-// Maps of old numbers to new ones are written as .npy only.
+// Throws UsageError for a map of old numbers to new ones that is not .npy; an empty path is an
+// option that was not given.
 void require_map_output(const char* option, const std::string& path) {
   if (path.empty() || path.ends_with(".npy")) return;
   throw UsageError(std::string(option) + ": '" + path + "' is not .npy");
 }
 
-// Adds the three options for such maps.
+// Adds --cell-map, --edge-map and --vertex-map, whose files are written beside OUTPUT.
 void add_map_options(CLI::App& parser, MeshCullOptions& options) {
   const auto add = [&](const char* name, std::string& path, const char* what) {
     parser
@@ -62,7 +63,9 @@ bool are_regions(const FieldArray& array) {
   return array.dimensions.size() == 1 && array.dimensions.front().find("ime") == std::string::npos;
 }
 
-// Returns 1 for each cell that is removed.
+// Returns 1 for each cell that --mask removes, 0 for the others. `text` is FILE, FILE.nc:NAME or
+// FILE.csv:COLUMN. Throws UsageError for a table without a column, FileError with the place of a
+// number that is missing or neither 0 nor 1.
 std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
   const auto [file, name] = split_at_colon(text);
   if (name.empty() && (file.ends_with(".csv") || file.ends_with(".tsv"))) {
@@ -80,6 +83,7 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
   std::vector<std::uint8_t> mask(num_cells);
   for (std::size_t k = 0; k < array->values.size(); ++k) {
     const double value = array->values[k];
+    // A mask with regions has them one after another, each with a number for every cell.
     const std::size_t cell = k % num_cells;
     if (value != 0 && value != 1) {
       const std::string place =
@@ -116,6 +120,9 @@ void write_map(const std::string& path, const std::vector<Index>& numbers) {
   write_indices(path, numbers, std::array<std::uint64_t, 1>{numbers.size()});
 }
 
+// Reads or computes the mesh, removes the cells, writes the maps and the rest of the mesh. A cell
+// goes if any of the three options removes it. Throws UsageError if none is given, FileError if the
+// rest is no mesh or the polygons are not accepted.
 ExitStatus run_mesh_cull(const MeshCullOptions& options) {
   const CommonOptions& common = options.written.common;
   require_mesh_output(

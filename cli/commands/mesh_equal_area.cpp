@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel mesh equal-area: finds weights of sites that give their cells prescribed areas.
+// in    sites, and a column of wanted areas in any unit; without it all areas are equal
+// out   weighted sites, as points x, y, z or as circles lon, lat, radius; a report on how it ended
+// index sites in the order of the input
 #include "rondel/mesh_equal_area.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +32,7 @@ namespace {
 struct EqualAreaCommandOptions {
   CommonOptions common;
   std::string column;  // --area
+  // --tolerance: the largest relative error of an area at which the solver stops.
   double tolerance = 1e-12;
 };
 
@@ -50,6 +54,8 @@ void scale_to_sphere(std::vector<double>& areas) {
     if (std::isfinite(area)) largest = std::max(largest, area);
   }
   if (!(largest > 0)) return;
+  // Scaling by a power of two is exact and keeps the sum finite. An area that would underflow stays
+  // positive, since the library takes 0 for an error.
   const int exponent = std::ilogb(largest);
   double sum = 0;
   for (double& area : areas) {
@@ -61,6 +67,9 @@ void scale_to_sphere(std::vector<double>& areas) {
   for (double& area : areas) area *= 4 * std::numbers::pi / sum;
 }
 
+// Finds the weights, writes the weighted sites and reports. The sites of the last step are written
+// also if the areas are not reached, or after Ctrl-C; the exit status is then `failed`, or
+// FileError is thrown with the reason and the worst site.
 ExitStatus run_equal_area(const EqualAreaCommandOptions& options) {
   CommonOptions common = options.common;
   require_output(common, can_write_sites(common.target()), ".csv .tsv .xyz .txt .npy");
@@ -82,6 +91,7 @@ ExitStatus run_equal_area(const EqualAreaCommandOptions& options) {
     write_sites(common.target(), made.poles, table.positions,
                 table.is_lonlat() ? made.radii_deg : std::vector<double>{}, execution);
   });
+  // An area may be as near as doubles allow without being within the tolerance: that is a success.
   const bool is_whole =
       made.end == mesh::EqualAreaEnd::converged || made.end == mesh::EqualAreaEnd::rounded;
   const std::string end(mesh::name_of(made.end));

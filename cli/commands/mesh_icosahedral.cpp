@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel mesh icosahedral: divides the faces of an icosahedron, and relaxes the sites.
+// in    the number of divisions
+// out   10 * 4^LEVELS + 2 sites on the unit sphere, or the mesh of their Voronoi cells
+// index sites in the order in which the library makes them
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <memory>
@@ -23,6 +26,7 @@ struct IcosahedralCommandOptions {
   bool keep = false;  // --no-relax
 };
 
+// Makes the sites, relaxed to a centroidal mesh unless --no-relax is given, and writes them.
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
   require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   Job job(options.output.common);

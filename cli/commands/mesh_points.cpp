@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel mesh points: makes sites of a known kind, and the mesh of their Voronoi cells.
+// in    the name of a kind and its size, or for Poisson disks a least distance in kilometers
+// out   sites on the unit sphere, or the mesh of their Voronoi cells
+// index sites in the order in which the library makes them (rondel/point_sets.h)
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -21,12 +24,15 @@ namespace {
 // The options of `rondel mesh points`.
 struct MeshPointsOptions {
   MeshOutput output;
+  // KIND, one of the words that the parser accepts.
   std::string kind;
   std::size_t size = 0;  // --size
   double radius_km = 0;  // --radius, for the kind poisson
   std::uint64_t seed = 1;
 };
 
+// Makes the sites and writes them or their mesh. Poisson disks take --radius, the other kinds take
+// --size. Throws UsageError for the other one, and for a size that the library refuses.
 ExitStatus run_mesh_points(const MeshPointsOptions& options) {
   require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   const bool is_poisson = options.kind == "poisson";

@@ -3,6 +3,8 @@
 
 // rondel mesh quality: reports shapes and sizes of the cells of a mesh, and fails if a number of
 // the report is not within a bound that --require gives.
+// in    sites, or a mesh of netCDF
+// out   the report as text or JSON, and as a file of --report (JSON, text or a picture)
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
@@ -61,6 +63,8 @@ std::string unmet(const MeshQualityOptions& options, const mesh::Quality& qualit
   return text;
 }
 
+// Computes the quality, writes the file of --report and prints the report. Only after that it
+// throws runtime_error if a requirement is not met, so that the numbers can be read.
 ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
   require_separate_files({{"INPUT", options.common.input}}, {{"--report", options.report}});
   Job job(options.common);

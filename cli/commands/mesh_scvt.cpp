@@ -30,6 +30,8 @@ struct ScvtCommandOptions {
   MeshOutput output;
   ScvtFiles files;
   bool no_repair = false;
+  // The options of the library; its size, fixed sites and callbacks are set by scvt_task() and
+  // solve().
   mesh::ScvtOptions scvt;
 };
 
@@ -83,6 +85,9 @@ mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
   return with_places(task.start, [&] { return mesh::relax(task.start.sites, scvt, execution); });
 }
 
+// Makes the mesh and writes it with a report. After Ctrl-C the mesh of the last step is written and
+// the exit status is `failed`; before there is a mesh, nothing is written, which is an error. A run
+// that ends at --max-steps is a success, but its summary says so.
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
   require_mesh_output(output, MeshOutputKind::mesh_or_sites, files_read(options.files));
@@ -102,6 +107,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     throw std::runtime_error("interrupted before there was a mesh: nothing is written");
   }
   const mesh::ScvtOptions& scvt = task.scvt;
+  // The mesh is a result in full if the tolerances are met, or no step lowers the energy any more.
   const bool is_whole = made.end == mesh::ScvtEnd::converged || made.end == mesh::ScvtEnd::stuck;
   nlohmann::ordered_json json = {{"end", mesh::name_of(made.end)},
                                  {"steps", made.last.iteration},
@@ -118,6 +124,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     json["fixed"] = made.fixed.size();
     json["left_out"] = task.fixed.num_left_out;
   }
+  // The summary begins with how the relaxation ended, if not by itself, and with the fixed sites.
   std::string how;
   if (made.end == mesh::ScvtEnd::iterations) {
     how = "not converged after " +
@@ -133,6 +140,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     how += "; ";
   }
   write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, how, std::move(json), job);
+  // --quiet silences the report, but not the remark that the mesh is not converged.
   if (!is_whole && output.common.quiet) {
     tell(output.common.output, {how.substr(0, how.find(';'))});
   }
@@ -212,6 +220,7 @@ Command add_mesh_scvt_command(CLI::App& group) {
   number->check([](const std::string& text) { return whole_error(text, 12, max_sites); })
       ->transform(digits_of_whole)
       ->type_name("N");
+  // An option that others need is added before these: --refine needs --spacing.
   CLI::Option* spacing = parser->add_option(
       "--spacing", options->files.spacing,
       "Distance of neighbors: kilometers, or a file of them, FILE.nc[:NAME]\n"

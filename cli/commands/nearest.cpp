@@ -21,7 +21,9 @@ namespace {
 
 constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-// The columns that are named. In netCDF one may be one of the several fields of a variable.
+// Returns the columns that --column names, a cell for each site. In netCDF a name may be that of
+// one of the several fields of a variable. Throws UsageError for a name that the file does not
+// have.
 std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& table) {
   std::vector<Column> found;
   for (const std::string& name : options.columns) {
@@ -38,12 +40,15 @@ std::vector<Column> find_columns(const QueryOptions& options, const SiteTable& t
 }
 
 // Returns the sites of each query in compressed rows.
+// Row i has the sites of query i: by --within in increasing order, else the nearest first. A row
+// has fewer than K sites if there are fewer vertices.
 CompressedRows<Index> find_sites(QueryJob& job, const QueryOptions& options) {
   if (options.within_deg >= 0) {
     const double angle = options.within_deg / degrees_per_radian;
     return job.ask([&] { return job.locator().within(job.queries(), angle, job.execution()); });
   }
   const std::size_t k = std::max<std::uint64_t>(options.k, 1);
+  // Each query finds as many sites as there are vertices at most, so rows of the result are full.
   const std::size_t row = std::min(k, job.triangulation().num_vertices());
   CompressedRows<Index> lists;
   lists.values =
@@ -90,6 +95,7 @@ void write_npy(QueryJob& job, const QueryOptions& options, const CompressedRows<
   for (std::size_t i = 0; i < num_queries; ++i) {
     std::ranges::copy(lists[i], values.begin() + static_cast<std::ptrdiff_t>(i * k));
   }
+  // Without --count the array has one dimension, with it two, also for a count of 1.
   if (options.k == 0) {
     job.write_npy(values, {num_queries});
   } else {
@@ -97,6 +103,8 @@ void write_npy(QueryJob& job, const QueryOptions& options, const CompressedRows<
   }
 }
 
+// Finds the sites and writes them as a table, or as an array of indices. Throws UsageError for .npy
+// with --within or --column, whose rows have no fixed length or hold text.
 ExitStatus run_nearest(const QueryOptions& options) {
   QueryJob job(options);
   if (job.is_npy() && (options.within_deg >= 0 || !options.columns.empty())) {

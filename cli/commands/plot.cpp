@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel plot draws figures of the triangulation and its dual on the globe, and pages to turn it.
+// in    sites, and a column of values where --values names one
+// out   a picture (.png .svg .pdf) drawn by plot_draw.h, or a page (.html) made by plot_page.h
+// index values, cells and areas are indexed by site; arcs by the points of their own layer
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -40,6 +43,7 @@ std::optional<FigureFormat> figure_format(const std::string& name) {
 }
 
 // Returns the directions of the sites from the center of the sphere.
+// The result is indexed by site; a site at the center of the sphere has the zero vector.
 std::vector<Point> directions(std::span<const Point> sites, const Point& center) {
   std::vector<Point> result(sites.size());
   std::ranges::transform(sites, result.begin(), [&](const Point& p) {
@@ -57,6 +61,7 @@ View default_view(std::span<const Point> sites, double up_deg) {
   Point sum{};
   for (const Point& p : sites) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
   const double length = std::hypot(sum.x, sum.y, sum.z);
+  // A mean shorter than 1/2 means that the sites are all around.
   if (length <= 0.5 * static_cast<double>(sites.size())) return View({0, 20}, up_deg);
   const double degrees = 180 / std::numbers::pi;
   return View(
@@ -84,6 +89,7 @@ std::vector<ArcEnds> line_arcs(const Isolines& lines) {
 
 // Returns the vertices: all sites except duplicates, hidden ones and one at the center of the
 // sphere, which a hull may have as a corner.
+// `points` has a point for each site; the result is shorter and has no index.
 std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Point> points) {
   const std::vector<bool> is_vertex = are_vertices(triangulation);
   std::size_t count = 0;
@@ -96,6 +102,8 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
 }
 
 // Adds the field, its isolines and the scale of its colors.
+// `directions` and `values` are indexed by site; the former are in the view frame. A triangle
+// without three values, or a ghost face, has no color.
 void add_values(Figure& figure, const PlotOptions& options, const Triangulation& triangulation,
                 std::span<const Point> directions, std::vector<double> values,
                 const Execution& execution) {
@@ -113,6 +121,7 @@ void add_values(Figure& figure, const PlotOptions& options, const Triangulation&
       const auto& [a, b, c] = triangulation.faces()[f];
       const bool has_values =
           !std::isnan(values[a]) && !std::isnan(values[b]) && !std::isnan(values[c]);
+      // A ghost face is not seen from the center, so no value is linear in it.
       if (has_values && !triangulation.is_ghost(f)) faces.push_back(triangulation.faces()[f]);
     }
     figure.field = {{directions.begin(), directions.end()}, std::move(values), std::move(faces)};
@@ -130,6 +139,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
+  // Coasts help where sites are longitudes and latitudes, which are places on the Earth.
   if (options.show_coast.value_or(table.is_lonlat())) {
     figure.coast = seen(coast_lines(), figure.view);
   }
@@ -139,6 +149,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   }
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
   sites = turned(std::move(sites), figure.view);
+  // The arcs refer to `points`, whose order follows them: neighbors in memory are near each other.
   std::vector<Point> points = in_order_of_arcs(arcs, sites);
   const std::vector<Point> in_view = options.values.empty() ? std::vector<Point>() : sites;
   figure.sites = vertices(triangulation, std::move(sites));
@@ -149,6 +160,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
     figure.triangulation = {std::move(points), std::move(arcs)};
   }
   if (has_cells || has_filled_cells) {
+    // Cells serve the edges of the diagram and the filling; they are computed once for both.
     auto [cells, cell_areas] = diagram(triangulation, execution);
     cells.points = turned(std::move(cells.points), figure.view);
     if (has_cells) {
@@ -203,6 +215,8 @@ void require_values(const PlotOptions& options) {
   }
 }
 
+// Checks the options, then draws a picture, or hands a page over to run_page(). Throws UsageError
+// for options that do not fit together, FileError for a file that cannot be read or written.
 ExitStatus run_plot(const PlotOptions& options) {
   const bool is_page = options.common.format() == "html";
   const auto format = figure_format(options.common.format());
@@ -262,6 +276,8 @@ Command add_plot_command(CLI::App& tool) {
       "  rondel plot cities.csv --values population -o cities.html\n"
       "  rondel plot stations.csv --values temperature --contours 5 -o warm.html");
   return {parser, [options, parser] {
+            // A page refuses options that only pictures have; the parser knows which of them were
+            // given.
             for (const char* name : {"--back", "--size", "--line-width"}) {
               if (parser->count(name) > 0) options->only_pictures = name;
             }

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// The options of `rondel plot`, and the choices that follow from them: which edges are drawn, how
+// cells are filled, and which values are shown.
+// in    the command line; for values_of_figure() also the sites and their triangulation
+// out   PlotOptions; values by site
 #include "plot_options.h"
 
 #include <utility>
@@ -15,6 +20,8 @@ template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
 // Adds an option whose values are words.
+// A word that is not among the choices is a usage error, whose message lists them in this order.
+// The target may be an optional, so that an option not given can be told.
 template <class Value, class Target>
 void add_choice(CLI::App& parser, const std::string& name, Target& target,
                 const Choices<Value>& choices, const std::string& help) {

@@ -34,9 +34,11 @@ struct PlotOptions {
   bool show_circles = false;
   std::string values;   ///< --values: a column; empty: none
   double contours = 0;  ///< --contours: their step; 0: not given
+  /// --sites, --no-sites; if not given: shown without --values, and in pages.
   std::optional<bool> show_sites;
   std::optional<bool> show_coast;  ///< if not given: for longitudes and latitudes, and in pages
   std::vector<double> view;        ///< LON LAT, or empty
+  /// --up: the direction that points up, in degrees clockwise from north.
   double up_deg = 0;
   std::string only_pictures;  ///< a given option that pages do not have; empty: none
 };

@@ -3,6 +3,9 @@
 
 // Writes the page of `rondel plot` with the values, isolines and options that the command line
 // gives; the page itself is made by the library (rondel/globe.h).
+// in    INPUT with all columns, and the options of the plot
+// out   one file of HTML
+// index values are indexed by site
 #include "plot_page.h"
 
 #include <filesystem>
@@ -65,6 +68,7 @@ ExitStatus run_page(const PlotOptions& options) {
   const Triangulation triangulation = job.triangulate(table);
   const std::vector<double> values = values_of_figure(options, job, table, triangulation);
   globe.values = values;
+  // The page can switch to cells at any time, so it carries the diagram whatever is shown first.
   Diagram both;
   Isolines lines;
   if (options.contours > 0) {

@@ -12,7 +12,8 @@
 
 namespace rondel::cli {
 
-/// Makes the page. \pre the columns of values and contours were kept
+/// Reads and triangulates INPUT, and writes the page to OUTPUT. \pre OUTPUT and the options were
+/// checked. \throws UsageError for an option that only pictures have, FileError
 ExitStatus run_page(const PlotOptions& options);
 
 }  // namespace rondel::cli

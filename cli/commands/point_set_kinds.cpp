@@ -75,6 +75,8 @@ Input poisson(const Recipe& recipe) {
   });
 }
 
+// The kinds in the order of the help. The last two numbers are the default angle in degrees (0: the
+// kind has none), and whether the seed has an effect.
 constexpr std::array all_sets{
     Kind{"icosahedral", "corners of a divided icosahedron: 10 * 4^k + 2", &icosahedral, 0, false},
     Kind{"healpix", "centers of HEALPix's pixels, ring by ring: 12 side^2", &healpix, 0, false},

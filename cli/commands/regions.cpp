@@ -1,5 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// rondel regions: clips the cells of sites by polygons and joins them by groups; with --densify the
+// cells are those of lines and polygons. The functions of regions.h also serve `rondel voronoi`.
+//
+// Steps: read and triangulate the sites, or read the features; cut the cells (Cut); make features
+// of them (region_features.h); write these; tell which groups or features have no cell.
 #include "regions.h"
 
 #include <CLI/CLI.hpp>
@@ -27,7 +33,7 @@ namespace {
 
 constexpr double mean_earth_radius = 6371.0088;  // kilometers; WGS 84, (2 a + b) / 3
 
-// Writes the features.
+// Writes the features to OUTPUT, timed as writing.
 void write(Job& job, const RegionsOptions& options, const Features& made) {
   job.time(Stage::write, [&] {
     write_regions(options.common.target(), made.rings, made.columns, options.tolerance_deg,
@@ -36,8 +42,10 @@ void write(Job& job, const RegionsOptions& options, const Features& made) {
 }
 
 // Returns a remark on groups none of whose sites has a cell.
+// The remark names the first such group, and counts them; the vector is empty if there are none.
 std::vector<std::string> remarks_on_groups(const Groups& groups,
                                            const Triangulation& triangulation) {
+  // Without --group there are no groups.
   const std::size_t size = groups.names.ends.size();
   if (size == 0) return {};
   const std::vector<bool> has_cell = are_vertices(triangulation);
@@ -54,7 +62,9 @@ std::vector<std::string> remarks_on_groups(const Groups& groups,
           (lost > 1 ? "first '" : "'") + std::string(groups.names.cell(first)) + "')"};
 }
 
-// Returns the Voronoi cells of the sites, clipped if --clip is given.
+// Returns the Voronoi or power cells of the sites, by site: whole ones without --clip, clipped ones
+// with it, and with --clip-value their pieces in each polygon. Throws FileError, which names the
+// file of --clip, for polygons that are not accepted.
 Cut cut_cells_of_sites(const RegionsOptions& options, const Triangulation& triangulation,
                        const Execution& execution) {
   const CellSet all = CellSet::voronoi(triangulation, execution);
@@ -77,7 +87,8 @@ Cut cut_cells_of_sites(const RegionsOptions& options, const Triangulation& trian
   return cut;
 }
 
-// Runs the command for sites.
+// Runs the command for sites: reads and triangulates them, cuts and joins their cells, writes the
+// features, and tells which groups have none. Throws FileError, UsageError.
 ExitStatus write_cells_of_sites(const RegionsOptions& options) {
   Job job(options.common);
   SiteTable table = job.read();
@@ -161,7 +172,8 @@ std::vector<std::string> remarks_on(const FeatureTable& table, const Cut& cut, b
   return remarks;
 }
 
-// Runs the command for lines and polygons.
+// Runs the command for lines and polygons (--densify). A feature's cell has the places from which
+// no other feature is nearer by more than the given distance. Throws FileError, UsageError.
 ExitStatus write_cells_of_features(const RegionsOptions& options) {
   Job job(options.common);
   FeatureTable table;
@@ -191,6 +203,8 @@ ExitStatus write_cells_of_features(const RegionsOptions& options) {
   return done;
 }
 
+// Checks OUTPUT and that an option makes regions; whole cells are left to `rondel voronoi`, which
+// writes more formats. Columns are kept: they become properties.
 ExitStatus run_regions(RegionsOptions options) {
   require_output(options.common, can_write_regions(options.common.target()),
                  ".geojson .gpkg .fgb .parquet", {{"--clip", options.clip}});
@@ -210,6 +224,8 @@ void add_polygon_words(CLI::App& parser, RegionsOptions& options) {
       "What joins positions of --clip and --densify: lonlat (default; straight in\n"
       "longitude and latitude, RFC 7946) or geodesic (great circles)");
   std::unordered_map<std::string, PolygonOverlap> overlaps = named_values<PolygonOverlap>();
+  // Cells of features must not overlap: a place in two polygons is an error, or is of the first
+  // one.
   overlaps.erase("keep");
   add_word<PolygonOverlap>(
       parser, "--overlap", options.overlap, overlaps,
@@ -221,6 +237,7 @@ void add_polygon_words(CLI::App& parser, RegionsOptions& options) {
 std::string earth_radius_error(const std::string& text) {
   std::string error = positive_error(text);
   if (!error.empty()) return error;
+  // The text is a number, as positive_error() accepts it.
   double radius = 0;
   std::from_chars(text.data(), text.data() + text.size(), radius);
   if (std::isnormal(4 * std::numbers::pi * (radius * radius))) return {};

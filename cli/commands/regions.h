@@ -20,7 +20,9 @@ void add_region_options(CLI::App& parser, RegionsOptions& options);
 /// True if one of the options asks for clipped or joined cells, or for their areas in another unit.
 bool makes_regions(const RegionsOptions& options);
 
-/// Makes and writes the regions, and reports. \throws UsageError, FileError
+/// Makes and writes the regions, and reports: of the cells of sites or, with --densify, of lines
+/// and polygons. \throws UsageError if options do not fit together or OUTPUT has a format without
+/// polygons, FileError for a file that cannot be read or written
 ExitStatus write_regions_of(const RegionsOptions& options);
 
 }  // namespace rondel::cli

@@ -35,6 +35,7 @@ struct RemapCommandOptions {
   CellFileOptions cells;  // --sides --edges
   NetcdfOptions netcdf;   // --kind --deflate
 
+  // Return the two sides with their formats; --input-format is for the one on standard input.
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
 };
@@ -50,7 +51,8 @@ CellForm form_of(const FileName& file) {
   return format == "geojson" || format == "json" ? CellForm::polygons : CellForm::sites;
 }
 
-// Returns the cells of grid:DEG or grid:NLONxNLAT.
+// Returns the cells of grid:DEG or grid:NLONxNLAT, longitudes varying fastest. Throws UsageError
+// for a grid that is not possible.
 CellSet cells_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
   try {
     return CellSet::lonlat_grid(grid_of(name), options.cells.sides, job.execution());
@@ -59,10 +61,11 @@ CellSet cells_of_grid(const std::string& name, const RemapCommandOptions& option
   }
 }
 
-// Returns the cells of netCDF or polygons. Errors name features by their names, and cells by their
-// numbers.
+// Returns the cells of netCDF or polygons, in the order of the file, and prints the remarks of the
+// reader. Errors name features by their names, and cells by their numbers.
 CellSet cells_of_file(const FileName& file, const RemapCommandOptions& options, const Job& job) {
   CellFileOptions read = options.cells;
+  // Polygons that overlap are found when they are read, where the message can name both.
   if (options.remap.overlap == CellOverlap::error) read.overlap = PolygonOverlap::error;
   CellSet cells = CellSet::read(file, read, job.execution());
   tell(cells.facts().name, cells.facts().remarks);
@@ -71,6 +74,7 @@ CellSet cells_of_file(const FileName& file, const RemapCommandOptions& options, 
 
 // Sites are read as points and have the cells of their Voronoi diagram, or with weights power
 // cells. The places of the cells are the sites, as given or as they are seen from the center.
+// The index of the cells counts sites; one without a cell (hidden, duplicate) gets no weights.
 CellSet cells_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
   ReadOptions read = options.common.read;
   read.keep_columns = false;
@@ -81,6 +85,7 @@ CellSet cells_of_sites(const FileName& file, const RemapCommandOptions& options,
   facts.name = table.name;
   const Point& center = triangulation.sphere().center;
   if (table.is_lonlat() && center == Point{}) {
+    // Given longitudes and latitudes are kept to the digit.
     facts.centers = table.positions;
   } else {
     std::vector<Point> seen = table.sites;
@@ -124,6 +129,9 @@ void report(Job& job, const WeightFile& file, const std::string& output) {
                                       "\nwrote the weights to " + output + '\n');
 }
 
+// Reads the cells of both sides, computes the weights and writes them. Throws UsageError for a
+// format in which no weights are written, FileError for files that cannot be read, and InvalidInput
+// for cells of one side that overlap, unless --overlap has a rule for them.
 ExitStatus run_remap(const RemapCommandOptions& options) {
   const CommonOptions& common = options.common;
   const std::string format = common.format();
@@ -167,6 +175,7 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       options.common, edges, [has_side] { return has_side(CellForm::polygons); },
       "without polygons in .geojson");
   add_build_options(parser, options.common);
+  // Cells of the other forms are in the files; only those of sites are computed.
   for (const char* const name : {"--model", "--center"}) {
     require_effect(
         options.common, parser.get_option(name), [has_side] { return has_side(CellForm::sites); },

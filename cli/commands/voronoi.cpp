@@ -36,6 +36,9 @@ void add_tolerance(CLI::App& parser, RegionsOptions& options) {
       "on .vtp and .npz, which have no polygons of straight lines");
 }
 
+// Writes whole cells through write_cells(). With an option of `rondel regions`, or in a format of
+// GDAL, the cells are made by write_regions_of() instead. Hidden sites and duplicates have no cell.
+// Throws UsageError for an OUTPUT in a format that has no cells.
 ExitStatus run_voronoi(RegionsOptions options) {
   CommonOptions& common = options.common;
   require_output(common, can_write_cells(common.target()) || can_write_regions(common.target()),
@@ -69,6 +72,7 @@ Command add_voronoi_command(CLI::App& tool) {
       ->required();
   add_tolerance(*parser, *options);
   add_region_options(*parser, *options);
+  // The help shows these options in a group of their own, apart from those of whole cells.
   for (const char* const name :
        {"--clip", "--clip-value", "--edges", "--overlap", "--group", "--densify"}) {
     parser->get_option(name)->group("Clipped and joined cells, as 'rondel regions' makes them");
