@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Steps of a build: leave out weighted sites that are strictly inside the hull of others, sort the
+// rest into the spatial order, which finds duplicates, triangulate, add the sites that were left
+// out as hidden, and find a face above each hidden site.
+
 #include "api/build.h"
 
 #include <algorithm>
@@ -25,11 +29,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Returns wall time in seconds.
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// The sites to insert when others can be left out, or nothing if all are to be inserted.
+// Returns the sites to insert, in increasing order, when others can be left out because they are
+// strictly inside the hull; an empty vector if all sites are to be inserted.
 std::vector<Index> find_rest(std::span<const Point> sites, const Options& options,
                              const hidden::InnerPoint* inner) {
   if (options.model != Model::weighted) return {};
@@ -44,7 +50,8 @@ std::vector<Index> find_rest(std::span<const Point> sites, const Options& option
   return rest.size() < sites.size() ? std::move(rest) : std::vector<Index>();
 }
 
-// Rays are looked at when they are read anyway, as memory is slow; weighted sites were before.
+// Returns the spatial order. Rays are validated when they are read anyway, as memory is slow;
+// weighted sites were validated before. Throws InvalidInput with the first site that is not valid.
 order::SpatialOrder order_valid(std::span<const Point> sites, const system::Job& options,
                                 const system::SiteCopies& copies) {
   order::SitesCheck check;
@@ -72,6 +79,8 @@ void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
   for (Hidden& h : arrays.hidden) h.site = rest[h.site];
   for (Duplicate& d : arrays.duplicates) d = {rest[d.site], rest[d.representative]};
 
+  // The sites that were left out are the complement of `rest`; each is hidden, or a duplicate of
+  // another one of them.
   std::vector<Index> inner;
   inner.reserve(sites.size() - rest.size());
   auto next = rest.begin();
@@ -93,6 +102,7 @@ void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
       arrays.hidden.push_back({i, no_index});
     }
   }
+  // Both parts are sorted by site, so merging sorts the whole.
   std::ranges::inplace_merge(arrays.hidden, arrays.hidden.begin() + outer_hidden, {},
                              &Hidden::site);
   const auto outer_duplicates = static_cast<std::ptrdiff_t>(arrays.duplicates.size());

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the functions that return a triangulation share, once their options are validated.
+// The build that delaunay() and convex_hull() share, once their options are validated.
+//
+// in    sites, options, threads and progress
+// out   a triangulation with a report of the work
+// index sites in the order of the input
 #pragma once
 
 #include <span>
@@ -18,7 +22,8 @@ namespace rondel::api {
 Triangulation build(Sites all_sites, const system::Job& options,
                     const hidden::InnerPoint* inner = nullptr);
 
-// The numbers x, y, z, x, y, z ... as points, where they lie. Throws InvalidInput if their number is not a multiple of 3.
+// Returns the numbers x, y, z, x, y, z ... as points, where they lie. Throws InvalidInput if their
+// number is not a multiple of 3.
 std::span<const Point> as_points(std::span<const double> xyz);
 
 }  // namespace rondel::api

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// check(): validates the sites, and hands over to the proof (proof/validator.h).
+
 #include "rondel/check.h"
 
 #include "api/validation.h"

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// delaunay(): validates the arguments, and builds. Rays are validated while they are sorted
+// (build.cpp), as that reads them anyway; weighted sites are validated here.
+
 #include "rondel/delaunay.h"
 
 #include <utility>

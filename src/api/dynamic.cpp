@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// DynamicTriangulation: every function validates its arguments, then changes or asks the editor of
+// the model. A range of changes that is long compared with the sites is made by a new build.
+
 #include "rondel/dynamic.h"
 
 #include <algorithm>
@@ -20,12 +23,14 @@
 namespace rondel {
 namespace {
 
-// What one change of a range takes, in sites of a build (docs/guide/editing.md).
+// The time of one change in a range, in units of the time that a build takes for a site
+// (docs/guide/editing.md).
 constexpr double builds_of_insertion = 1.75;
 constexpr double builds_of_removal = 1.5;
 constexpr double builds_of_move = 4;
 
-// Whether a range of changes takes longer than a build of the sites that are there afterwards.
+// True if a range of changes takes longer than a build of the `num_sites` sites that are there
+// afterwards.
 bool is_build_faster(std::size_t num_changes, double builds_of_change, std::size_t num_sites) {
   return builds_of_change * static_cast<double>(num_changes) > static_cast<double>(num_sites);
 }
@@ -45,6 +50,8 @@ void DynamicTriangulation::Impl::require_site(Index id, std::size_t position) co
 }
 
 void DynamicTriangulation::Impl::require_distinct_sites(std::span<const Index> ids) const {
+  // Ids are sorted up to the first that no site has, with their positions: a repeated id before it
+  // is the earlier flaw, and is named.
   std::vector<std::pair<Index, std::size_t>> sorted;
   sorted.reserve(ids.size());
   for (std::size_t i = 0; i < ids.size() && places().is_alive(ids[i]); ++i) {
@@ -73,6 +80,7 @@ void DynamicTriangulation::Impl::require_room(std::size_t more) const {
 
 void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
                                         std::span<const Index> ids, const Execution& execution) {
+  // The build numbers places itself; ids get the places of the sites that they name.
   dynamic::Build build = dynamic::make_build(triangulation, execution.threads);
   std::vector<Index> place_of_id(places().site_limit(), no_index);
   for (std::size_t i = 0; i < ids.size(); ++i) place_of_id[ids[i]] = build.place_of_site[i];
@@ -121,6 +129,7 @@ const Snapshot& DynamicTriangulation::Impl::flat_snapshot() const {
 }
 
 std::vector<Index> DynamicTriangulation::Impl::flat_ring() const {
+  // The ring has positions in the snapshot; its users ask for ids.
   const Snapshot& now = flat_snapshot();
   std::vector<Index> ring;
   for (const Index i : now.triangulation.ring()) ring.push_back(now.ids[i]);
@@ -211,6 +220,7 @@ void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Poin
                            std::to_string(ids.size()) + " sites to move",
                        std::min(ids.size(), to.size()));
   }
+  // An id may be repeated here: its site moves several times.
   for (std::size_t i = 0; i < ids.size(); ++i) impl_->require_site(ids[i], i);
   api::validate(to, impl_->options);
   const bool is_rebuilt = is_build_faster(ids.size(), builds_of_move, num_sites());
@@ -276,6 +286,8 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
   impl_->require_site(id, 0);
   if (!impl_->current().has_hull()) {
     const auto ring = impl_->flat_ring();
+    // Neighbors on a great circle are the vertices before and after; with two vertices these are
+    // one.
     const auto at = std::ranges::find(ring, representative(id));
     if (at == ring.end() || ring.size() == 1) return {};
     const auto i = static_cast<std::size_t>(at - ring.begin());
@@ -297,6 +309,7 @@ Triple DynamicTriangulation::face(Index face) const {
     if (!e.hull() || face >= e.hull()->mesh().num_slots() || !e.hull()->mesh().is_alive(face)) {
       throw InvalidInput("face " + std::to_string(face) + " does not exist", 0);
     }
+    // The mesh has numbers of places; outside, the lowest id of a place names the vertex.
     Triple corners = e.hull()->mesh()[face].vertex;
     for (Index& v : corners) v = e.places().names()[v];
     return corners;

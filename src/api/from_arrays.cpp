@@ -5,8 +5,8 @@
 //
 // 1. Indices are in range, and every site is a vertex, a duplicate of a vertex or of a hidden site
 //    in its place, or hidden: one of these.
-// 2. Neighbors agree: across edge i of face f lies the face that has the same two corners in the other
-//    order, and it names f.
+// 2. Neighbors agree: across edge i of face f lies the face that has the same two corners in the
+//    other order, and it names f.
 // 3. The faces at a corner make one turn around it. So the surface is closed and without pinches.
 // 4. It is connected and has 2V - 4 faces, so that it is a sphere.
 
@@ -24,14 +24,18 @@
 namespace rondel {
 namespace {
 
+// Throws InvalidInput with the position in the array that `what` names.
 [[noreturn]] void refuse(const std::string& what, std::size_t index) {
   throw InvalidInput("the arrays are those of no triangulation: " + what, index);
 }
 
+// Returns "faces[3]", as messages name an element.
 std::string name_of(const char* array, std::size_t index) {
   return std::string(array) + '[' + std::to_string(index) + ']';
 }
 
+// Looks at the arrays once, in O(n): first duplicates and hidden sites, then the surface or the
+// ring. The steps are in an order in which no index is used before its range is known.
 class Inspection {
  public:
   Inspection(std::span<const Point> sites, const TriangulationParts& parts, const Options& options)
@@ -41,6 +45,7 @@ class Inspection {
         num_sites_(sites.size()),
         is_vertex_(sites.size(), true) {}
 
+  // Throws InvalidInput with the position of the first flaw that is found.
   void run() {
     look_at_duplicates();
     look_at_hidden();
@@ -63,6 +68,8 @@ class Inspection {
   }
 
  private:
+  // Every duplicate names a site of lower index in its place that is not a duplicate itself; the
+  // list is in increasing order of the site.
   void look_at_duplicates() {
     for (std::size_t i = 0; i < parts_.duplicates.size(); ++i) {
       const auto [site, lowest] = parts_.duplicates[i];
@@ -75,6 +82,8 @@ class Inspection {
     }
   }
 
+  // Every hidden site names a face in dimension 2, and no_index below. Whether it lies below that
+  // face is a question of geometry, which prove_delaunay() answers.
   void look_at_hidden() {
     for (std::size_t i = 0; i < parts_.hidden.size(); ++i) {
       const auto [site, face] = parts_.hidden[i];
@@ -87,6 +96,7 @@ class Inspection {
     }
   }
 
+  // Below dimension 2 the number of vertices tells the dimension: -1, 0, or 1 from two on.
   void look_at_ring() {
     const int dimension = num_vertices_ < 2 ? static_cast<int>(num_vertices_) - 1 : 1;
     if (parts_.dimension != dimension) {
@@ -109,6 +119,8 @@ class Inspection {
     is_vertex_[vertex] = false;
   }
 
+  // Euler's formula gives a closed surface like a sphere 2V - 4 faces; other numbers are refused
+  // before any face is looked at.
   void look_at_surface() {
     if (!parts_.ring.empty()) refuse("there is a ring in dimension 2", 0);
     if (num_vertices_ < 3 || parts_.faces.size() != 2 * num_vertices_ - 4) {
@@ -122,6 +134,7 @@ class Inspection {
     require_connected();
   }
 
+  // A face has three different vertices, and its neighbors are faces.
   void look_at_face(std::size_t f) const {
     const auto& [a, b, c] = parts_.faces[f];
     for (const Index v : {a, b, c}) {
@@ -139,7 +152,8 @@ class Inspection {
     }
   }
 
-  // In a pair of faces back to back each has three edges with the other: the corners tell which.
+  // Each edge is named by both of its faces. In a pair of faces back to back each has three edges
+  // with the other: the corners tell which.
   void look_across(std::size_t f) const {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index from = parts_.faces[f][(i + 1) % 3];
@@ -169,6 +183,8 @@ class Inspection {
       }
     }
   }
+  // Marks the corners that the faces around a vertex have there, counterclockwise from the first
+  // one. The turn ends, since neighbors agree: each step can be undone.
   void turn(std::size_t first, std::size_t corner, std::vector<bool>& is_met) const {
     const Index vertex = parts_.faces[first][corner];
     std::size_t f = first;
@@ -181,6 +197,7 @@ class Inspection {
     } while (f != first);
   }
 
+  // Walks from face 0 across all edges and counts the faces that it meets.
   void require_connected() const {
     std::vector<bool> is_met(parts_.faces.size());
     std::vector<Index> to_visit = {0};
@@ -226,6 +243,8 @@ Triangulation Triangulation::from_arrays(Sites sites, const TriangulationParts& 
   copy(parts.ring, arrays.ring);
   copy(parts.duplicates, arrays.duplicates);
   copy(parts.hidden, arrays.hidden);
+  // That the faces are Delaunay costs more to prove, so it is proved only for who walks through
+  // them.
   auto impl = std::make_shared<Impl>(std::move(sites), std::move(arrays), options, BuildReport{});
   impl->proof = &api::prove_delaunay;
   return Triangulation(std::move(impl));

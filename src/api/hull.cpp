@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The convex hull: find a center inside the points, then triangulate with Model::weighted around
+// it. The sizes are sums over faces, scaled by a power of two so that nothing overflows meanwhile.
+
 #include "rondel/hull.h"
 
 #include <algorithm>
@@ -17,8 +20,8 @@
 namespace rondel {
 namespace {
 
-// Sums over faces of which the origin is below or in the plane, so that no volume is negative
-// but by rounding.
+// Sums over faces a, b, c as seen from the origin, in units of the scaled points. The origin is
+// below each face or in its plane, so a negative volume comes from rounding and counts as 0.
 struct Sums {
   double area = 0;
   double volume = 0;
@@ -30,7 +33,7 @@ struct Sums {
   }
 };
 
-// An exponent e such that no coordinate times 2^-e is larger than 1/2.
+// Returns an exponent e such that no coordinate times 2^-e is larger than 1/2; 0 if all are 0.
 int exponent_of(std::span<const Point> points) {
   double largest = 0;
   for (const Point& p : points) largest = std::max(largest, largest_coordinate(p));
@@ -38,6 +41,8 @@ int exponent_of(std::span<const Point> points) {
   return largest > 0 ? std::max(std::ilogb(largest) + 2, least) : 0;
 }
 
+// Returns volume and area in units of the points: sums over the faces, or over a fan of the ring
+// for a flat hull, whose polygon counts with both sides.
 HullSize sum_of_faces(const Triangulation& hull) {
   const auto points = hull.sites().points();
   const int exponent = exponent_of(points);
@@ -61,6 +66,8 @@ Triangulation convex_hull(Sites points, const Execution& execution) {
   const system::Call call(execution);
   system::Job job{{.model = Model::weighted}, execution};
   api::validate(points.points(), job);
+  // The middle of the box is preferred, since blocks need a center that is about equally far from
+  // all. A flat hull has no point inside: then the center is one of the points.
   const auto inner = hidden::find_inner_point(points.points());
   const Point center =
       (inner.is_inside ? hidden::find_middle(points.points()) : std::nullopt).value_or(inner.point);

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Longitudes and latitudes in degrees to unit vectors, and back. Sines, cosines and angles are
+// computed by exact/angles.h, so the bits are the same on every machine.
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -14,6 +17,7 @@
 
 namespace rondel {
 
+// Nothing is validated here. Adding 0 turns -0 into 0, so that equal places have equal bits.
 Point unit_vector(const LonLat& position) {
   const system::ArithmeticScope arithmetic;
   return system::apart([&] {
@@ -23,6 +27,8 @@ Point unit_vector(const LonLat& position) {
   });
 }
 
+// Throws InvalidInput for the first place that is none: an infinite longitude, or a latitude beyond
+// 90 degrees or NaN.
 std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
   const system::ArithmeticScope arithmetic;
   std::vector<Point> result(positions.size());
@@ -40,11 +46,14 @@ std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
   return result;
 }
 
+// A point may have any length. The origin, and a point that is not finite, has no place: NaN. At
+// the poles the longitude is 0.
 std::vector<LonLat> lonlats(std::span<const Point> points) {
   const system::ArithmeticScope arithmetic;
   std::vector<LonLat> result;
   result.reserve(points.size());
   for (const Point& point : points) {
+    // Scaling by the largest coordinate comes first, so that no square overflows or underflows.
     const Point u = normalized(scaled(point));
     if (!(norm(u) > 0)) {  // no ray goes through the origin, or a coordinate is not finite
       constexpr double no_place = std::numeric_limits<double>::quiet_NaN();

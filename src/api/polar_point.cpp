@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Circles as weighted sites: the center q of a circle of radius r gives the point q / cos r, the
+// pole of its plane. Centers are points, or longitudes and latitudes in degrees.
+
 #include <algorithm>
 #include <string>
 
@@ -13,19 +16,23 @@
 namespace rondel {
 namespace {
 
-// False for NaN too.
+// True for a radius of less than a quarter turn; false for NaN, too.
 bool is_radius(double radius_deg) { return radius_deg >= 0 && radius_deg < 90; }
 
+// Returns the text of the error for a radius that is none.
 std::string fault(double radius_deg) {
   return "radius " + system::shortest_text(radius_deg) + " is not in [0, 90)";
 }
 
-// The cosine is positive: the double next to 90 degrees is 1.4e-14 degrees away.
+// Returns center / cos radius. The cosine is positive: the double next to 90 degrees is 1.4e-14
+// degrees away.
 Point pole(const Point& center, double radius_deg) {
   const double cosine = exact::sine_cosine_of_degrees(radius_deg).cosine;
   return {center.x / cosine, center.y / cosine, center.z / cosine};
 }
 
+// Throws InvalidInput unless there is one valid radius for each center; the index is that of the
+// first flaw.
 void require_radii(std::size_t num_centers, std::span<const double> radii_deg) {
   if (radii_deg.size() != num_centers) {
     throw InvalidInput(

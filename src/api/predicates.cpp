@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The exact predicates for single calls. Each checks its arguments, which the functions of the
+// library do once for all sites, and asks the ladder of predicates/.
+
 #include "rondel/predicates.h"
 
 #include <array>
@@ -22,7 +25,8 @@ namespace {
 
 using predicates::FourPoints;
 
-// Throws InvalidInput (the first bad position) unless the predicates have an answer.
+// Throws InvalidInput with the first bad position unless the predicates have an answer: a point or
+// the center is not finite or, for rays, a point is the center.
 void require_points(std::initializer_list<Point> points, Model model, const Sphere& sphere) {
   const auto is_finite = [](const Point& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -38,7 +42,8 @@ void require_points(std::initializer_list<Point> points, Model model, const Sphe
   }
 }
 
-// What the perturbation supposes of four points in one plane.
+// Throws InvalidInput unless a tie can be perturbed: the four points are distinct sites and, in the
+// weighted model, the first three are not in line with the center.
 void require_distinct_sites(const std::array<Point, 4>& p, Model model, const Sphere& sphere) {
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -83,6 +88,7 @@ bool is_in_conflict(const Point& a, const Point& b, const Point& c, const Point&
   return models::with_model(model, [&]<class T> {
     const FourPoints<T::model> points{{a, b, c, p}, sphere.center};
     const Sign sign = predicates::side(points, 0, 1, 2, 3).sign;
+    // Only a tie asks for more than finite points; it is decided by perturbation.
     if (sign != Sign::zero) return sign == Sign::positive;
     require_distinct_sites({a, b, c, p}, model, sphere);
     return predicates::conflict(points, 0, 1, 2, 3).sign == Sign::positive;
@@ -93,6 +99,7 @@ bool is_same_site(const Point& a, const Point& b, Model model, const Sphere& sph
   const system::ArithmeticScope arithmetic;
   require_points({a, b}, model, sphere);
   if (a == b) return true;
+  // Weighted sites on one ray are circles around one axis with different radii.
   if (model == Model::weighted) return false;
   return predicates::are_on_one_ray(a, b, sphere.center);
 }

@@ -3,6 +3,8 @@
 
 // Arrays that are a triangulation of some kind (from_arrays.cpp) are proved to be the one that
 // delaunay() makes of their sites, but for the order of the faces.
+// Steps: the validator of check() proves that the faces are Delaunay; what it does not look at is
+// proved here: that all duplicates are listed, the order of the ring, ghost faces and hidden sites.
 #include <algorithm>
 #include <string>
 
@@ -16,11 +18,14 @@
 namespace rondel::api {
 namespace {
 
+// The first flaw of the arrays, and its position in the array that the reason names.
 struct Flaw {
   std::string reason;  // empty: there is none
   std::size_t index = 0;
 };
 
+// Returns a face that is listed as ghost but solid, or the other way round. A face is solid if the
+// center is strictly below its plane: the orientation of its corners is positive.
 Flaw find_wrong_ghost(const Triangulation& t) {
   const auto sites = t.sites().points();
   auto ghost = t.ghost_faces().begin();
@@ -37,6 +42,8 @@ Flaw find_wrong_ghost(const Triangulation& t) {
   return {};
 }
 
+// Returns a hidden site that is outside of the cone, seen from the center, of the face that it
+// names. No site may name a ghost face.
 Flaw find_wrong_hidden(const Triangulation& t) {
   const auto sites = t.sites().points();
   const auto hidden = t.hidden();
@@ -57,6 +64,7 @@ Flaw find_wrong_hidden(const Triangulation& t) {
   return {};
 }
 
+// Returns the first flaw, with an empty reason if there is none.
 Flaw find_flaw(const Triangulation& t, const Options& options, const Execution& execution) {
   const CheckReport report =
       proof::check_triangles(t.sites().points(), t.faces(), {options, execution});

@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Locator: the public functions of rondel/query.h, for single queries and for ranges. Each
+// validates its arguments, then asks a query::Engine, which walks through the triangulation from a
+// vertex nearby. The vertices are those of a finished triangulation (query::Built) or of one that
+// may change; after a change such a locator throws InvalidInput.
+
 #include "rondel/query.h"
 
 #include <algorithm>
@@ -29,18 +34,19 @@ namespace {
 using query::Cursor;
 using query::Limit;
 
+// Throws InvalidInput for an angle that is negative or NaN.
 void check_angle(double angle) {
   if (angle >= 0) return;
   throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number");
 }
 
-// No limit from 180 degrees on.
+// Returns the limit of within() for an angle in radians; there is none from a half turn on.
 Limit limit_of(double angle, const Sphere& sphere) {
   if (angle >= std::numbers::pi) return {};
   return {predicates::cosine_of(angle), sphere.squared_radius};
 }
 
-// The answers of one range of queries.
+// The answers of one range of queries: sizes[k] sites belong to queries[k], one list after another.
 struct RangeLists {
   std::vector<Index> queries;
   std::vector<Index> sizes;
@@ -53,12 +59,16 @@ std::string_view name_of(Where where) noexcept {
   return system::name_in({"vertex", "edge", "face", "outside"}, where);
 }
 
+// Queries are points; sites and vertices have the names that they have outside: their index, or
+// their id in a triangulation that may change.
 class Locator::Impl {
  public:
+  // For a finished triangulation, whose sites are called by their indices.
   explicit Impl(const Triangulation& triangulation)
       : Impl(triangulation, {}, triangulation.sites().points()) {}
 
-  // The sites are called `ids` outside, and these are their points, of one that may change.
+  // For a snapshot of a triangulation that may change, `asked`: its sites are called `ids` outside,
+  // and `points_by_id` are their points.
   Impl(const Triangulation& triangulation, std::span<const Index> ids,
        std::span<const Point> points_by_id, const DynamicTriangulation::Impl* asked = nullptr)
       : model_(triangulation.model()),
@@ -69,6 +79,7 @@ class Locator::Impl {
         built_(std::in_place, triangulation, ids),
         engine_(built_->graph()) {}
 
+  // For a triangulation that may change and has a hull, which is used without a copy.
   template <class Editor>
   Impl(const DynamicTriangulation::Impl& changing, const Editor& editor)
       : model_(changing.options.model),
@@ -81,10 +92,13 @@ class Locator::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
+  // Throws InvalidInput for the first query that is not finite or, for rays, the center of the
+  // sphere, and if the triangulation has changed.
   void validate(std::span<const Point> queries, bool are_rays = true) const {
     require_current();
     api::validate_queries(queries, sphere_.center, are_rays);
   }
+  // Throws InvalidInput if there is no such site.
   void validate_site(Index site) const {
     require_current();
     if (changing_ ? changing_->is_alive(site) : built_->has_site(site)) return;
@@ -96,6 +110,7 @@ class Locator::Impl {
   [[nodiscard]] const Sphere& sphere() const { return sphere_; }
   [[nodiscard]] Model model() const { return model_; }
   [[nodiscard]] Point site(Index i) const { return points_[i]; }
+  // Returns the vertex at the place of a site; no_index if the site is hidden.
   [[nodiscard]] Index vertex_of(Index site) const {
     if (built_) return built_->vertex_of(site);
     return changing_->visit([site](const auto& e) {
@@ -104,6 +119,7 @@ class Locator::Impl {
     });
   }
 
+  // Returns a vertex near a point, where a walk to it begins. Precondition: there is a vertex.
   [[nodiscard]] Index near(const Point& p) const {
     if (built_) return built_->near(p);
     return changing_->visit([&p](const auto& e) { return e.vertex_near(p); });
@@ -114,7 +130,7 @@ class Locator::Impl {
     return cursor;
   }
 
-  // ask(query, cursor), or `none` where there is no vertex.
+  // Returns ask(query, cursor) for one query, or `none` where there is no vertex.
   template <class Answer, class Ask>
   [[nodiscard]] Answer answer(const Point& query, Answer none, const Ask& ask,
                               bool is_ray = true) const {
@@ -124,6 +140,7 @@ class Locator::Impl {
     Cursor cursor = cursor_at(query);
     return ask(query, cursor);
   }
+  // Returns the answers to a range of queries, in its order.
   template <class Answer, class Ask>
   [[nodiscard]] std::vector<Answer> answers(std::span<const Point> queries,
                                             const Execution& execution, const Answer& none,
@@ -137,11 +154,13 @@ class Locator::Impl {
     return result;
   }
 
+  // Calls work(range, cursor) for ranges of queries that are near each other, in parallel.
   template <class Work>
   void for_each_range(std::span<const Point> queries, unsigned threads, const Work& work) const {
     query::for_each_range(
         queries, model_, sphere_.center, threads, [this](const Point& p) { return near(p); }, work);
   }
+  // Calls answer(i, cursor) for every query i; the order does not show in the answers.
   template <class Answer>
   void for_each_query(std::span<const Point> queries, unsigned threads,
                       const Answer& answer) const {
@@ -170,7 +189,8 @@ class Locator::Impl {
   query::Engine engine_;
 };
 
-// The ranges collect their lists apart; these are put together when their lengths are known.
+// Ranges of queries collect their lists apart; these are put together when their lengths are known,
+// in the order of the queries, whichever thread was first.
 CompressedRows<Index> Locator::Impl::within(std::span<const Point> queries, const Limit& limit,
                                             unsigned threads) const {
   std::vector<RangeLists> ranges;
@@ -205,6 +225,7 @@ Locator::Locator(const Triangulation& triangulation)
       }()) {}
 Locator::Locator(const DynamicTriangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
+  // Below dimension 2 there is no hull to walk through, so a snapshot is searched instead.
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
     const Snapshot& now = changing.flat_snapshot();
@@ -258,6 +279,7 @@ std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_
   const system::Call call(execution);
   impl_->validate(queries);
   std::vector<Index> result;
+  // The product may overflow, so it is tested before it is computed.
   if (!queries.empty() && k > result.max_size() / queries.size()) {
     throw InvalidInput("k = " + std::to_string(k) + " for " + std::to_string(queries.size()) +
                        " queries is more than an array can hold");

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Sites: points that the object owns, copied or moved into it, or a view of points that somebody
+// else owns. Copies of Sites share the points; one that was moved from has none.
+
 #include "rondel/sites.h"
 
 #include <algorithm>
@@ -18,6 +21,7 @@ Sites::Sites(std::vector<Point>&& points) {
 
 Sites::Sites(const std::vector<Point>& points) : Sites(std::span(points)) {}
 
+// The number is validated before anything is allocated for the copy.
 Sites::Sites(std::span<const Point> points) {
   api::validate({}, points.size());
   *this = Sites(std::vector<Point>(points.begin(), points.end()));
@@ -39,6 +43,7 @@ Sites Sites::view(std::span<const Point> points, std::shared_ptr<const void> own
   return sites;
 }
 
+// True if the coordinates are equal, so 0 equals -0; who owns the points plays no part.
 bool operator==(const Sites& a, const Sites& b) { return std::ranges::equal(a.points_, b.points_); }
 
 }  // namespace rondel

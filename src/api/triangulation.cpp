@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The members of Triangulation: each returns a part of the shared state, which never changes. One
+// that was moved from has no state, and answers as the triangulation of no sites.
+
 #include "rondel/triangulation.h"
 
 #include <algorithm>
@@ -32,6 +35,7 @@ Triangulation api::make_triangulation(Sites sites, TriangulationArrays arrays,
       std::move(sites), std::move(arrays), options, report));
 }
 
+// Two threads may both run the proof; the result is the same, and the proof is dropped once.
 void api::require_delaunay(const Triangulation& triangulation, const Execution& execution) {
   const Triangulation::Impl& impl = Triangulation::Impl::of(triangulation);
   const auto proof = impl.proof.load(std::memory_order_relaxed);

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Checks of arguments. All sites are tested at once without branches; only if that fails, they are
+// tested one by one for the message.
+
 #include "api/validation.h"
 
 #include <cmath>
@@ -21,11 +24,14 @@ bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+// Returns "(x, y, z)" in the shortest digits that read back as the same doubles.
 std::string coordinates(const Point& p) {
   return "(" + shortest_text(p.x) + ", " + shortest_text(p.y) + ", " + shortest_text(p.z) + ")";
 }
 
-// Names the first of the points that is not finite or, where points are rays, the center.
+// Throws InvalidInput for the first of the points that is not finite or, where points are rays, the
+// center. `word` and `first` name it: "site 7" for point i if first + i is 7. `what_center_lacks`
+// ends the message about the center.
 void validate_each(const char* word, std::span<const Point> points, const Point& center,
                    bool are_rays, const char* what_center_lacks, std::uint64_t first = 0) {
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -61,7 +67,8 @@ void validate(const Options& options, std::size_t num_sites) {
   }
 }
 
-// Without branches, so that it becomes vector code.
+// The loop has no branches, so that it becomes vector code. NaN fails the comparison with the
+// largest double, and so do infinities.
 bool are_valid(std::span<const Point> sites, const Options& options) {
   constexpr double largest = std::numeric_limits<double>::max();
   const Point center = options.sphere.center;
