@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Each list of areas is sorted by row when it is added; write() merges the lists, so that no more
+// than a part of each is in memory.
+
 #include "distributed/area_results.h"
 
 #include <algorithm>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The first byte of each message is a status; a message of failure has the text of the exception
+// behind it, up to 500 bytes. The members of Communicator and DistributedError are here, too.
+
 #include "distributed/bsp_session.h"
 
 #include <exception>
@@ -22,6 +25,7 @@ constexpr std::byte was_interrupted{2};
 
 constexpr std::size_t max_text_bytes = 500;
 
+// Writes a message of failure in one line. It allocates nothing, as the memory is reserved.
 void describe(Bytes& message, std::byte kind, std::string_view text) noexcept {
   message.assign(1, kind);
   for (const char c : text.substr(0, max_text_bytes))

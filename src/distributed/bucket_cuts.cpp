@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Counts are kept in tables: the first has a count for each square of one level, others divide
+// single squares that turned out to be dense. cuts() then walks from the six faces of the cube down
+// to the largest squares that do not have too many sites.
+
 #include "distributed/bucket_cuts.h"
 
 #include <algorithm>
@@ -13,8 +17,10 @@ namespace {
 
 using order::high_levels;
 
+// The levels by which a dense square is divided in the next round.
 constexpr int next_depth = 5;
 
+// Returns the number of squares into which so many levels divide a square.
 constexpr std::size_t num_squares(int depth) { return std::size_t{1} << (2 * depth); }
 
 // The number of a square of this level, along the whole curve.

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Canonical order: faces are listed by the site that is first among their corners. Sites that are
+// not open own faces of the bucket alone, which are in this order already and form long runs;
+// around each open site faces of both kinds are merged into one turn.
+
 #include "distributed/bucket_faces.h"
 
 #include <algorithm>
@@ -46,7 +50,7 @@ void BucketFaces::number(GlobalIndex first, JoinedNumbers& numbers) {
   }
 }
 
-// Faces of the bucket.
+// Appends faces of the bucket to the runs, and notes the places of those in the rim.
 void BucketFaces::append(Index begin, Index end) {
   if (begin == end) return;
   const auto place = static_cast<Index>(next_ - first_);
@@ -72,7 +76,8 @@ LargeVector<Index> BucketFaces::places_of_own() const {
   return places;
 }
 
-// The faces that an open site owns, of both kinds, counterclockwise around it.
+// Appends the faces that an open site owns, those of the bucket and those between buckets,
+// counterclockwise around it, from the one that the canonical order puts first.
 void BucketFaces::append_open(Index open_site) {
   const bulk::SeamSite& site = border_.open_sites[open_site];
   const Index s = first_site_ + open_site;

@@ -5,8 +5,8 @@
 //
 // in    the border of a bucket, the faces between buckets, and where the bucket stands among all
 // out   faces one by one, numbered through all buckets; and the numbers that other buckets need
-// index codes: a face of the bucket, or behind those an open edge while it is not known what is across,
-//       or a face between buckets; 64 bits for what is counted through all buckets
+// index codes: a face of the bucket, or behind those an open edge while it is not known what is
+//       across, or a face between buckets; 64 bits for what is counted through all buckets
 #pragma once
 
 #include <algorithm>
@@ -27,8 +27,8 @@ struct BucketCorner {
   Index index;
 };
 
-// Across an edge: the number of a face of the same bucket; or a face between buckets, or an open edge
-// with a face on its left, whose numbers are known when all buckets are done.
+// The face across an edge: the number of a face of the same bucket; or a face between buckets, or
+// an open edge with a face on its left, whose numbers are known when all buckets are done.
 struct BucketNeighbor {
   enum class Across : std::uint8_t { number, joined, edge };
   Across across;
@@ -92,7 +92,8 @@ class BucketFaces {
   }
 
  private:
-  // Codes begin ... end-1, which follow each other in the result; one alone of faces between buckets.
+  // Codes begin ... end-1, which follow each other in the result; a face between buckets is a run
+  // of its own.
   struct CodeRun {
     Index begin;
     Index end;

@@ -39,9 +39,9 @@ struct BucketFiles {
   SpoolChecksums scattered;
 };
 
-// Reads all points, or one of each place if there are more than `max_num_sites`; then the duplicates
-// are added to the store. Returns nothing if the slot does not contain what was scattered. Throws
-// FileError if more than `max_num_sites` places lie in the smallest square.
+// Reads all points, or one of each place if there are more than `max_num_sites`; then the
+// duplicates are added to the store. Returns nothing if the slot does not contain what was
+// scattered. Throws FileError if more than `max_num_sites` places lie in the smallest square.
 std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t max_num_sites,
                                              const system::Job& options, StoredBucket& stored);
 

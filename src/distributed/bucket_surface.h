@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// All faces at the sites of a bucket, its own and those between buckets, as one surface with a border.
+// All faces at the sites of a bucket, its own and those between buckets, as one surface with a
+// border.
 //
 // in    a bucket and the faces between buckets
 // out   corners and neighbors

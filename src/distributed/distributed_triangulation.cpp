@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The public functions of rondel/distributed.h: they show a rank its part of the triangulation,
+// with sites and faces counted through all ranks, and start the builds.
+
 #include <algorithm>
 #include <utility>
 

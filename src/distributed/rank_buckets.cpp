@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Each bucket is triangulated alone; its faces stay on the rank, and its open sites and edges go
+// into a message for rank 0. The format of this message is in write_open_buckets() and
+// read_open_buckets(), which must agree.
+
 #include "distributed/rank_buckets.h"
 
 #include <array>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The steps of rank_build.h, in the order in which run() calls them. Between two of them ranks
+// exchange messages through a BspSession, so an exception on one rank ends all of them.
+
 #include "distributed/rank_build.h"
 
 #include <algorithm>
@@ -15,6 +18,7 @@
 namespace rondel::distributed {
 namespace {
 
+// Returns the value of each rank, by rank.
 std::vector<std::uint64_t> gather_values(BspSession& session, std::uint64_t value) {
   MessageWriter writer;
   writer.add_value(value);
@@ -30,6 +34,7 @@ std::uint64_t sum(std::span<const std::uint64_t> values) {
   return result;
 }
 
+// The build on one rank. It fills the result step by step; what a step no longer needs is freed.
 class RankBuild {
  public:
   RankBuild(BspSession& session, std::span<const Point> mine, const RankLimits& limits,
@@ -58,6 +63,8 @@ class RankBuild {
  private:
   RankBuckets& own() { return result_->own; }
 
+  // Receives the sites of this rank's buckets and triangulates each bucket alone. Throws
+  // length_error on all ranks if more sites are open than one rank can join.
   void triangulate() {
     const RankSites sites(session_, mine_, counts_, limits_);
     session_.begin("triangulate");
@@ -74,6 +81,8 @@ class RankBuild {
                             std::to_string(max_sites) + " can be joined");
   }
 
+  // Sends the open sites and edges to rank 0, which joins them, and takes the part that this rank
+  // needs: the faces at its open sites, or below dimension 2, on rank 0, the ring.
   void join() {
     session_.begin("join");
     system::announce(options_, "join", 0);
@@ -115,6 +124,8 @@ class RankBuild {
     }
   }
 
+  // Numbers the faces that this rank owns, after those of all lower ranks, and tells other ranks
+  // the numbers that they need.
   void number() {
     session_.begin("number");
     const JoinedPart& part = result_->part;
@@ -143,6 +154,7 @@ class RankBuild {
     tell_numbers();
   }
 
+  // Lists of both ends have the same order, so messages hold numbers alone.
   void tell_numbers() {
     JoinedNumbers& numbers = *result_->numbers;
     std::vector<Bytes> messages(session_.size());
@@ -162,12 +174,13 @@ class RankBuild {
     result_->part.asked = {};
   }
 
+  // Returns the rank that gave a site.
   [[nodiscard]] std::size_t home_of(std::uint64_t site) const {
     return rank_of_site(site - limits_.first_number, counts_.first_site);
   }
 
-  // Adds the copies that were not scattered to the duplicates: each is at the place of a site that was
-  // scattered.
+  // Adds the copies that were not scattered to the duplicates: each is at the place of a site that
+  // was scattered.
   void add_copies() {
     if (counts_.copies.empty()) return;
     auto& duplicates = result_->duplicates;
@@ -186,6 +199,8 @@ class RankBuild {
     counts_.copies = {};
   }
 
+  // Sends duplicates and hidden sites to the ranks that gave them, and sums the numbers of all
+  // ranks.
   void finish() {
     session_.begin("finish");
     const std::uint64_t num_own = own().sites.size();

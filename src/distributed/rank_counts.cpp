@@ -17,6 +17,7 @@ namespace {
 // A square has at most a twentieth of a rank's share, so that no rank has 5 % more than its share.
 constexpr std::uint64_t squares_of_rank = 20;
 
+// Returns how many sites a square may have: a part of the share of a rank, at most a bucket's.
 std::uint64_t max_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
                                std::uint64_t max_bucket_sites) {
   const std::uint64_t share =
@@ -61,6 +62,7 @@ class RankCounter {
   }
 
  private:
+  // Tells the number of sites to all ranks, so that each knows the index of its first one.
   void find_first_sites() {
     api::validate(options_, 0);
     MessageWriter writer;
@@ -108,6 +110,7 @@ class RankCounter {
     result_.keys.resize(num_kept);
   }
 
+  // Counts the sites of this rank, and returns for each rank the slice of counts that it adds up.
   std::vector<Bytes> slices_of_counts() {
     counts_->add(result_.keys);
     const std::vector<std::uint64_t> counts = counts_->counts_of_round();
@@ -123,6 +126,7 @@ class RankCounter {
     return messages;
   }
 
+  // Returns the sums of one slice over all ranks, with what is known of all sites.
   [[nodiscard]] Bytes sum_slices(std::span<const Bytes> received) const {
     const std::size_t begin = slice_begin(num_counts_, session_.rank(), session_.size());
     const std::size_t end = slice_begin(num_counts_, session_.rank() + 1, session_.size());
@@ -138,6 +142,7 @@ class RankCounter {
     return writer.take();
   }
 
+  // Puts the slices of sums together; each rank then goes on with the same counts.
   void read(std::span<const Bytes> received) {
     std::vector<std::uint64_t> counts(num_counts_);
     for (std::size_t rank = 0; rank < received.size(); ++rank) {

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Areas: each rank computes those of the sites in its buckets and sends them to the ranks that gave
+// the sites. Circumcenters: each rank computes those of its faces, in pieces for its threads.
+
 #include "distributed/rank_duals.h"
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Triangulates from a file to files; each rank reads and writes its share.
+// Steps: read the rows of this rank, triangulate, compute areas where they are wanted, write the
+// rows of this rank to each result, and name all results when every rank has written.
 
 #include <memory>
 #include <span>
@@ -21,6 +23,8 @@ namespace rondel {
 namespace distributed {
 namespace {
 
+// Returns the sites of this rank: successive rows, as many as for other ranks or one more. Throws
+// FileError for names of files that do not fit, and with the row of a site that is not valid.
 LargeVector<Point> read_share(BspSession& session, const std::string& path,
                               const DistributedFiles& files, const system::Job& options) {
   session.begin("read");
@@ -123,6 +127,7 @@ class SharedResults {
   std::vector<std::unique_ptr<SharedRows>> written_;
 };
 
+// Writes all results together with the other ranks; the value returned has no meaning.
 bool write_files(BspSession& session, const DistributedTriangulation& part,
                  const DistributedFiles& files, const Execution& execution) {
   std::vector<double> areas;

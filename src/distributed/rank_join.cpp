@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Rank 0 reads what the ranks left open, in the order of the curve, and joins it. If all sites are
+// open and on one great circle there is nothing to join, and they are sorted into a ring.
+
 #include "distributed/rank_join.h"
 
 #include <algorithm>
@@ -52,6 +55,7 @@ JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
   return report;
 }
 
+// Returns the messages that were written, by rank.
 std::vector<Bytes> take(std::vector<MessageWriter> writers) {
   std::vector<Bytes> messages;
   messages.reserve(writers.size());

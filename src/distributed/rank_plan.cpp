@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// First each square gets a rank; then the faces of the cube are divided until a square belongs to
+// one rank and does not have too many sites.
+
 #include "distributed/rank_plan.h"
 
 #include <algorithm>
@@ -10,6 +13,7 @@ namespace {
 
 using order::high_levels;
 
+// Returns the rank of each square, by the position of its middle site among all.
 std::vector<std::size_t> ranks_of(std::span<const BucketCut> squares, std::size_t num_ranks) {
   double num_all = 0;
   for (const BucketCut& square : squares) num_all += static_cast<double>(square.num_sites);
@@ -24,6 +28,8 @@ std::vector<std::size_t> ranks_of(std::span<const BucketCut> squares, std::size_
   return ranks;
 }
 
+// Walks along the curve and merges the squares of one rank. next_ is the first square that is in no
+// bucket yet.
 class Planner {
  public:
   Planner(std::span<const BucketCut> squares, std::span<const std::size_t> ranks,

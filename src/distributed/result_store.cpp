@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Two files: one has a slot for each bucket, as large as its number of sites may need, with
+// duplicates, rows, faces, neighbors and points; borders, whose size is known only when a bucket is
+// triangulated, are appended to the other one.
+
 #include "distributed/result_store.h"
 
 #include <algorithm>
@@ -39,8 +43,9 @@ class BorderWriter {
 
   void add(std::uint64_t word) { put(std::span<const std::uint64_t>(&word, 1)); }
 
+  // Appends a vector as WordReader::read() expects it, and adds it to the checksum: its size, then
+  // its bytes, filled up to whole words with zeros.
   template <class T>
-  // Appends a vector as WordReader::read() expects it, and adds it to the checksum.
   void add(const std::vector<T>& values) {
     add(values.size());
     const auto bytes = std::as_bytes(std::span(values));
@@ -144,6 +149,7 @@ void ResultStore::write(std::size_t i, const bulk::Bucket& bucket,
   borders_end_ += writer.num_words() * sizeof(std::uint64_t);
 }
 
+// The sizes of the files are compared first, as reading beyond their ends is an error.
 bool ResultStore::has(std::size_t i, const StoredBucket& stored) const {
   const std::uint64_t end =
       points_at(i, stored) + (parts_.has_points ? sizeof(Point) * stored.num_vertices : 0);

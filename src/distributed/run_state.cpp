@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The journal is a list of records, each a row of words whose first one is its kind. The first
+// record says what the run is about; the others repeat the changes of the state in their order.
+
 #include "distributed/run_state.h"
 
 #include <algorithm>

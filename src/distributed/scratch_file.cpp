@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reading and writing at a place go on until all bytes are done, as the system may do fewer.
+
 #include "distributed/scratch_file.h"
 
 #include <cerrno>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Rank 0 makes the file with its header and its full size; each rank then writes at the place of
+// its first row. The shape decides the type of the numbers: doubles, or 32 or 64 bits.
+
 #include "distributed/shared_rows.h"
 
 #include <array>

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Sites are read piece by piece. Each piece is sorted by bucket in memory, so that each bucket has
+// one write of points and one of rows for each piece.
+
 #include "distributed/site_spool.h"
 
 #include <algorithm>
