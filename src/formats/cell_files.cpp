@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reads the cells of grids and meshes: read_cells(), CellSet::read() and cells_of_corners().
+//
+// The readers of the conventions (netcdf_cells.h) are asked in turn, and the first one that
+// recognizes the file gives nodes and rings. Then nodes in one place become one corner, rings
+// become counterclockwise, and centers are compared with the cells that they belong to.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,8 +35,8 @@ namespace rondel {
 namespace {
 
 // Returns the file, and the name of a variable that its user has written behind the last colon, as
-// in FILE.nc:NAME. The name is empty if a file of the whole name exists, or none of the part before
-// the colon.
+// in FILE.nc:NAME. The name is empty if a file of the whole name exists, or no file of the part
+// before the colon.
 std::pair<FileName, std::string> split_part(const FileName& file) {
   const std::size_t at = file.path.rfind(':');
   constexpr std::size_t drive = 2;  // a drive of Windows, C:
@@ -44,10 +49,13 @@ std::pair<FileName, std::string> split_part(const FileName& file) {
   return {FileName(whole, file.format), file.path.substr(at + 1)};
 }
 
-// Reads the cells by the first convention that the file follows.
+// Reads the cells by the first convention that the file follows. `name` is a variable that is on
+// the cells, or empty. Throws BadValue if there is no variable of this name or no convention fits.
 formats::MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name) {
+  // The name of a grid of OASIS, such as torc, is that of no variable.
   const bool is_oasis = file.find(name + ".clo") != nullptr;
   if (!name.empty() && !is_oasis) (void)file.require(name);
+  // CF comes last, since files of the other conventions may have longitudes and latitudes, too.
   for (const auto read : {&formats::read_ugrid, &formats::read_scrip_grid, &formats::read_esmf_mesh,
                           &formats::read_mpas_cells, &formats::read_icon, &formats::read_oasis,
                           &formats::read_exodus, &formats::read_cf_grid}) {
@@ -80,6 +88,7 @@ class RingsOfNodes {
     corner_of_ = std::move(places.numbers);
   }
 
+  // Reserves room for as many cells, rings and corners.
   void reserve(std::size_t num_cells, std::size_t num_rings, std::size_t num_corners) {
     made_.cells.reserve(num_cells + 1);
     made_.rings.reserve(num_rings + 1);
@@ -102,7 +111,9 @@ class RingsOfNodes {
     }
     ring_.clear();
   }
+  // Ends a cell, which has the rings that were ended since the last call; it may have none.
   void end_cell() { made_.end_cell(); }
+  // Returns the cells. This object is empty afterwards.
   CellRings take() && { return std::move(made_); }
 
  private:
@@ -126,6 +137,7 @@ CellRings cells_of(formats::MeshContent& mesh) {
     maker.end_cell();
   }
   CellRings cells = std::move(maker).take();
+  // A masked cell may have no corners, so it is not counted.
   std::size_t num_empty = 0;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
@@ -193,6 +205,7 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_
                            " and latitude " + system::shortest_text(lat) + ", which is no place",
                        k / corners_per_cell);
   }
+  // Each cell is one ring; corners that it repeats to fill up its row are dropped.
   RingsOfNodes maker(corners, same_place);
   maker.reserve(corners.size() / corners_per_cell, corners.size() / corners_per_cell,
                 corners.size());
@@ -211,9 +224,11 @@ bool can_read_cells(const FileName& file) { return is_netcdf_file(split_part(fil
 CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& file_name,
                             const std::string& part) {
   formats::MeshContent mesh = read_by_convention(file, io::full_name(file.variables(), part));
+  // A grid of meridians and parallels has lines in place of rings.
   CellTable table;
   if (!mesh.grid) table.cells = cells_of(mesh);
   require_centers(mesh);
+  // CF has no `center_names`: its centers are compared at the end, by a weaker rule.
   if (!mesh.center_names.empty() && !mesh.centers.empty()) {
     std::string remark = require_own_centers(mesh, table.cells);
     if (!remark.empty()) mesh.remarks.push_back(std::move(remark));
@@ -241,6 +256,7 @@ CellTable read_cells(const FileName& file) {
 CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                       const Execution& execution) {
   const std::string ending = io::ending(file);
+  // A file may have the ending of GeoJSON and be netCDF all the same; its first bytes decide.
   const bool are_polygons = (ending == ".geojson" || ending == ".json") && !can_read_cells(file);
   const PolygonOptions rules{
       .edges = options.edges, .overlap = options.overlap, .is_taken = options.is_taken};

@@ -33,6 +33,8 @@ constexpr std::size_t no_variable = CoordinatePair::none;
 // Finds the coordinates of the grid that is to be read. `remarks` gets what is noteworthy.
 class CfGrids {
  public:
+  // Finds all pairs of coordinates of the file, or those that `name` means. Throws BadValue if the
+  // variable `name` has no coordinates.
   CfGrids(const NetcdfReader& file, const std::string& name, std::vector<std::string>& remarks)
       : file_(file), headers_(headers_of(file)), remarks_(remarks) {
     if (name.empty()) {
@@ -67,6 +69,7 @@ class CfGrids {
     return &*found;
   }
 
+  // Returns the variable of the file that has this number in CoordinatePair.
   [[nodiscard]] const io::VariableInFile& variable(std::size_t index) const {
     return file_.variables()[index];
   }
@@ -83,6 +86,7 @@ class CfGrids {
         some, [&](const std::string& name) { return std::ranges::count(all, name) != 0; });
   }
 
+  // Returns the names of the dimensions of both coordinates, each once.
   [[nodiscard]] std::vector<std::string> dimensions_of(const CoordinatePair& pair) const {
     std::vector<std::string> names = headers_[pair.lat].dimensions;
     for (const std::string& name : headers_[pair.lon].dimensions) {
@@ -103,6 +107,7 @@ class CfGrids {
         degrees_of(file_, *pair[0], UsualUnits::of_name, {nullptr, pair[1]});
     const std::vector<double> lat =
         degrees_of(file_, *pair[1], UsualUnits::of_name, {nullptr, pair[0]});
+    // The places may be stored as (lat, lon) or as (lon, lat).
     const bool is_lon_last = places.dimensions.back() == variable(axes.lon).dimensions[0];
     constexpr double max_apart = 1e-3;  // degrees
     for (std::size_t i = 0; i < places.lon.size(); ++i) {
@@ -129,6 +134,7 @@ class CfGrids {
     for (const CoordinatePair& pair : pairs_) {
       const bool is_other = pair.lon != taken.lon || pair.lat != taken.lat;
       if (!is_other || !has_cells(pair) || !pair.is_used) continue;
+      // Coordinates along the same dimensions describe the same cells, so they are no other grid.
       if (are_among(dimensions_of(pair), dimensions_of(taken))) continue;
       if (++number <= most) {
         others += (others.empty() ? "" : ", ") + headers_[pair.lon].name + " and " +
@@ -149,7 +155,8 @@ class CfGrids {
 };
 
 // Returns the bounds of an axis in degrees, two for each cell or one more than cells, or none if it
-// has no bounds.
+// has no bounds (`bounds` is null). `other` is the other axis, whose units count if the axis has
+// none. Throws BadValue for any other number of bounds.
 std::vector<double> bounds_of_axis(const NetcdfReader& file, const io::VariableInFile& axis,
                                    const io::VariableInFile& other,
                                    const io::VariableInFile* bounds) {
@@ -161,6 +168,7 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const io::VariableI
                    std::to_string(2 * axis.num_values));
   }
   std::vector<double> values = degrees_of(file, *bounds, UsualUnits::of_name, {&axis, &other});
+  // Some files have the bounds as (2, n) in place of (n, 2), the shape of CF section 7.1.
   if (bounds->dimensions.size() == 2 && bounds->dimensions[1] == axis.dimensions[0] &&
       bounds->dimensions[0] != axis.dimensions[0]) {
     values = in_order(*bounds, {bounds->dimensions[1], bounds->dimensions[0]}, std::move(values));
@@ -168,7 +176,8 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const io::VariableI
   return values;
 }
 
-// Returns the lines between cells along an axis, in degrees.
+// Returns the lines between cells along an axis in degrees, one more than cells. `bounds` may be
+// null. Throws BadValue, with the name of the variable, if coordinates or bounds are out of order.
 std::vector<double> lines_of(const NetcdfReader& file, const io::VariableInFile& axis,
                              const io::VariableInFile& other, const io::VariableInFile* bounds,
                              bool is_longitude) {
@@ -227,7 +236,7 @@ void require_repeated(const io::VariableInFile& bounds, std::span<const double> 
   }
 }
 
-// The lengths of the last two dimensions.
+// Returns the lengths of the last two dimensions.
 GridShape last_two_of(std::span<const std::uint64_t> lengths) {
   return {lengths[lengths.size() - 2], lengths[lengths.size() - 1]};
 }
@@ -244,9 +253,10 @@ bool is_of_nodes(const io::VariableInFile& bounds, const PlaceArrays& places) {
   return (rows == ny + 1 && columns == nx + 1) || (rows == nx + 1 && columns == ny + 1);
 }
 
-// Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
-// in `corners_per_cell`. The bounds have one more dimension than the coordinate, or they are the nodes of a
-// grid: then the nodes are returned, and `corners_per_cell` is 0.
+// Returns one coordinate of the corners of all cells in degrees, cell by cell, and their number for
+// each cell in `corners_per_cell`. The bounds have one more dimension than the coordinate, or they
+// are the nodes of a grid: then the nodes are returned, and `corners_per_cell` is 0. Throws
+// BadValue if the bounds have neither form, or change along dimensions that places do not have.
 std::vector<double> corners_of_bounds(const NetcdfReader& file,
                                       const io::VariableInFile& coordinate,
                                       const io::VariableInFile& other,
@@ -282,6 +292,7 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file,
     corners_per_cell = 0;
     return values;
   }
+  // Bounds may have dimensions of other names; then the corners are taken for the last one.
   if (num_cells == 0 || values.size() % num_cells != 0) {
     throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
                    std::to_string(bounds.num_values) + " values for " + std::to_string(num_cells) +
@@ -291,7 +302,9 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file,
   return values;
 }
 
-// Makes the cells of coordinates with bounds.
+// Makes the cells of coordinates with bounds. Each cell has nodes of its own, which RingsOfNodes
+// (cell_files.cpp) joins to corners. Throws BadValue if the bounds of longitudes and latitudes do
+// not have the same number of corners.
 MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
                                const CoordinatePair& pair) {
   MeshContent mesh;
@@ -305,6 +318,7 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   const std::vector<double> lons =
       corners_of_bounds(file, lon, lat, lon_bounds, places, corners_per_cell);
   std::vector<double> lats = corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
+  // The nodes of a grid may be stored as (ny, nx) for one coordinate and (nx, ny) for the other.
   if (of_each_lat == 0 &&
       std::ranges::is_permutation(lon_bounds.dimensions, lat_bounds.dimensions)) {
     lats = in_order(lat_bounds, lon_bounds.dimensions, std::move(lats));
@@ -329,7 +343,8 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   return mesh;
 }
 
-// Makes the cells of axes.
+// Makes the cells of axes: a grid between meridians and parallels, with its centers row by row from
+// the first latitude on. Throws BadValue for a coordinate that is no place.
 MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
                              const CoordinatePair& pair) {
   MeshContent mesh;

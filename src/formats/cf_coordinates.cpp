@@ -17,7 +17,8 @@ using formats::CoordinateKind;
 
 constexpr std::size_t none = CoordinatePair::none;
 
-// The rank of a pair is a sum of these.
+// The rank of a pair is a sum of these. Each is more than all that follow it together, so that the
+// first difference of two pairs decides.
 constexpr int rank_of_listed = 64;
 constexpr int rank_of_attributes = 32;
 constexpr int rank_of_bounds = 16;
@@ -61,6 +62,8 @@ bool has_same_dimensions(const VariableHeader& a, const VariableHeader& b) {
 // Searches the pairs of longitudes and latitudes among variables.
 class CoordinateSearch {
  public:
+  // Takes the variables of a file and what is asked for; `remarks` may be null. Throws InvalidInput
+  // for a name in the query that no variable has.
   CoordinateSearch(std::span<const VariableHeader> variables, const CoordinateQuery& query,
                    std::vector<std::string>* remarks)
       : variables_(variables), remarks_(remarks) {
@@ -87,6 +90,7 @@ class CoordinateSearch {
         found.push_back(pair_of(lon, lat, std::min(lon_evidence, lat_evidence)));
       }
     }
+    // Which pairs are crossed is only known when all of them are.
     for (CoordinatePair& pair : found) {
       if (!is_crossed(pair, found)) pair.rank += rank_of_uncrossed;
     }
@@ -214,7 +218,8 @@ class CoordinateSearch {
     return none;
   }
 
-  // Returns the pair with its bounds and its rank.
+  // Returns the pair with its bounds and its rank. `known_by` is the smaller coordinate_evidence()
+  // of the two variables.
   [[nodiscard]] CoordinatePair pair_of(std::size_t lon, std::size_t lat, int known_by) const {
     CoordinatePair pair;
     pair.lon = lon;
@@ -233,7 +238,7 @@ class CoordinateSearch {
     return pair;
   }
 
-  // True if another variable has all dimensions of the pair.
+  // True if a variable other than the pair and its bounds has all dimensions of the pair.
   [[nodiscard]] bool is_used(const CoordinatePair& pair) const {
     for (std::size_t i = 0; i < variables_.size(); ++i) {
       if (i == pair.lon || i == pair.lat || i == pair.lon_bounds || i == pair.lat_bounds) continue;
@@ -248,13 +253,15 @@ class CoordinateSearch {
     return false;
   }
 
+  // Numbers of variables are indices into `variables_`; `none` stands for a name that was not
+  // given.
   std::span<const VariableHeader> variables_;
   std::vector<std::string>* remarks_;
   std::size_t chosen_lon_ = none;
   std::size_t chosen_lat_ = none;
   std::size_t values_ = none;
-  std::vector<std::vector<std::string>> lists_;  // by variable: the words of its attribute
-                                                 // `coordinates`
+  // The words of each attribute `coordinates` that has several.
+  std::vector<std::vector<std::string>> lists_;
 };
 
 }  // namespace
@@ -268,6 +275,7 @@ int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind) {
   if (standard_name == marks.standard_name) return 3;
   const std::string units = variable.text("units");
   if (has_unit(marks, units) || variable.text("_CoordinateAxisType") == marks.axis_type) return 2;
+  // A standard_name or units that say something else outweigh the name of the variable.
   const bool is_denied =
       !standard_name.empty() ||
       (!formats::without_blanks(units).empty() && !degrees_per_unit(units)) ||
@@ -316,6 +324,8 @@ std::vector<CoordinatePair> coordinates_of(std::span<const VariableHeader> varia
   const auto is_part = [&](const CoordinatePair& pair) {
     return pair.lon == variable || pair.lat == variable;
   };
+  // A coordinate is at the places of its own pairs. For other variables an attribute `coordinates`
+  // excludes all pairs that it does not list.
   if (std::ranges::any_of(pairs, is_part)) {
     std::erase_if(pairs, [&](const CoordinatePair& pair) { return !is_part(pair); });
   } else if (std::ranges::any_of(pairs, &CoordinatePair::is_listed)) {
@@ -341,13 +351,15 @@ std::vector<bool> repeated_dimensions(std::span<const std::string> names,
   std::size_t stride = size;
   std::size_t num_kept = shape.size();
   for (std::size_t d = 0; d < shape.size(); ++d) {
-    const std::size_t block = stride;  // number of values for one index of the dimensions before
-                                       // this one
+    // The number of values for one index of the dimensions before this one.
+    const std::size_t block = stride;
     stride = shape[d] == 0 ? 0 : block / shape[d];
     const bool is_time = is_name_of_time(names[d]);
+    // One dimension is always kept, and so is one of length 1 that is not called time.
     if (shape[d] == 0 || (shape[d] == 1 && !is_time) || num_kept == 1) continue;
     bool changes = false;
     for (std::size_t i = 0; i < size && !changes; ++i) {
+      // This is the value at index 0 of dimension d, and the same indices of the others.
       const std::size_t first = i - i % block + i % stride;
       changes = !is_same(lon[i], lon[first]) || !is_same(lat[i], lat[first]);
     }

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the lines between the cells of an axis.
+// Finds the lines between the cells of an axis: axis_lines() and require_order(). Lines come from
+// the bounds (CF section 7.1, two for each cell, or one more than cells), or else lie halfway
+// between the coordinates.
+//
+// Longitudes are first made monotonic by whole turns. At last, latitudes are ended at the poles,
+// and longitudes that go around the globe are closed. All numbers are degrees.
 #include "formats/cf_lines.h"
 
 #include <algorithm>
@@ -39,8 +44,8 @@ void require_finite_axis(std::span<const double> values, const std::string& what
   }
 }
 
-// Adds whole turns so that each longitude differs by less than half a turn from the one before; or
-// by less than a turn in the direction of `sign`.
+// Adds whole turns so that each longitude lies less than a turn beyond the one before it, to the
+// east if `sign` is 1 and to the west if it is -1.
 void unroll(std::vector<double>& values, double sign) {
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double turns = std::ceil(sign * (values[i - 1] - values[i]) / 360);
@@ -85,7 +90,7 @@ std::pair<std::vector<double>, double> steps_along_axis(std::span<const double> 
   if (!is_longitude) return {steps, 2 * num_down > n ? -1.0 : 1.0};
   const double sign = goes_west({values.begin(), values.end()}) ? -1 : 1;
   for (double& step : steps) {
-    // What is sorted may have steps of more than half a turn.
+    // Sorted longitudes may have steps of more than half a turn.
     const double shorter = std::remainder(step, 360);
     step = is_sorted && shorter != 0 ? sign : std::abs(shorter) == 180 ? sign * 180 : shorter;
   }
@@ -138,6 +143,7 @@ void end_at_poles(std::vector<double>& lines) {
     return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;
   };
   const std::size_t n = lines.size();
+  // Both widths are taken before either line moves, which matters for an axis of one cell.
   const double last_width = lines[n - 1] - lines[n - 2];
   lines[0] = to_pole(lines[0], lines[1] - lines[0]);
   lines[n - 1] = to_pole(lines[n - 1], last_width);
@@ -185,11 +191,14 @@ std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitud
       n < 2 || apart(cells[0].high, cells[1].low) <= apart(cells[0].low, cells[1].high);
   std::vector<double> lines = {is_upward ? cells[0].low : cells[0].high};
   for (std::size_t i = 0; i < n; ++i) {
+    // Cells are walked in the direction of the axis, each from the side that it shares with the one
+    // before it.
     const double begin = is_upward ? cells[i].low : cells[i].high;
     const double end = is_upward ? cells[i].high : cells[i].low;
     const double turns = is_longitude ? std::round((lines.back() - begin) / 360) * 360 : 0;
     const double gap = begin + turns - lines.back();
     if (!(std::abs(gap) <= rounding_share * std::abs(end - begin))) {
+      // A cell that begins before the end of the one before it overlaps that cell.
       if (is_upward == (gap < 0)) refuse_overlap(cells, i - 1, i);
       throw InvalidInput("bounds leave a gap before cell " + std::to_string(i), i);
     }

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Tables of names: coordinates, bounds, connectivities and dimensions as CF and models call them.
+// They decide only where the attributes of a variable do not. What attributes say is in
+// cf_coordinates.cpp, units are in cf_units.cpp.
 #include "formats/cf_names.h"
 
 #include <algorithm>
@@ -83,6 +86,7 @@ std::string remark_on_rotation(const VariableHeader& variable) {
 }
 
 bool are_partners(std::string_view lon, std::string_view lat) {
+  // The longer words come first, since "long" is the beginning of "longitude".
   constexpr std::array<KnownNames, 4> words = {KnownNames{"longitude", "latitude"},
                                                KnownNames{"glam", "gphi"},
                                                KnownNames{"long", "lat"}, KnownNames{"lon", "lat"}};
@@ -124,6 +128,7 @@ bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
 namespace rondel {
 
 bool is_name_of_cells(std::string_view dimension) {
+  // These are the names in files of MPAS, ICON, CAM, UGRID, SCRIP and ESMF.
   constexpr std::array<std::string_view, 9> names = {"nCells",    "ncells",       "cell",
                                                      "ncol",      "n_face",       "nMesh2_face",
                                                      "grid_size", "elementCount", "cells"};
@@ -132,6 +137,7 @@ bool is_name_of_cells(std::string_view dimension) {
 
 bool is_name_of_time(std::string_view dimension) {
   const std::string lower = formats::lower_case(dimension);
+  // NEMO has time_counter, ROMS ocean_time.
   return lower == "time" || lower == "t" || lower == "times" || lower == "ntime" ||
          lower == "time_counter" || lower == "ocean_time" || lower == "record";
 }

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reads variables as CF means them: packed numbers are unpacked, missing ones become NaN (sections
+// 2.5.1 and 8.1), and angles become degrees. places_of() pairs longitudes with latitudes and drops
+// dimensions along which they only repeat, such as time.
 #include "formats/cf_reader.h"
 
 #include <algorithm>
@@ -24,6 +27,7 @@ VariableHeader header_of(const io::NetcdfReader& file, const io::VariableInFile&
   }
   header.shape = variable.shape;
   for (const io::NetcdfAttribute& attribute : variable.attributes) {
+    // Numbers among the attributes are rules for values, which cf_values.h reads.
     if (attribute.type == io::NetcdfType::text) {
       header.texts.emplace_back(attribute.name, attribute.text);
     }
@@ -63,6 +67,7 @@ double degrees_per_unit_of(const io::NetcdfReader& file, const io::VariableInFil
                            std::initializer_list<const io::VariableInFile*> relatives) {
   const VariableHeader own = header_of(file, variable);
   std::vector<VariableHeader> headers;
+  // Pointers into this vector are kept, so it must not move.
   headers.reserve(relatives.size());
   std::vector<const VariableHeader*> known;
   bool has_units = !without_blanks(own.text("units")).empty();
@@ -72,6 +77,7 @@ double degrees_per_unit_of(const io::NetcdfReader& file, const io::VariableInFil
     known.back() = &headers.emplace_back(header_of(file, *relative));
     has_units = has_units || !without_blanks(headers.back().text("units")).empty();
   }
+  // The units of the convention count only where the file says nothing at all.
   const bool is_usual = !has_units && !is_rotated_or_projected(own);
   if (!is_usual || usual == UsualUnits::of_name) return degrees_per_unit(own, known);
   return usual == UsualUnits::radians ? 180 / std::numbers::pi : 1;
@@ -107,6 +113,7 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
   }
   std::vector<double> ordered;
   ordered.reserve(values.size());
+  // `at` counts through the new array, the last index fastest; `place` follows in the old one.
   std::vector<std::size_t> at(rank, 0);
   std::size_t place = 0;
   while (ordered.size() < values.size()) {
@@ -171,8 +178,8 @@ PlaceArrays places_of(const io::NetcdfReader& file, const io::VariableInFile& lo
       require_one_place(file, kind, PlacesMay::be_missing);
   }
   // Places that are repeated at many times need not be in memory together.
-  const bool has_room = lon.num_values <= file.max_values();  // otherwise reading them below is an
-                                                              // error
+  // Without room for them in the file, reading them below is an error.
+  const bool has_room = lon.num_values <= file.max_values();
   if (has_room && has_time_first(file, lon) && has_time_first(file, lat) &&
       lon.shape == lat.shape && is_repeated_along_first(file, lon) &&
       is_repeated_along_first(file, lat)) {

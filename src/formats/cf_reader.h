@@ -41,26 +41,28 @@ std::vector<double> degrees_of(const io::NetcdfReader& file, const io::VariableI
                                UsualUnits usual = UsualUnits::of_name,
                                std::initializer_list<const io::VariableInFile*> relatives = {});
 
-// Returns an array with its dimensions in another order: order[k] is the new position of dimension
-// k of `shape`.
+// Returns an array with its dimensions in another order: dimension k of the result is dimension
+// order[k] of `shape`.
 std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                const std::vector<std::size_t>& order, std::vector<double> values);
 // Returns the values with the dimensions in the wanted order; dimensions are given by their numbers
-// in the file, which differ.
+// in the file, and those of one variable differ.
 std::vector<double> in_order(const io::VariableInFile& variable,
                              const std::vector<std::size_t>& wanted, std::vector<double> values);
 
 // Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
 struct PlaceArrays {
-  std::vector<std::size_t> dimensions;  // dimensions of the longitudes along which places differ
-  // lengths of these dimensions
+  // The dimensions of the longitudes along which places differ, by their numbers in the file.
+  std::vector<std::size_t> dimensions;
+  // The lengths of these dimensions.
   std::vector<std::uint64_t> shape;
-  std::vector<std::size_t> repeated;  // other dimensions, such as time, along which places are
-                                      // repeated
+  // Other dimensions, such as time, along which places are repeated.
+  std::vector<std::size_t> repeated;
   std::vector<double> lon;
   std::vector<double> lat;
 };
-// Reads the places. Throws BadValue if the dimensions of `lon` and `lat` do not agree.
+// Reads the places. Dimensions along which they only repeat are dropped. Throws BadValue if the
+// dimensions of `lon` and `lat` do not agree, or places move with time.
 PlaceArrays places_of(const io::NetcdfReader& file, const io::VariableInFile& lon,
                       const io::VariableInFile& lat, UsualUnits usual = UsualUnits::of_name);
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Units of angles as UDUNITS 2.2 spells them. Names may be in any case and have a plural; symbols
+// Units of angles as UDUNITS 2.2 spells them, of which CF allows those of longitudes and latitudes
+// in sections 4.1 and 4.2: degrees_per_unit(). Names may be in any case and have a plural; symbols
 // must match exactly.
 #include <algorithm>
 #include <array>
@@ -66,6 +67,7 @@ constexpr std::array unit_symbols = {
     UnitSymbol{"rad", degrees_per_radian},
     UnitSymbol{"mrad", degrees_per_radian / 1e3},
     UnitSymbol{"urad", degrees_per_radian / 1e6},
+    // This is the degree sign in UTF-8.
     UnitSymbol{"\xC2\xB0", 1},
 };
 
@@ -103,7 +105,8 @@ std::optional<double> degrees_per_unit(std::string_view units) {
 }
 
 // Returns the degrees in a unit of the variable; without units, those of the first relative that
-// has some.
+// has some. Throws InvalidInput for units that are no angles, and for coordinates of a rotated pole
+// or a projection.
 double degrees_per_unit(const VariableHeader& variable,
                         std::span<const VariableHeader* const> relatives) {
   if (formats::is_rotated_or_projected(variable)) {
@@ -122,6 +125,8 @@ double degrees_per_unit(const VariableHeader& variable,
     const bool is_first = relative == relatives.front();
     if (!formats::without_blanks(relative->text("units")).empty()) {
       const double degrees = degrees_per_unit(*relative);
+      // Only the first relative is of the same kind, so only its units say that degrees count to
+      // the west.
       return is_first ? degrees : std::abs(degrees);
     }
     is_in_radians = is_in_radians || (is_first && formats::is_in_radians(relative->name));

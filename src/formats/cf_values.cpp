@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Implements the rules of cf_values.h: the constructor reads the attributes of a variable, apply()
+// unpacks the numbers of a file, and apply_to_unpacked() finds missing ones among numbers that
+// another program has unpacked. mark_missing() offers the last one to callers, with types and
+// attributes as NumPy has them.
 #include "formats/cf_values.h"
 
 #include <algorithm>
@@ -25,14 +29,16 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// The types of netCDF by the kind of their numbers.
+// True for the types of netCDF that are numbers of single or double precision.
 bool is_floating(io::NetcdfType type) {
   return type == io::NetcdfType::float32 || type == io::NetcdfType::float64;
 }
+// True for the types that _Unsigned = "true" makes unsigned.
 bool is_signed_integer(io::NetcdfType type) {
   return type == io::NetcdfType::int8 || type == io::NetcdfType::int16 ||
          type == io::NetcdfType::int32 || type == io::NetcdfType::int64;
 }
+// True for the types that _Unsigned = "false" makes signed.
 bool is_unsigned_integer(io::NetcdfType type) {
   return type == io::NetcdfType::uint8 || type == io::NetcdfType::uint16 ||
          type == io::NetcdfType::uint32 || type == io::NetcdfType::uint64;
@@ -47,7 +53,8 @@ std::optional<double> number_of_text(const std::string& text) {
   }
 }
 
-// Returns the numbers of an attribute, which may be a text.
+// Returns the numbers of an attribute, which may be a text of numbers with blanks or commas between
+// them; empty if there is no attribute, or the text has other words.
 std::vector<double> numbers_of_attribute(const io::NetcdfVariable& variable,
                                          std::string_view name) {
   const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
@@ -153,6 +160,7 @@ void ValueRules::read_missing(const io::NetcdfVariable& variable) {
                             io::is_double(attribute->integers[i], type_);
       if (is_exact) missing_.push_back(as_type(values[i]));
     }
+    // Rule 2: doubles are compared with this one in single precision.
     is_single_ |=
         type_ == io::NetcdfType::float64 && has_type(variable, name, io::NetcdfType::float32);
   }
@@ -166,6 +174,8 @@ void ValueRules::read_range(const io::NetcdfVariable& variable) {
   const std::vector<double> range = numbers_of_attribute(variable, "valid_range");
   const std::vector<double> least = numbers_of_attribute(variable, "valid_min");
   const std::vector<double> most = numbers_of_attribute(variable, "valid_max");
+  // Returns number i of the attribute. For an integer that is no double it is the next double
+  // inside of the range.
   const auto bound = [&](const char* name, const std::vector<double>& numbers, std::size_t i,
                          bool is_lower) {
     const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
@@ -185,8 +195,10 @@ void ValueRules::read_range(const io::NetcdfVariable& variable) {
         variable, name,
         std::string("is not heeded: it is not ") + (count == 1 ? "one number" : "two numbers"));
   }
+  // If a file has valid_min or valid_max beside valid_range, these count.
   if (least.size() == 1) lowest_ = bound("valid_min", least, 0, true);
   if (most.size() == 1) highest_ = bound("valid_max", most, 0, false);
+  // Rule 3: the type of the range says whether it is one of packed or unpacked numbers.
   for (const char* name : {"valid_range", "valid_min", "valid_max"}) {
     for (const char* factor : {"scale_factor", "add_offset"}) {
       const io::NetcdfAttribute* const unpacked = io::find_attribute(variable.attributes, factor);
@@ -204,13 +216,14 @@ void ValueRules::read_range(const io::NetcdfVariable& variable) {
   }
 }
 
+// Appends a part of the sentence that remark() returns.
 void ValueRules::add_remark(const io::NetcdfVariable& variable, std::string_view attribute,
                             const std::string& what) {
   remark_ += remark_.empty() ? "variable " + io::in_quotes(variable.name) + ": " : "; ";
   remark_ += "attribute " + std::string(attribute) + ' ' + what;
 }
 
-// Returns the number converted to the type of the variable.
+// Returns the number converted to the type of the variable, which _Unsigned may change.
 double ValueRules::as_type(double value) const {
   if (type_ == io::NetcdfType::float32 && std::abs(value) <= std::numeric_limits<float>::max()) {
     return static_cast<double>(static_cast<float>(value));
@@ -270,6 +283,7 @@ bool ValueRules::is_lost(double value, double rounding) const {
   if (std::ranges::any_of(missing_, is_one) || std::ranges::any_of(rounded_missing_, is_one) ||
       (!is_packed() && is_missing(value)))
     return true;
+  // The range is that of packed numbers, so the value is packed again.
   double number = is_packed() ? (value - offset_) / scale_ : value;
   const double integer = std::nearbyint(number);
   const bool is_integer = quarter > 0 && std::abs(number - integer) <= 0.25;

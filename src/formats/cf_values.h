@@ -26,6 +26,7 @@
 
 namespace rondel::formats {
 
+// The rules for the numbers of one variable.
 class ValueRules {
  public:
   // Throws BadValue if scale_factor or add_offset is no finite number, or several.
@@ -42,12 +43,16 @@ class ValueRules {
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
-  // These read the attributes of rules 4, 1 and 3.
+  // Reads _Unsigned (rule 4).
   void read_signedness(const io::NetcdfVariable& variable);
+  // Reads _FillValue and missing_value, or takes the default fill value (rules 1 and 2).
   void read_missing(const io::NetcdfVariable& variable);
+  // Reads valid_range, valid_min and valid_max (rules 1 to 3).
   void read_range(const io::NetcdfVariable& variable);
+  // Adds a sentence on an attribute to remark().
   void add_remark(const io::NetcdfVariable& variable, std::string_view attribute,
                   const std::string& what);
+  // Returns a number in the type of the variable, after _Unsigned.
   [[nodiscard]] double as_type(double value) const;
   // True for a packed number that is one of those that mean missing.
   [[nodiscard]] bool is_missing(double value) const;
@@ -56,21 +61,27 @@ class ValueRules {
   [[nodiscard]] bool is_lost(double value, double rounding) const;
 
   io::NetcdfType type_;
-  double wrapped_ =
-      0;  // added to negative integers, or subtracted from integers of at least half of it
+  // Two to the number of bits if _Unsigned changes the type, else 0. It is added to negative
+  // integers, or subtracted from integers of at least half of it.
+  double wrapped_ = 0;
   bool becomes_unsigned_ = false;
+  // Packed numbers that mean missing.
   std::vector<double> missing_;
-  std::vector<double> rounded_missing_;  // of 64-bit integers that somebody else has made doubles
-  bool is_single_ = false;               // some of these are of single precision
+  // Further ones, of 64-bit integers that somebody else has made doubles.
+  std::vector<double> rounded_missing_;
+  bool is_single_ = false;  // some numbers of missing_ are of single precision
+  // The range of valid numbers, packed ones unless has_unpacked_range_.
   double lowest_;
   double highest_;
   bool has_unpacked_range_ = false;
+  // An unpacked number is scale_ times the packed one, plus offset_.
   double scale_ = 1;
   double offset_ = 0;
   std::string remark_;
 };
 
-// Returns the number that netCDF writes where nothing was written; NaN for types that have none.
+// Returns the number that netCDF writes where nothing was written (NC_FILL_INT and others); NaN for
+// types of one byte and for texts, which have none.
 double default_fill(io::NetcdfType type);
 
 }  // namespace rondel::formats

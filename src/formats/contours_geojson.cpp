@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each
-// level or band.
+// Writes isolines and bands as GeoJSON (RFC 7946): write_isolines() and write_bands().
+//
+// The file is a FeatureCollection. A feature of isolines has the property `level` and a
+// MultiLineString; one of bands has `low` and `high` (null for the first and the last band, which
+// are open) and a MultiPolygon. Several threads draw the geometries, and one writes them in order.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,7 +58,7 @@ std::string joined(std::span<const std::string> texts) {
   return all;
 }
 
-// Returns the texts of items, which several threads make.
+// Returns `count` texts, one for each item; several threads call append(text, item).
 std::vector<std::string> made_texts(
     const Execution& execution, std::size_t count,
     const std::function<void(std::string& text, std::size_t item)>& append) {
@@ -67,12 +70,14 @@ std::vector<std::string> made_texts(
   return texts;
 }
 
+// Writes a feature for each level, with the parts of its lines.
 void write_isolines_geojson(io::AtomicFile& file, const IsolinesToWrite& job) {
   const Isolines& isolines = job.isolines;
   const std::vector<std::string> texts =
       made_texts(job.execution, isolines.num_lines(), [&](std::string& text, std::size_t line) {
         const auto points = isolines.lines.rows[line];
         const bool is_closed = isolines.is_closed[line] != 0;
+        // A line is cut where it crosses the antimeridian.
         for (const auto& part : map::line_parts(points, is_closed, job.tolerance)) {
           io::append_positions(text, part);
           text += ',';
@@ -120,6 +125,7 @@ bool is_unsure(const map::DrawnRegion& region) {
 // which, it is the first one for which it seems so, or else the first one.
 void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
   using map::BorderKnowledge;
+  // If the bands with known borders cover more than half of the map, its border is in one of them.
   double covered = 0;
   for (const map::DrawnRegion& region : drawn) {
     for (const map::Loop& loop : region.loops)
@@ -176,12 +182,14 @@ std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   return map::valid_regions(std::move(loops), job.execution.threads, may_overlap);
 }
 
+// Writes a feature for each band; band k lies between the levels k - 1 and k.
 void write_bands_geojson(io::AtomicFile& file, const BandsToWrite& job) {
   const Bands& bands = job.bands;
   const std::vector<map::PolygonsOfRegion> drawn = draw_bands(job);
   file.write(io::features_begin);
   for (std::size_t k = 0; k < bands.num_bands(); ++k) {
     std::string text;
+    // Appends a level, or null for the open end of a band.
     const auto append_end = [&](bool is_open, std::size_t level) {
       if (is_open) {
         text += "null";

@@ -24,6 +24,7 @@ struct GridNames {
   std::string_view mark;
   std::array<std::string_view, 5> names;
 };
+// The rows are ESMF, SCRIP with and without corners, and ICON.
 constexpr std::array grid_names = {
     GridNames{"elementConn",
               {"nodeCoords", "elementConn", "numElementConn", "centerCoords", "elementMask"}},
@@ -37,6 +38,8 @@ constexpr std::array grid_names = {
 // Knows which variables of a file describe its grid, and are no fields.
 class GridParts {
  public:
+  // Collects the variables that a topology of UGRID names, such as those of
+  // `face_node_connectivity` and `node_coordinates`.
   explicit GridParts(std::span<const VariableHeader> variables) : variables_(variables) {
     for (const VariableHeader& variable : variables) {
       const bool is_topology = variable.text("cf_role") == "mesh_topology" ||
@@ -49,6 +52,7 @@ class GridParts {
     }
   }
 
+  // True if the variable belongs to the description of a grid or mesh.
   [[nodiscard]] bool has(const VariableHeader& variable) const {
     const std::string& name = variable.name;
     return formats::is_connectivity(variable) || std::ranges::count(named_, name) != 0 ||
@@ -57,6 +61,7 @@ class GridParts {
   }
 
  private:
+  // True if the file has a variable of this name.
   [[nodiscard]] bool is_there(std::string_view name) const {
     return std::ranges::find(variables_, name, &VariableHeader::name) != variables_.end();
   }
@@ -124,6 +129,7 @@ std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables) {
 }
 
 bool formats::has_mesh(std::span<const VariableHeader> variables) {
+  // These are marks of MPAS, SCRIP, ESMF, ICON and Exodus; the attribute below is UGRID's.
   constexpr std::array<std::string_view, 5> marks = {"verticesOnCell", "grid_corner_lon",
                                                      "elementConn", "vertex_of_cell", "connect1"};
   return std::ranges::any_of(variables, [&](const VariableHeader& variable) {

@@ -3,6 +3,10 @@
 
 // Unstructured mesh files of ESMF (ESMF reference manual, section 12.8.2, "ESMF Unstructured Grid
 // File Format"). Weights of ESMF are in weights_esmf.cpp.
+//
+// `nodeCoords` and `centerCoords` have a longitude and a latitude in each row; `elementConn` has
+// the nodes of each element, `numElementConn` how many of them there are; `elementMask` is 0 for an
+// element that takes no part.
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -20,9 +24,11 @@ namespace {
 using io::BadValue;
 using io::NetcdfReader;
 
+// The entry of `elementConn` behind the last node of an element.
 constexpr std::int32_t esmf_none = -1;
 
-// Returns the places of one variable with both coordinates of each place, as ESMF has them.
+// Returns the places of a variable of the shape (places, 2) in degrees; without units they are
+// those of `related` (which may be null), or else degrees. Throws BadValue for another shape.
 std::vector<LonLat> pairs_of(const NetcdfReader& file, const io::VariableInFile& variable,
                              const io::VariableInFile* related) {
   if (require_rank(variable, 2).shape[1] != 2) {
@@ -47,7 +53,7 @@ void define_pairs_of_degrees(MeshFile& file, const char* name, std::vector<std::
                });
 }
 
-// ESMF stores counts as bytes if these suffice.
+// Defines `numElementConn`. ESMF stores counts as bytes if these suffice.
 template <typename T>
 void define_counts(MeshFile& file, io::NetcdfType type, std::size_t cells,
                    const CellCorners& corners) {
@@ -73,8 +79,10 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
   mesh.is_single = nodes->type == io::NetcdfType::float32;
   const std::vector<double> counts = file.numbers(numbers);
   const double first = number_or(*elements, "start_index", 1);
+  // take_connectivity() heeds a break value only if it is less than the first number.
   const double no_break = first;
   const double break_value = number_or(*elements, "polybreak_value", no_break);
+  // The mask is read first, since corners of masked cells may be anything.
   take_mask(file, "elementMask", counts.size(), MaskedBy::zero, mesh);
   if (elements->shape.size() == 1) {
     // The rows have different lengths and follow each other.

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Exodus II (Schoof and Yarberry, SAND92-2137;
-// https://sandialabs.github.io/seacas-docs/exodusII-new.pdf): blocks of elements with the same number
-// of corners, at points in space. Cells are written as elements of a shell on the unit sphere;
-// numbers start at 1.
+// https://sandialabs.github.io/seacas-docs/exodusII-new.pdf): blocks of elements with the same
+// number of corners, at points in space. Cells are written as elements of a shell on the unit
+// sphere; numbers start at 1.
+//
+// The reader joins the blocks `connect1`, `connect2` ... and puts the cells into the order of their
+// numbers; the writer groups the cells into blocks by their number of corners.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +30,8 @@ namespace {
 using io::BadValue;
 using io::NetcdfReader;
 
-// Returns the nodes, which are points in space.
+// Returns the nodes, which are points in space: from `coord` of the shape (3, nodes), or from
+// `coordx`, `coordy` and `coordz`. Throws BadValue if the three have different lengths.
 std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   std::vector<Point> points;
   if (const io::VariableInFile* const all = file.find("coord")) {
@@ -87,6 +91,7 @@ void order_by_number(const NetcdfReader& file, std::size_t num_blocks, MeshConte
   const io::VariableInFile* const map = file.find("elem_num_map");
   std::vector<std::size_t> places;
   if (map != nullptr) places = places_of_numbers(file.numbers(*map), n);
+  // A map may be there and not be a permutation; then the numbers of TempestRemap may serve.
   if (places.empty()) places = places_of_numbers(ids_of_blocks(file, num_blocks), n);
   if (places.empty()) {
     if (map == nullptr) return;
@@ -144,6 +149,7 @@ std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::stri
     const auto& shape = require_rank(*corners, 2).shape;
     take_connectivity(file, {*corners, shape[0], shape[1], false, 1, 1}, {}, mesh);
     if (const io::VariableInFile* const kinds = file.find("edge_type" + std::to_string(block))) {
+      // In `edge_type`, 0 is an arc of a great circle and 1 an arc of a parallel.
       for (const double kind : file.numbers(*kinds)) num_along_parallels += kind == 1 ? 1U : 0U;
     }
   }

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Chooses the places that all fields of a file are at, and names them and others in messages.
+// Chooses the places that all fields of a file are at (the anchor), and names them and others in
+// messages. The anchor is the wanted places if they are given, or else the places of the first
+// variable for which the file leaves one answer; variables at other places are told apart by
+// distance, not by name.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +13,13 @@
 namespace rondel::formats {
 namespace {
 
+// True if a coordinate of the place is missing.
 bool is_nowhere(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
 
-// Places that are missing on one side fit.
+// True if both lists have the same places in the same order, up to `max_apart_deg` degrees in each
+// coordinate. At the poles longitudes do not count. Places that are missing on one side fit.
 bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double max_apart_deg) {
   const auto is_near = [&](const LonLat& x, const LonLat& y) {
     if (x == y || is_nowhere(x) || is_nowhere(y)) return true;
@@ -37,6 +42,8 @@ bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
   return are_near(a, b, is_single ? 1e-4 : 1e-9);
 }
 
+// True if the places of the candidate are those of the anchor, which may come from the caller
+// alone.
 bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
   if (candidate.layout.places.size() != anchor_->places.size()) return false;
   if (anchor_->lon == CoordinatePair::none) {
@@ -70,6 +77,8 @@ void FieldDimensionFinder::choose_places(std::span<const io::VariableInFile* con
       std::vector<PossiblePlaces> found = candidates(*variable);
       if (found.size() != 1) continue;
       std::vector<LonLat>& places = found.front().layout.places;
+      // Where the number of points is not given, places with a missing or wrong coordinate do not
+      // decide.
       const bool are_places = std::ranges::all_of(places, [](const LonLat& place) {
         return std::abs(place.lat_deg) <= 90 && std::isfinite(place.lon_deg);
       });
@@ -107,6 +116,7 @@ void FieldDimensionFinder::name_wanted_places() {
   }
 }
 
+// Returns the names of two coordinates for messages, "lon and lat".
 std::string FieldDimensionFinder::names_of(std::size_t lon, std::size_t lat) const {
   return headers_[lon].name + " and " + headers_[lat].name;
 }
@@ -116,6 +126,7 @@ std::string FieldDimensionFinder::names_of_places() const {
   return has_names ? names_of(anchor_->lon, anchor_->lat) : std::string();
 }
 
+// Returns the names of the first three places at which a variable may be.
 std::string FieldDimensionFinder::text_of_choice(const std::vector<PossiblePlaces>& found) const {
   std::string text;
   constexpr std::size_t most = 3;

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Divides the fields of a variable into blocks that are boxes of it, so that each part of the file
+// is read once. The block of a field follows from its number alone.
 #include "formats/field_blocks.h"
 
 #include <algorithm>
@@ -16,6 +19,7 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile&
                std::ranges::all_of(leading_, [&](std::size_t d) { return chunk[d] == 1; });
   std::size_t num_points = 1;
   for (const std::size_t d : layout.points) num_points *= shape_[d];
+  // The number of fields that a block has room for.
   const std::size_t room =
       std::max<std::size_t>(max_values / std::max<std::size_t>(num_points, 1), 1);
   num_outer_ = leading_.size();
@@ -23,6 +27,8 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile&
     const std::size_t d = leading_[--num_outer_];
     length_ = std::clamp<std::size_t>(room / of_place_, 1, std::max<std::size_t>(shape_[d], 1));
     if (length_ < shape_[d]) {
+      // A chunk is decompressed as a whole, so no block ends within one if it has room for the
+      // chunk.
       if (length_ > chunk[d]) length_ -= length_ % chunk[d];
       break;
     }
@@ -32,6 +38,8 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile&
 
 FieldBlock FieldBlocks::block_of(std::size_t field) const {
   if (leading_.empty()) return {0, 1};
+  // A row of blocks has all indices of the divided dimension; the last block of a row may be
+  // shorter.
   const std::size_t of_row = shape_[leading_[num_outer_]] * of_place_;
   const std::size_t row = field - field % of_row;
   const std::size_t size = length_ * of_place_;

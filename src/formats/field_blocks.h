@@ -50,10 +50,12 @@ class FieldBlocks {
   bool are_apart_;
   std::vector<std::size_t> shape_;    // lengths of the dimensions of the variable
   std::vector<std::size_t> leading_;  // the dimensions that are not those of the points
-  std::size_t num_outer_ = 0;         // the first leading dimensions, of which a block has one
-                                      // index
-  std::size_t length_ = 1;            // how many indices of the next leading dimension a block has
-  std::size_t of_place_ = 1;          // number of fields for each of these indices
+  // The number of leading dimensions, the first ones, of which a block has one index.
+  std::size_t num_outer_ = 0;
+  // How many indices of the next leading dimension a block has.
+  std::size_t length_ = 1;
+  // The number of fields for each of these indices.
+  std::size_t of_place_ = 1;
 };
 
 }  // namespace rondel::formats

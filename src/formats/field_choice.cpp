@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Implements field_choice.h: tells "tas[3]" (a position along each leading dimension) and
+// "tas_2001-07-15" (the name of a column) from names of variables, and reads the positions.
 #include "formats/field_choice.h"
 
 #include <algorithm>
@@ -24,6 +26,7 @@ std::size_t number_of_field(const FieldArray& several, std::string_view places) 
   }
   const io::BadValue bad(io::in_quotes(meant) + " is no field of variable " +
                          io::in_quotes(several.name) + ", which has those of " + lengths);
+  // The number counts the positions as in an array in C order, the last dimension fastest.
   std::size_t number = 0;
   for (const std::uint64_t& length : several.shape) {
     places.remove_prefix(1);  // a bracket or a comma

@@ -26,18 +26,21 @@ std::size_t number_of_field(const FieldArray& several, std::string_view places);
 // "tas_2001-07-15", the longest name first.
 std::vector<const io::VariableInFile*> meant_variables(const io::NetcdfReader& file,
                                                        const std::string& name);
-// Returns the variables that are named, or all where no name is given.
+// Returns the variables that are named, or all that have dimensions where no name is given. A name
+// that means no variable is passed over here.
 std::vector<const io::VariableInFile*> variables_to_read(const io::NetcdfReader& file,
                                                          std::span<const std::string> names);
 
 // A list of the first names, and how many more there are.
 class NameList {
  public:
+  // Adds a name; from the sixth one on, names are only counted.
   void add(const std::string& name) {
     constexpr std::size_t most = 5;
     if (++number_ <= most) text_ += (text_.empty() ? "" : ", ") + name;
     more_ = number_ > most ? " and " + std::to_string(number_ - most) + " more" : "";
   }
+  // Returns the names, "a, b and 3 more" for example; empty if there are none.
   [[nodiscard]] std::string text() const { return text_ + more_; }
 
  private:

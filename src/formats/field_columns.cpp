@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Writes the columns of a table as netCDF variables: define() gives each a free name and a type,
+// write() its values. Numbers become doubles. Texts, and integers that doubles would round, become
+// arrays of characters of the length of the longest text, filled up with zero bytes.
 #include "formats/field_columns.h"
 
 #include <algorithm>
@@ -51,6 +55,7 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std:
   for (const Column& column : columns_) {
     const std::string name = take_name(name_of_variable(column), taken);
     is_number_.push_back(column.is_numeric && !column.has_wide_integers());
+    // A dimension of length 0 would be a record dimension.
     std::size_t longest = 1;
     for (std::size_t i = 0; i < column.ends.size(); ++i) {
       longest = std::max(longest, column.cell(i).size());

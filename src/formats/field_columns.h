@@ -29,6 +29,7 @@ std::string take_name(const std::string& name, std::set<std::string>& taken);
 // Columns on their way to a file. They must live until write().
 class ColumnsOut {
  public:
+  // Columns have a cell for each point.
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
 
   // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of

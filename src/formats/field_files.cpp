@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads and writes fields as files, whole and in slices, and picks the format.
+// Reads and writes fields as files, whole and in slices, and picks the format: FieldFile,
+// read_fields(), FieldWriter and write_fields().
+//
+// A netCDF file is read in slices (field_slices.h); tables and .npy files are read at once and
+// their values kept. A file that is written appears whole or not at all, when finish() commits it.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -42,7 +46,8 @@ constexpr FieldBeginning field_writers[] = {{".csv", &formats::begin_fields_csv}
                                             {".nc", &formats::begin_fields_netcdf},
                                             {".nc4", &formats::begin_fields_netcdf}};
 
-// The first bytes of a file say its format; otherwise its name does.
+// True if a file is read as netCDF: by its first bytes unless the user names a format, or else by
+// its ending.
 bool is_netcdf_file(const FileName& file, const io::FileBytes& bytes) {
   if (file.format.empty() && io::is_netcdf(bytes.head())) return true;
   const FieldReader* const reader = io::find_format<FieldReader>(field_readers, file);
@@ -57,15 +62,16 @@ std::size_t FieldArray::num_fields() const {
   return product;
 }
 
+// A file that is open, with its fields.
 struct FieldFile::OpenFields {
   explicit OpenFields(const FileName& file) : bytes(file) {}
 
   io::FileBytes bytes;
   std::optional<io::NetcdfReader> netcdf;
-  std::optional<formats::FieldSlices> slices;  // for netCDF; for other formats `fields` and
-                                               // the values are read at once
-  FieldSet fields;                             // without values
-  std::vector<std::vector<double>> values;
+  // The fields of netCDF; for other formats `fields` and the values are read at once.
+  std::optional<formats::FieldSlices> slices;
+  FieldSet fields;                          // without values
+  std::vector<std::vector<double>> values;  // by array
 };
 
 FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
@@ -102,6 +108,7 @@ void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out
     io::in_file(content_->bytes.name(), [&] { content_->slices->read(array, first, out); });
     return;
   }
+  // Values of other formats are those of all fields, one after the other.
   const auto begin = content_->values[array].begin() +
                      static_cast<std::ptrdiff_t>(first * content_->fields.num_points);
   std::copy_n(begin, out.size(), out.begin());
@@ -124,6 +131,7 @@ bool can_write_fields(const FileName& file) {
   return io::find_format<FieldBeginning>(field_writers, file) != nullptr;
 }
 
+// A file that is begun. The sink refers to the file, so it is destroyed first.
 struct FieldWriter::BegunFields {
   explicit BegunFields(const FileName& name) : file(name) {}
 
@@ -142,6 +150,7 @@ FieldWriter::FieldWriter(const FileName& file, const FieldSet& fields, const Wei
     throw InvalidInput(std::to_string(points.points.size()) + " points for values at " +
                        std::to_string(fields.num_points));
   }
+  // The writer of the format defines the header now; values follow by write().
   const FieldBeginning& writer =
       io::require_format<FieldBeginning>(field_writers, file, "fields are written as");
   output_ = std::make_unique<BegunFields>(file);

@@ -30,6 +30,7 @@ struct FieldsToRead {
   WantedPlaces places = {};
 };
 // Each of these reads the content of a file. They throw BadValue if it is not as the format says.
+// They return the fields with values; `wanted.names` are columns of tables, and .npy has no names.
 FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted);

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Finds the dimensions of points by coordinates (rules 1 and 2 of field_layout.h). layout() first
+// asks the pairs of coordinates of a variable (candidates()), and takes the one at the anchor; only
+// where the file says nothing of places it asks the lengths (field_lengths.cpp).
 #include "formats/field_layout.h"
 
 #include <algorithm>
@@ -13,6 +16,7 @@
 namespace rondel::formats {
 namespace {
 
+// True if a coordinate of the place is missing.
 bool has_no_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
@@ -33,8 +37,10 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       wanted_(wanted.places),
       headers_(headers_of(file)),
       parts_of_grids_(parts_of_grids(headers_)) {
+  // Places that are not as many as the points cannot be compared with them.
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
   std::vector<const io::VariableInFile*> fields(variables.begin(), variables.end());
+  // Coordinates are fields only if they are named.
   if (wanted.names.empty()) {
     std::erase_if(fields, [&](const io::VariableInFile* field) { return is_auxiliary(*field); });
   }
@@ -71,7 +77,8 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   return known_.back();
 }
 
-// Empty `points` if the lengths are not those of the grid.
+// Returns the dimensions of a variable that is at these places. `points` is empty if the variable
+// lacks a dimension of theirs, or the lengths are not those of the grid.
 FieldDimensions FieldDimensionFinder::layout_along(const io::VariableInFile& variable,
                                                    const KnownPlaces& known) const {
   FieldDimensions found;
@@ -109,6 +116,8 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
   layout.places = std::move(places);
 }
 
+// Returns the places at which a variable may be, all of the best rank; sets why_not_ if it has
+// coordinates, and not as many as there are points.
 std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidates(
     const io::VariableInFile& variable) {
   std::vector<PossiblePlaces> found;
@@ -116,10 +125,12 @@ std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidat
   why_not_.clear();
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   for (const CoordinatePair& pair : coordinates_of(headers_, index)) {
+    // The pairs come in the order of their ranks, and a worse one is no choice beside a better one.
     if (!found.empty() && pair.rank < rank) break;
     const io::VariableInFile& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
+    // Coordinates with fewer values than points need not be read.
     const KnownPlaces* const known = most < num_points_ ? nullptr : &places_of_pair(pair);
     const bool fits = num_points_ == 0 ||
                       (known != nullptr &&
@@ -134,6 +145,7 @@ std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidat
     }
     FieldDimensions layout = layout_along(variable, *known);
     if (layout.points.empty()) continue;
+    // Two pairs may have the same places under two names.
     const bool is_known = std::ranges::any_of(found, [&](const PossiblePlaces& other) {
       return other.layout.points == layout.points &&
              are_one_place(other.lon, pair.lon, other.layout.places, layout.places);
@@ -145,6 +157,8 @@ std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidat
   return found;
 }
 
+// Returns the dimensions of a variable at the anchor, or without an anchor at its only places.
+// Throws BadValue if there are several places with different dimensions.
 std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     const io::VariableInFile& variable) {
   std::vector<PossiblePlaces> found = candidates(variable);
@@ -174,6 +188,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     return std::nullopt;
   }
   if (found.size() == 1) return std::move(found.front().layout);
+  // Several pairs of places may agree in which dimensions are theirs.
   const bool have_one_layout = std::ranges::all_of(found, [&](const PossiblePlaces& other) {
     return other.layout.points == found.front().layout.points;
   });
@@ -187,6 +202,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
   return std::move(found.front().layout);
 }
 
+// The first variable with places gives the number of points if the caller has not.
 std::optional<FieldDimensions> FieldDimensionFinder::layout(const io::VariableInFile& variable) {
   why_not_.clear();
   other_places_.clear();
@@ -200,6 +216,8 @@ std::optional<FieldDimensions> FieldDimensionFinder::layout(const io::VariableIn
   return by_lengths(variable);
 }
 
+// The tests go from what is certain to what only names suggest: an axis, degrees, a part of a mesh,
+// a coordinate, bounds.
 bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) const {
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];

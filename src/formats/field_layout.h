@@ -44,17 +44,17 @@ namespace rondel::formats {
 // The dimensions of one variable: those of its points, and the leading ones, such as times and
 // levels.
 struct FieldDimensions {
-  std::vector<std::size_t>
-      leading;  // positions of the dimensions that are not those of the points, in their order
-  std::vector<std::size_t> points;  // positions of the points' dimensions, the one that varies
-                                    // fastest last
-  std::vector<LonLat>
-      places;  // degrees, by point; empty if the file has none for the variable or more than one
-               // pair
-  std::vector<std::size_t>
-      kept;  // which of all have a place, if others are left out; `places` are theirs
-  bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
-  std::string remark;        // a sentence on a choice that was made; else empty
+  // Positions of the dimensions that are not those of the points, in their order.
+  std::vector<std::size_t> leading;
+  // Positions of the points' dimensions, the one that varies fastest last.
+  std::vector<std::size_t> points;
+  // The places in degrees, by point; empty if the file has none for the variable, or several pairs.
+  std::vector<LonLat> places;
+  // Indices of the points that have a place, if others are left out; `places` are theirs.
+  std::vector<std::size_t> kept;
+  // True if the lengths alone say that the order is reversed: no name or axis says it.
+  bool is_reversed = false;
+  std::string remark;  // a sentence on a choice that was made; else empty
 
   // Returns all dimensions in the order in which a FieldArray has its values.
   [[nodiscard]] std::vector<std::size_t> order() const;
@@ -66,6 +66,8 @@ class SeveralReadings : public io::BadValue {
   using io::BadValue::BadValue;
 };
 
+// Answers for one file which dimensions of its variables are those of the points. The order in
+// which variables are asked counts: by rule 3 the first one decides for those after it.
 class FieldDimensionFinder {
  public:
   // `wanted` has the number of points, or 0 for those of the first variable whose places the file
@@ -118,38 +120,55 @@ class FieldDimensionFinder {
     std::vector<LonLat> places;
   };
   using DimensionSet = std::set<std::size_t>;
+  // The dimensions, longer than 1, of all pairs of coordinates that are as many as the points.
   struct SetsOfPlaces {
-    std::vector<DimensionSet>
-        same;  // dimensions of longitudes and latitudes that are those of the points
-    std::vector<DimensionSet> other;  // of as many others
+    std::vector<DimensionSet> same;   // of coordinates that are those of the points
+    std::vector<DimensionSet> other;  // of coordinates of as many other places
   };
 
   // Returns the places of two coordinates; each pair is read once.
   const KnownPlaces& places_of_pair(const CoordinatePair& pair);
   // Leaves out places without coordinates, if the wanted points are the others.
   void leave_out_missing(const KnownPlaces& known, FieldDimensions& layout) const;
+  // Returns the dimensions of a variable at known places; `points` is empty if it is not at them.
   [[nodiscard]] FieldDimensions layout_along(const io::VariableInFile& variable,
                                              const KnownPlaces& known) const;
   // Returns the places that the variable's coordinates give, if these are as many as there are
   // points. Several results are different places of the same rank.
   [[nodiscard]] std::vector<PossiblePlaces> candidates(const io::VariableInFile& variable);
+  // True if the places of two pairs are the same, up to the precision of their variables.
   [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, std::span<const LonLat> a,
                                    std::span<const LonLat> b) const;
+  // True if the places of a candidate are those that all fields are at.
   [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
+  // Sets the anchor, and with it the number of points if that is not given.
   void choose_places(std::span<const io::VariableInFile* const> variables);
+  // Looks for a variable of the file that is at the wanted places, to name them in messages.
   void name_wanted_places();
+  // Makes the places of a variable the anchor if they are those that are wanted.
   bool choose_wanted(const io::VariableInFile& variable);
+  // Decides for the dimension that is called cells, if a variable has it.
   void choose_dimension_of_cells(std::span<const io::VariableInFile* const> variables);
+  // These two functions implement rules 1 and 2, and rules 3 and 4.
   [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const io::VariableInFile& variable);
   [[nodiscard]] std::optional<FieldDimensions> by_lengths(const io::VariableInFile& variable);
+  // These two functions return names of coordinates for messages, of one pair and of several.
   [[nodiscard]] std::string names_of(std::size_t lon, std::size_t lat) const;
   [[nodiscard]] std::string text_of_choice(const std::vector<PossiblePlaces>& found) const;
+  // Returns the sets, which are found when they are first asked for.
   const SetsOfPlaces& sets_of_places();
+  // True if `points`, positions of dimensions in the variable, may be those of the points although
+  // no coordinates of the variable say so.
   [[nodiscard]] bool may_be_of_places(const io::VariableInFile& variable,
                                       std::span<const std::size_t> points);
+  // True if these dimensions are those of the variables before. Throws SeveralReadings if nothing
+  // says which of the two are meant.
   [[nodiscard]] bool has_same_dimensions(const io::VariableInFile& variable,
                                          std::span<const std::size_t> points);
+  // Returns positions of dimensions that multiply to the number of points; empty if there are none.
+  // Throws BadValue if several runs fit as well.
   [[nodiscard]] std::vector<std::size_t> run_of_points(const io::VariableInFile& variable) const;
+  // True if a dimension counts times or heights.
   [[nodiscard]] bool is_other_axis(std::size_t dimension) const;
 
   // A dimension has the coordinate `kind`, if that is known, and the axis, if the file has one.
@@ -157,6 +176,8 @@ class FieldDimensionFinder {
     std::optional<CoordinateKind> kind;
     const io::VariableInFile* axis = nullptr;
   };
+  // The functions below compare names and axes with the wanted places (field_orientation.cpp).
+  // PlacesAlong is a dimension of the grid of places.
   struct PlacesAlong;
   [[nodiscard]] bool changes_along(const PlacesAlong& line, CoordinateKind kind) const;
   [[nodiscard]] std::optional<CoordinateKind> kind_of_rows(std::size_t rows,
@@ -169,10 +190,13 @@ class FieldDimensionFinder {
 
   const io::NetcdfReader& file_;
   std::uint64_t num_points_;
+  // The lengths of the points' grid; empty if they are not known.
   std::vector<std::uint64_t> shape_;
   WantedPlaces wanted_;
   std::vector<VariableHeader> headers_;
+  // The headers are by variable of the file, and so are these: true for parts of grids and meshes.
   std::vector<bool> parts_of_grids_;
+  // Places that were read. References to them stay valid when others are added.
   std::deque<KnownPlaces> known_;
   std::optional<SetsOfPlaces> sets_of_places_;
   std::optional<Anchor> anchor_;
@@ -182,13 +206,13 @@ class FieldDimensionFinder {
   std::optional<DimensionSet> dimensions_of_points_;
   std::string first_by_lengths_;
   bool are_along_cells_ = false;  // the name of the points' dimension says that it counts cells
+  // Answers to the last question, for why_not() and other_places().
   std::string why_not_;
   std::string other_places_;
 };
 
-// For variables of which no coordinates say which dimensions are those of points.
 // Reverses the points' dimensions where the lengths of the grid are theirs in reverse; returns
-// false if they are others.
+// false if they are others. `points` are positions in the variable; `wanted` may be empty.
 bool fit_lengths(std::span<const std::uint64_t> wanted, const io::VariableInFile& variable,
                  std::vector<std::size_t>& points);
 // Makes the dimensions that are not those of the points the leading ones.

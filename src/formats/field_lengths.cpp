@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Finds the dimensions of points by lengths and names (rules 3 and 4 of field_layout.h), for
+// variables without coordinates: by_lengths(). Dimensions of length 1 make no difference, since an
+// array of (1, n) has the same order of values as one of (n).
 #include <algorithm>
 #include <set>
 #include <string>
@@ -27,6 +30,7 @@ std::vector<std::uint64_t> products(std::span<const std::uint64_t> lengths) {
 bool agree(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
   const std::vector<std::uint64_t> of_a = products(a);
   const std::vector<std::uint64_t> of_b = products(b);
+  // The products of the shape (2, 3, 4) are 1, 4, 12, 24 and contain those of (6, 4), 1, 4, 24.
   return std::ranges::includes(of_a, of_b) || std::ranges::includes(of_b, of_a);
 }
 
@@ -40,6 +44,8 @@ std::set<std::size_t> long_ones(std::span<const std::size_t> dimensions,
   return result;
 }
 
+// Returns the numbers in the file of those dimensions of a variable that are longer than 1;
+// `places` are positions of dimensions in the variable.
 std::set<std::size_t> long_ones_of(const io::VariableInFile& variable,
                                    std::span<const std::size_t> places) {
   std::vector<std::size_t> dimensions;
@@ -85,6 +91,8 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
   return layout;
 }
 
+// Returns the dimensions of all coordinates of the file that are as many as the points, those at
+// the anchor apart from others. They are found once.
 const FieldDimensionFinder::SetsOfPlaces& FieldDimensionFinder::sets_of_places() {
   if (sets_of_places_) return *sets_of_places_;
   sets_of_places_.emplace();
@@ -140,6 +148,8 @@ bool FieldDimensionFinder::has_same_dimensions(const io::VariableInFile& variabl
   };
   const std::string of_first =
       io::in_quotes(first_by_lengths_) + " along " + names(*dimensions_of_points_);
+  // If the dimension of the first variable is called cells, the other variable is elsewhere;
+  // otherwise nothing says which of the two is meant.
   if (are_along_cells_) {
     why_not_ = "has its points along " + names(own) + ", not as " + of_first;
     return false;
@@ -198,6 +208,8 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(
       for (std::size_t d = begin; d < end; ++d) {
         has_other_axis = has_other_axis || (shape[d] > 1 && is_other_axis(variable.dimensions[d]));
       }
+      // A run of dimensions is the better the more says for it: the name of cells, the lengths of
+      // the grid, and no axis of time or height.
       const int preference = is_single && is_name_of_cells(name)                             ? 4
                              : std::ranges::equal(shape.subspan(begin, end - begin), shape_) ? 3
                              : !has_other_axis                                               ? 2

@@ -1,5 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Names of fields in a table: names_of_fields() joins the name of a variable with the places of the
+// field along the other axes, tas_2001-07-15. Times are read by CF 1.11, section 4.4 ("hours since
+// 2000-01-01"), in the calendars of section 4.4.1, and become dates by counting days from the year
+// 0.
 #include "formats/field_names.h"
 
 #include <algorithm>
@@ -60,6 +65,7 @@ std::optional<Calendar> calendar_of(const FieldArray& axis) {
   return std::nullopt;
 }
 
+// True for a leap year. The mixed calendar counts as the Gregorian one here.
 bool is_leap_year(Calendar calendar, std::int64_t year) {
   if (calendar == Calendar::no_leap) return false;
   if (calendar == Calendar::all_leap) return true;
@@ -67,6 +73,7 @@ bool is_leap_year(Calendar calendar, std::int64_t year) {
   return year % 4 == 0 && (is_julian || year % 100 != 0 || year % 400 == 0);
 }
 
+// Returns the number of days of a month, which counts from 1.
 std::int64_t days_of_month(Calendar calendar, std::int64_t year, std::int64_t month) {
   if (calendar == Calendar::days_360) return 30;
   constexpr std::array<std::int64_t, 12> days = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
@@ -79,6 +86,7 @@ std::int64_t days_before(Calendar calendar, std::int64_t year) {
   if (calendar == Calendar::days_360) return 360 * year;
   if (calendar == Calendar::all_leap) return 366 * year;
   if (calendar == Calendar::no_leap || year == 0) return 365 * year;
+  // The year 0 is a leap year in both calendars, hence the 1.
   const std::int64_t of_four_years = (year - 1) / 4 + 1;
   if (calendar == Calendar::julian) return 365 * year + of_four_years;
   return 365 * year + of_four_years - (year - 1) / 100 + (year - 1) / 400;
@@ -150,6 +158,8 @@ std::optional<std::int64_t> start_day(Calendar calendar, const Date& date) {
   const auto is_before = [&](const Date& other) {
     return std::tie(date.year, date.month, date.day) < std::tie(other.year, other.month, other.day);
   };
+  // A date before the reform is counted by the Julian calendar, and moved so that 5 October 1582
+  // (Julian) is 15 October (Gregorian).
   const bool is_julian = calendar == Calendar::mixed && is_before(first_gregorian_date);
   if (is_julian && !is_before(first_not_julian)) return std::nullopt;  // 5 to 14 October 1582
   const Calendar own = is_julian ? Calendar::julian : calendar;
@@ -205,6 +215,7 @@ std::optional<TimeUnits> time_units(const std::string& text, Calendar calendar) 
   if (!days) return std::nullopt;
   std::int64_t clock = 0;
   const bool has_clock = !rest.empty() && rest.front() >= '0' && rest.front() <= '9';
+  // The clock has up to three numbers: hours, minutes and seconds.
   for (const std::int64_t of_number : {3600, 60, 1}) {
     if (rest.empty() || rest.front() < '0' || rest.front() > '9') break;
     const auto number = take_number(rest, ":");
@@ -276,6 +287,7 @@ std::vector<std::string> dates_of(const FieldArray& axis) {
   return dates;
 }
 
+// True if no two texts are equal.
 bool are_different(std::vector<std::string> texts) {
   std::ranges::sort(texts);
   return std::ranges::adjacent_find(texts) == texts.end();
@@ -285,6 +297,7 @@ bool are_different(std::vector<std::string> texts) {
 
 std::vector<std::string> places_on_axis(const FieldArray& axis) {
   std::vector<std::string> places = dates_of(axis);
+  // Numbers may differ where dates, which are rounded, do not.
   if (places.empty() || !are_different(places)) {
     places.clear();
     for (const double value : axis.values) places.push_back(system::shortest_text(value));
@@ -302,6 +315,7 @@ std::vector<std::string> names_of_fields(const FieldArray& array,
   std::vector<std::string> names = {array.name};
   if (array.num_fields() == 1) return names;
   for (std::size_t d = 0; d < array.shape.size(); ++d) {
+    // The places along the dimension: coordinates if it has an axis, or else indices.
     std::vector<std::string> places;
     for (const FieldArray& axis : axes) {
       const bool is_this = d < array.dimensions.size() && axis.name == array.dimensions[d] &&

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Decides which dimension of a grid has the longitudes where a file lacks the coordinates of its
-// points. The lengths do not say it if they are equal; names of dimensions and single axes do.
+// points (rule 4 of field_layout.h). The lengths do not say it if they are equal; names of
+// dimensions and single axes do. orient() compares these with the wanted places, and reverses the
+// dimensions of points if rows and columns are swapped.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -19,16 +21,19 @@
 namespace rondel::formats {
 namespace {
 
+// Returns the longitude or the latitude of a place in degrees.
 double coordinate_of(const LonLat& place, CoordinateKind kind) {
   return kind == CoordinateKind::lon ? place.lon_deg : place.lat_deg;
 }
 
-// Missing numbers fit all others.
+// True if two coordinates of one kind differ by at most `max_apart_deg`. Missing numbers fit all
+// others.
 bool is_near_deg(double a, double b, CoordinateKind kind, double max_apart_deg) {
   const double away = kind == CoordinateKind::lon ? std::remainder(a - b, 360) : a - b;
   return !(std::abs(away) > max_apart_deg);
 }
 
+// Returns longitudes for latitudes and latitudes for longitudes.
 CoordinateKind other_kind(CoordinateKind kind) {
   return kind == CoordinateKind::lat ? CoordinateKind::lon : CoordinateKind::lat;
 }
@@ -115,6 +120,7 @@ bool FieldDimensionFinder::orient(const io::VariableInFile& variable, FieldDimen
   for (const std::size_t d : layout.points) {
     if (variable.shape[d] > 1) places.push_back(d);
   }
+  // Only two dimensions that are longer than 1 can be taken in the wrong order.
   if (places.size() != 2) return true;
   std::size_t rows = variable.shape[places[0]];
   std::size_t columns = variable.shape[places[1]];
@@ -145,6 +151,7 @@ bool FieldDimensionFinder::orient(const io::VariableInFile& variable, FieldDimen
         io::in_quotes(file_.dimensions()[variable.dimensions[places[1]]].name) +
         " has the longitudes: they are taken in this order";
   }
+  // From here on rows, columns and both directions are in the order of the points.
   if (is_turned) {
     std::ranges::reverse(layout.points);
     std::swap(rows, columns);

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads a FieldSet from netCDF by the CF conventions.
+// Reads a FieldSet from netCDF by the CF conventions. The constructor finds the variables that are
+// fields and the dimensions of their points (field_layout.h), and says in remarks which ones it
+// leaves out. read() gets values by blocks (field_blocks.h), unpacks them (cf_values.h), and leaves
+// out points without a place.
 #include "formats/field_slices.h"
 
 #include <algorithm>
@@ -55,10 +58,12 @@ FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& vari
   return array;
 }
 
+// True if the numbers are a longitude, which may be some turns away, and a latitude.
 bool is_place(const LonLat& place) {
   return std::abs(place.lon_deg) <= 1e6 && std::abs(place.lat_deg) <= 90;
 }
 
+// Throws BadValue for the first point of the variable that is no place.
 void require_places(const io::VariableInFile& variable, std::span<const LonLat> places) {
   const auto bad = std::ranges::find_if_not(places, is_place);
   if (bad == places.end()) return;
@@ -68,6 +73,7 @@ void require_places(const io::VariableInFile& variable, std::span<const LonLat> 
                      system::shortest_text(bad->lat_deg) + ", which is no place");
 }
 
+// Throws BadValue that names the lengths of a variable in which the points are not found.
 [[noreturn]] void refuse_shape(const io::NetcdfReader& file, const io::VariableInFile& variable,
                                const FieldsToRead& wanted, std::size_t num_points) {
   std::string lengths;
@@ -95,6 +101,8 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     const std::string name = io::full_name(file.variables(), given);
     const io::VariableInFile* const variable = file.find(name);
     if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
+    // For a name that is no variable this throws; others are no fields, for one of the reasons
+    // below.
     const io::VariableInFile& named = file.require(name);
     if (!layouts_.why_not().empty()) {
       throw io::BadValue("variable " + io::in_quotes(name) + " " + layouts_.why_not());
@@ -126,7 +134,7 @@ bool FieldSlices::add(const io::VariableInFile& variable) {
 }
 
 // Adds one field of several: "tas[3]" is field 3 of variable tas, "tas_2001-07-15" the field that
-// has this name as a column of a table.
+// has this name as a column of a table. Returns false if the name means no field.
 bool FieldSlices::add_one_of_several(const std::string& name) {
   for (const io::VariableInFile* const variable : meant_variables(file_, name)) {
     std::optional<FieldDimensions> layout = layouts_.layout(*variable);
@@ -166,6 +174,7 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
   for (const std::size_t d : layout.points) num_points *= variable.shape[d];
   if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
   fields_.arrays.push_back(array_of(file_, variable, layout.leading));
+  // All arrays are at the places of the first one that has some.
   if (fields_.points.empty() && std::ranges::all_of(layout.places, is_place)) {
     fields_.points = unit_vectors(layout.places);
     fields_.positions = std::move(layout.places);
@@ -312,6 +321,7 @@ void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values)
 
 void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {
   if (source_of_block_ == &source && first_of_block_ == block.first) return;
+  // If reading throws, the block must not be taken for a complete one.
   source_of_block_ = nullptr;
   block_.resize(block.count * source.num_points);
   read_block(source, block, block_);

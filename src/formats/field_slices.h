@@ -49,13 +49,19 @@ class FieldSlices {
 
   // Adds a variable; returns false if it is no field at the points.
   bool add(const io::VariableInFile& variable);
+  // Adds one field of a variable, "tas[3]" for example; returns false if the name means none.
   bool add_one_of_several(const std::string& name);
+  // Adds a variable whose dimensions are known; the first one with places sets those of the set.
   void add_with_layout(const io::VariableInFile& variable, FieldDimensions layout);
+  // Adds all fields of the file, with remarks on the variables that are left out.
   void add_all();
+  // Adds to `axes` the coordinates along the leading dimensions of a variable.
   void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                 std::vector<FieldArray>& axes);
+  // Reads fields `first` ... of a variable, as many as fit, with the points that are left out.
   void read_all_points(const SlicedVariable& source, std::size_t first,
                        std::span<double> out) const;
+  // Reads a whole block of fields into `out`, which has its size.
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
   // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads and writes fields as tables (CSV, TSV) and as arrays of NumPy (.npy).
+// Reads and writes fields as tables (CSV, TSV) and as arrays of NumPy (.npy). In a table a row is a
+// point and a column a field; an array has the shape (n,) or (fields, n). Missing values are empty
+// cells in tables and NaN in arrays; infinite values in a file that is read are errors.
 #include "rondel/fields.h"
 
 #include <algorithm>
@@ -45,7 +47,8 @@ std::string text_of_empty_line(std::vector<std::uint64_t> lines, const io::CsvRe
   return {};
 }
 
-// Reads columns of a table with a header; each row is a point.
+// Reads the columns that `wanted` names from a table with a header; each row is a point. Throws
+// BadValue for a missing column, a row of another length, or another number of rows than points.
 FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& wanted) {
   if (wanted.names.empty()) throw io::BadValue("no column of the table is named (--value)");
   io::CsvRecords records(io::table_text(bytes),
@@ -93,6 +96,8 @@ std::string header_line(const FieldsToWrite& job, char separator) {
   if (!job.side.points.empty() || job.fields.num_points == 0) {  // the columns of no rows, too
     names = {"lon", "lat"};
   }
+  // Names of fields are made free first, so that properties get the underscores; then they change
+  // places, since properties stand before fields.
   const auto num_coordinates = static_cast<std::ptrdiff_t>(names.size());
   for (const FieldArray& array : job.fields.arrays) {
     for (const std::string& name : names_of_fields(array, job.fields.axes)) names.push_back(name);
@@ -112,12 +117,15 @@ std::string header_line(const FieldsToWrite& job, char separator) {
 // Keeps the table until it is complete, because a row has the values of all fields at one point.
 class TableSink : public FieldSink {
  public:
+  // Begins a table; `separator` is a comma or a tab.
   TableSink(io::AtomicFile& file, const FieldsToWrite& job, char separator)
       : file_(file), job_(job), separator_(separator) {}
 
+  // Keeps the values; those of each field follow each other.
   void write(std::span<const double> values) override {
     values_.insert(values_.end(), values.begin(), values.end());
   }
+  // Writes the table row by row: place, properties, then the value of each field.
   void finish() override {
     const std::vector<LonLat>& points = job_.side.points;
     const std::size_t n = job_.fields.num_points;
@@ -159,6 +167,7 @@ class TableSink : public FieldSink {
 // Writes the shape (n,) for one field and (fields, n) for several, the arrays one after the other.
 class NpySink : public FieldSink {
  public:
+  // Writes the header of the array.
   NpySink(io::AtomicFile& file, const FieldSet& fields) : file_(file) {
     std::uint64_t count = 0;
     for (const FieldArray& array : fields.arrays) count += array.num_fields();
@@ -167,6 +176,7 @@ class NpySink : public FieldSink {
     file.write(io::make_npy_header(
         "<f8", is_one ? std::vector<std::uint64_t>{n} : std::vector<std::uint64_t>{count, n}));
   }
+  // Writes the values at once, as their order is that of the array.
   void write(std::span<const double> values) override { file_.write(io::NumberBytes(values)); }
   void finish() override {}
 
@@ -181,6 +191,7 @@ double loaded(const char* data, std::endian order) {
   return io::exact_double(number);
 }
 
+// A type of NumPy without its byte order, its size in bytes and the function that reads it.
 struct NpyNumbers {
   std::string_view type;
   std::size_t size;
@@ -194,6 +205,7 @@ constexpr NpyNumbers npy_numbers[] = {
     {"u2", 2, &loaded<std::uint16_t>}, {"u4", 4, &loaded<std::uint32_t>},
     {"u8", 8, &loaded<std::uint64_t>}};
 
+// Returns the type that a dtype such as "<f8" names. Throws BadValue for types that are no numbers.
 const NpyNumbers& type_of_npy(const std::string& dtype) {
   const std::string_view type =
       std::string_view(dtype).substr(std::min<std::size_t>(1, dtype.size()));
@@ -219,6 +231,7 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   const NpyNumbers& type = type_of_npy(header.dtype);
   const std::size_t rank = header.shape.size();
   const std::size_t item = type.size;
+  // The last dimension counts points, the one before it fields.
   const std::uint64_t n = rank == 0 ? 0 : header.shape.back();
   const std::uint64_t count = rank == 2 ? header.shape[0] : 1;
   std::uint64_t size = 0;

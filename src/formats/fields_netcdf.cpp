@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes a FieldSet as netCDF by the CF conventions.
+// Writes a FieldSet as netCDF by the CF conventions: leading dimensions with their coordinates (CF
+// section 5), the places of the points as `lat` and `lon`, then each array with its attributes,
+// `_FillValue`, and `coordinates` where the points are no grid along axes.
 #include <set>
 
 #include "formats/field_columns.h"
@@ -14,6 +16,7 @@ namespace {
 
 using io::NetcdfType;
 
+// Returns the attributes of an array, all of them texts, as netCDF has them.
 std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
   std::vector<io::NetcdfAttribute> attributes;
   for (const auto& [name, text] : array.attributes) {
@@ -25,6 +28,8 @@ std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
 // Writes the points of a side, as a longitude-latitude grid or as a list.
 class PointsOut {
  public:
+  // The points are written as a grid if the shape has two dimensions and the places are those of a
+  // latitude for each row and a longitude for each column.
   PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
     const std::vector<LonLat>& points = side.points;
     is_grid_ = side.shape.size() == 2 && !points.empty();
@@ -66,6 +71,7 @@ class PointsOut {
     out.add_variable(variable("lon", NetcdfType::float64, of(1),
                               {{"units", "degrees_east"}, {"standard_name", "longitude"}}));
   }
+  // Writes the coordinates, in the order of define().
   void write(io::NetcdfWriter& out) const {
     if (side_.points.empty()) return;
     const std::size_t step = is_grid_ ? num_lon_ : 1;
@@ -73,9 +79,11 @@ class PointsOut {
                              [&](std::size_t i) { return side_.points[i * step].lat_deg; });
     out.write_values<double>(num_lon_, [&](std::size_t i) { return side_.points[i].lon_deg; });
   }
+  // Returns the numbers of the dimensions of the points, after define().
   [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return dimensions_; }
   // True if the points are a list, not a grid.
   [[nodiscard]] bool is_one_dimension() const { return !is_grid_ && side_.shape.size() <= 1; }
+  // True if variables need the attribute `coordinates`, as the names of dimensions do not say it.
   [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
 
  private:
@@ -89,6 +97,7 @@ class PointsOut {
 // Writes the header and the coordinates at once, and the values as they come.
 class NetcdfSink : public FieldSink {
  public:
+  // Columns are texts along one dimension, so a grid of points has none.
   NetcdfSink(io::AtomicFile& file, const FieldsToWrite& job)
       : out_(file),
         points_(job.side, job.fields.num_points),
@@ -106,6 +115,7 @@ class NetcdfSink : public FieldSink {
   void finish() override { out_.finish(); }
 
  private:
+  // Defines dimensions, axes, places, columns and arrays, each with a name that is still free.
   void define(const FieldsToWrite& job) {
     const FieldSet& fields = job.fields;
     out_.add_attribute("Conventions", "CF-1.8");
@@ -164,6 +174,7 @@ class NetcdfSink : public FieldSink {
   io::NetcdfWriter out_;
   PointsOut points_;
   ColumnsOut columns_;
+  // Names of variables and dimensions that are in use.
   std::set<std::string> taken_;
   std::vector<LeadingDimension> known_;
 };

@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// Loads GDAL at run time and looks up the functions of its C interface by name. The library stays
+// loaded until the process ends; load_gdal() may be called by several threads.
 #include "formats/gdal.h"
 
 #include <cstdlib>
@@ -11,7 +14,8 @@
 namespace rondel::formats {
 namespace {
 
-// Tries the versions of GDAL from future ones down to 3.0.
+// Returns a handle of the library that RONDEL_GDAL names, or else of the first one that the system
+// finds, from versions in the future down to 3.0 (libgdal.so.26); null if there is none.
 void* open_gdal() {
   if (const char* const name = std::getenv("RONDEL_GDAL"); name != nullptr) {
     return system::open_library(name);

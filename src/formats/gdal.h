@@ -16,9 +16,10 @@ namespace rondel::formats {
 // GDAL's opaque handles; its documentation says which function takes which handle.
 using GdalHandle = void*;
 
-// The functions of GDAL that are called. Prefixes of GDAL's names: GDAL (datasets and drivers),
-// OSR (spatial references), OGR (layers L, fields Fld, features F, geometries G), CPL (errors and
-// settings), VSI (files, here in memory); load() in gdal.cpp says which member has which name.
+// The functions of GDAL that are called. Prefixes of GDAL's names: GDAL (datasets and drivers), OSR
+// (spatial references), OGR (layers L, fields Fld, features F, geometries G), CPL (errors and
+// settings), VSI (files, here in memory); load_symbols() in gdal.cpp says which member has which
+// name.
 struct Gdal {
   void (*all_register)();
   const char* (*version_info)(const char*);
@@ -62,6 +63,7 @@ const Gdal& load_gdal(const std::string& path);
 // them.
 class QuietGdal {
  public:
+  // Silences GDAL. `gdal` must live as long as this object.
   explicit QuietGdal(const Gdal& gdal) : gdal_(gdal) {
     gdal_.push_error_handler(gdal_.quiet_error_handler);
   }

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes graphs, outlines and empty circles as files.
+// Writes graphs, outlines and empty circles as files: write_graph(), write_outline() and
+// write_circles(). GeoJSON has lines, polygons or points in degrees; a table (.csv) has a row for
+// each edge or circle; .npy has the two sites of each edge. Sites are named by their indices.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,6 +59,7 @@ Point unit_of(const Triangulation& triangulation, Index site) {
   return exact::unit_vector(triangulation.sites()[site], triangulation.sphere().center).hi;
 }
 
+// Writes a feature for each edge with its two sites, its length in degrees and a MultiLineString.
 void write_graph_geojson(io::AtomicFile& file, const GraphToWrite& job) {
   file.write(io::features_begin);
   std::string text;
@@ -85,6 +88,7 @@ void write_graph_geojson(io::AtomicFile& file, const GraphToWrite& job) {
   file.write(io::features_end);
 }
 
+// Writes a row for each edge: its two sites and its length in degrees.
 void write_graph_csv(io::AtomicFile& file, const GraphToWrite& job) {
   std::string text = "source,target,length_deg\n";
   for (std::size_t i = 0; i < job.graph.edges.size(); ++i) {
@@ -96,12 +100,14 @@ void write_graph_csv(io::AtomicFile& file, const GraphToWrite& job) {
   file.write(text);
 }
 
+// Writes the sites of the edges as an array of the shape (edges, 2) of 32-bit integers.
 void write_graph_npy(io::AtomicFile& file, const GraphToWrite& job) {
   const std::array<std::uint64_t, 2> shape = {job.graph.edges.size(), 2};
   file.write(io::make_npy_header("<u4", shape));
   file.write(io::NumberBytes(job.graph.edges));
 }
 
+// Writes a feature for each part of the outline, with the number of its sites and its polygons.
 void write_outline_geojson(io::AtomicFile& file, const OutlineToWrite& job) {
   const Outline& outline = job.outline;
   const std::vector<std::uint64_t>& ends = outline.rows.offsets;
@@ -125,6 +131,7 @@ void write_outline_geojson(io::AtomicFile& file, const OutlineToWrite& job) {
   file.write(io::features_end);
 }
 
+// Writes a row for each circle: its center and radius in degrees, and its three sites.
 void write_circles_csv(io::AtomicFile& file, const Circles& circles) {
   std::string text = "lon,lat,radius_deg,a,b,c\n";
   for (const EmptyCircle& circle : circles) {
@@ -140,6 +147,7 @@ void write_circles_csv(io::AtomicFile& file, const Circles& circles) {
   file.write(text);
 }
 
+// Writes a point for each circle, its center, with the radius and the three sites as properties.
 void write_circles_geojson(io::AtomicFile& file, const Circles& circles) {
   std::string text = io::features_begin;
   for (std::size_t i = 0; i < circles.size(); ++i) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Grid files of the ICON grid generator.
+// Grid files of the ICON grid generator: triangles (`vertex_of_cell`, which counts from 1 and has
+// the cells last) with their vertices (`vlon`, `vlat`) and centers (`clon`, `clat`) in radians.
 #include <string>
 #include <utility>
 
@@ -26,6 +27,7 @@ std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string
   const MeshCoordinates centers = {file.find("clon"), file.find("clat")};
   take_nodes(file, {lon, lat}, centers, UsualUnits::radians, mesh);
   require_rank(*vertices, 2);
+  // The shape is (3, cells), so the rows are transposed.
   take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
                     mesh);
   take_centers(file, centers, {lon, lat}, UsualUnits::radians, mesh);

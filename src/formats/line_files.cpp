@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads lines and points that a mesh follows.
+// Reads lines and points that a mesh follows: lines and outlines of polygons in GeoJSON, or the
+// sites of any other file, each of which is a line of one point.
 #include <string>
 #include <vector>
 

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Writes a Voronoi mesh as a file: mesh::write() picks the convention, whose define_...() says
+// which variables there are, and MeshFile::write() computes and writes their values. write_graph()
+// writes the neighbors of cells for METIS. Coordinates are computed here, the same for all
+// conventions.
 #include "formats/mesh_file.h"
 
 #include <algorithm>
@@ -21,7 +25,8 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-// Rounding may turn an angle just below 0 into a whole turn, which becomes 0.
+// Returns an angle from 0 to less than `whole`, the size of a turn. Rounding may turn an angle just
+// below 0 into a whole turn, which becomes 0.
 double in_turn(double angle, double whole) {
   const double moved = angle < 0 ? angle + whole : angle;
   return moved < whole ? moved : 0;
@@ -72,6 +77,7 @@ CellCorners::CellCorners(const mesh::VoronoiMesh& arrays) : arrays_(arrays) {
   if (std::ranges::find(arrays.vertex_distances, 0.0) == arrays.vertex_distances.end()) return;
   joined_.resize(arrays.num_vertices());
   std::iota(joined_.begin(), joined_.end(), Index{0});
+  // Returns the vertex that stands for v, and shortens the way to it (union-find).
   const auto lowest = [&](Index v) {
     while (joined_[v] != v) v = joined_[v] = joined_[joined_[v]];
     return v;
@@ -120,6 +126,7 @@ void write(const FileName& name, const VoronoiMesh& arrays, const MeshFileOption
       break;
   }
   NetcdfOptions netcdf = io::with_kind({options.kind, options.deflate}, name);
+  // Where neither options nor the ending say it, CDF-5 has room for variables of any size.
   if (netcdf.kind == NetcdfKind::by_name) netcdf.kind = NetcdfKind::cdf5;
   io::in_file(name.path, [&] { file.write(netcdf); });
   output.commit();
@@ -131,6 +138,7 @@ void write_graph(const FileName& name, const VoronoiMesh& arrays, const Executio
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   io::AtomicFile file(name);
+  // METIS counts each pair of neighbors once; an edge at the border joins no two cells.
   const auto edges = std::ranges::count_if(
       arrays.cells_on_edge, [](const auto& cells) { return !meshing::is_at_border(cells); });
   file.write(std::to_string(arrays.num_cells()) + ' ' + std::to_string(edges) + '\n');

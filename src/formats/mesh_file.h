@@ -24,15 +24,21 @@
 
 namespace rondel::formats {
 
+// A netCDF file that is being written, and the mesh from which its values are computed. `arrays`
+// and what the fill functions refer to must live until write().
 class MeshFile {
  public:
   using Texts = std::initializer_list<std::pair<const char*, const char*>>;
 
+  // Begins a file with the values of `arrays`; nothing is written before write().
   MeshFile(io::AtomicFile& file, const mesh::VoronoiMesh& arrays, const Execution& execution)
       : arrays_(arrays), execution_(execution), out_(file) {}
 
+  // Returns the mesh.
   [[nodiscard]] const mesh::VoronoiMesh& arrays() const { return arrays_; }
+  // Returns the writer, for global attributes.
   io::NetcdfWriter& netcdf() { return out_; }
+  // Defines a dimension and returns its number; with size 0 it is the record dimension.
   std::size_t dimension(const char* name, std::uint64_t size) {
     return out_.add_dimension(name, size);
   }
@@ -116,6 +122,7 @@ class MeshFile {
 
  private:
   using Values = decltype(mesh::FileVariable::values);
+  // The number of rows that a thread fills at once.
   static constexpr std::size_t rows_per_piece = 4096;
 
   const mesh::VoronoiMesh& arrays_;
@@ -135,6 +142,7 @@ double latitude_deg_of(const Point& p);
 // as one.
 class CellCorners {
  public:
+  // Joins vertices across edges of length 0. `arrays` must live as long as this object.
   explicit CellCorners(const mesh::VoronoiMesh& arrays);
 
   // Calls visit(vertex) for the corners of a cell, counterclockwise.
@@ -158,6 +166,7 @@ class CellCorners {
   }
 
  private:
+  // Returns the vertex that stands for a corner, the lowest of those that are joined.
   [[nodiscard]] Index corner(Index vertex) const {
     return joined_.empty() ? vertex : joined_[vertex];
   }
@@ -166,6 +175,7 @@ class CellCorners {
   std::vector<Index> joined_;  // by vertex: the corner; empty if every vertex is a corner
 };
 
+// The attributes of coordinates in degrees and of areas on the unit sphere.
 constexpr MeshFile::Texts texts_of_degrees = {{"units", "degrees"}};
 constexpr MeshFile::Texts texts_of_areas = {{"units", "radians^2"}};
 
@@ -174,7 +184,8 @@ inline double area_at_one(const mesh::VoronoiMesh& arrays, std::size_t cell) {
   return arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
 }
 
-// Each of these defines the variables of one convention.
+// Each of these defines the dimensions, attributes and variables of one convention, before any
+// value is written. `corners` must live until the file is written.
 void define_mpas(MeshFile& file);
 void define_ugrid(MeshFile& file, const CellCorners& corners);
 void define_scrip(MeshFile& file, const CellCorners& corners);
@@ -184,11 +195,12 @@ void define_esmf(MeshFile& file, const CellCorners& corners);
 struct CellBlocks {
   std::vector<Index> cells;         // sorted by number of corners, then by index
   std::vector<std::size_t> begins;  // begin of each block in `cells`, and the end
-  // by block: the number of corners of its cells
+  // By block, the number of corners of its cells.
   std::vector<std::size_t> corners;
 };
 // Returns the cells in blocks.
 CellBlocks blocks_of(const mesh::VoronoiMesh& arrays, const CellCorners& corners);
+// Defines the variables of an Exodus file, block by block.
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
 }  // namespace rondel::formats

@@ -4,8 +4,10 @@
 // Meshes of MPAS by "MPAS Mesh Specification", version 1.0, 2015, with what MPAS-Tools' converter
 // writes besides. Numbers start at 1; rows are filled with 0, which stands for none.
 //
-// There are two readers: read_mpas() below reads only the cells, with their corners and centers,
-// for read_cells(); mpas_arrays.cpp reads the arrays of a whole mesh, for read_mesh().
+// There are two readers: read_mpas_cells() below reads only the cells, with their corners and
+// centers, for read_cells(); mpas_arrays.cpp reads the arrays of a whole mesh, for read_mesh().
+//
+// define_mpas() is the writer, and mpas_content() returns what it would write.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +53,7 @@ struct MpasSizes {
 
 constexpr MeshFile::Texts radians = {{"units", "rad"}};
 
-// Returns ten digits of base 36.
+// Returns ten digits of base 36 for `file_id`, the same for the same cells.
 std::string id_of(std::uint64_t hash) {
   constexpr std::string_view digits = "0123456789abcdefghijklmnopqrstuvwxyz";
   std::string id;
@@ -62,7 +64,8 @@ std::string id_of(std::uint64_t hash) {
 // Returns the number that counts from 1, or 0 for no_index.
 std::int32_t one_based(Index index) { return static_cast<std::int32_t>(index + 1); }
 
-// Defines what cells, edges and vertices have in common: coordinates and numbers.
+// Defines what cells, edges and vertices have in common: latCell, lonCell (radians), xCell, yCell,
+// zCell (in the unit of the radius) and indexToCellID. `kind` is "Cell", "Edge" or "Vertex".
 void define_places(MeshFile& file, const std::string& kind, std::size_t dimension,
                    const std::vector<Point>& points) {
   const std::size_t size = points.size();
@@ -86,7 +89,8 @@ void define_values(MeshFile& file, const char* name, std::size_t dimension, Mesh
                [&values](std::size_t i) { return values[i]; });
 }
 
-// Defines rows of fixed length from an array in compressed rows.
+// Defines edgesOnCell, cellsOnCell or verticesOnCell: rows of `maxEdges` numbers from an array in
+// compressed rows.
 void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
                  const std::vector<Index>& ring) {
   const VoronoiMesh& arrays = file.arrays();
@@ -109,7 +113,7 @@ void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dime
                });
 }
 
-// Defines the variables of cells.
+// Defines the variables of cells: nEdgesOnCell, areaCell, meshDensity and others.
 void define_cells(MeshFile& file, const MpasSizes& sizes) {
   const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
@@ -145,7 +149,8 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
                [distances](std::size_t i) { return distances(i)[2]; });
 }
 
-// Defines the variables of edges.
+// Defines the variables of edges: cellsOnEdge, dcEdge, dvEdge, angleEdge, and weightsOnEdge, from
+// which MPAS computes tangential velocities.
 void define_edges(MeshFile& file, const MpasSizes& sizes) {
   const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_edges();
@@ -160,6 +165,7 @@ void define_edges(MeshFile& file, const MpasSizes& sizes) {
   const std::size_t room = sizes.of_edge;
   file.indices("edgesOnEdge", {sizes.edges, sizes.max_edges_2}, {}, size, room,
                [&arrays, room](std::size_t e, std::int32_t* out) {
+                 // Several threads fill rows; each keeps one buffer.
                  thread_local std::vector<Index> edges;
                  edges.resize(room);
                  meshing::write_weights(arrays, e, edges, {});
@@ -223,7 +229,8 @@ bool is_obtuse(const Corners& corners) {
   return found;
 }
 
-// Defines the variables of vertices.
+// Defines the variables of vertices: cellsOnVertex, areaTriangle, kiteAreasOnVertex and the
+// measures of the triangles' quality.
 void define_vertices(MeshFile& file, const MpasSizes& sizes) {
   const VoronoiMesh& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();
@@ -285,6 +292,7 @@ void require_one_place(const io::NetcdfReader& file, const std::string& kind, Pl
     const Point unit = unit_vectors({&place, 1}).front();
     const double length =
         std::sqrt(xyz[0][i] * xyz[0][i] + xyz[1][i] * xyz[1][i] + xyz[2][i] * xyz[2][i]);
+    // The point (0, 0, 0) has no direction, as for elements that are left out.
     if (!(length > 0)) continue;
     const double dx = xyz[0][i] / length - unit.x;
     const double dy = xyz[1][i] / length - unit.y;
@@ -304,6 +312,7 @@ std::optional<MeshContent> read_mpas_cells(const NetcdfReader& file, const std::
   require_sphere(file);
   MeshContent mesh;
   mesh.convention = "MPAS";
+  // Masked places may be missing; those that are there must be the same in both forms.
   for (const char* kind : {"Cell", "Vertex"}) require_one_place(file, kind, PlacesMay::be_missing);
   const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};
   const MeshCoordinates centers = {file.find("lonCell"), file.find("latCell")};
@@ -321,8 +330,8 @@ std::optional<MeshContent> read_mpas_cells(const NetcdfReader& file, const std::
   return mesh;
 }
 
-// The order of the variables is that in which they are written. `Time`, the
-// record dimension, has no records.
+// The order of the variables is that in which they are written. `Time`, the record dimension, has
+// no records.
 void define_mpas(MeshFile& file) {
   const VoronoiMesh& arrays = file.arrays();
   MpasSizes sizes{};
@@ -358,6 +367,7 @@ void define_mpas(MeshFile& file) {
 namespace rondel::mesh {
 
 MpasContent mpas_content(const VoronoiMesh& arrays, const Execution& execution) {
+  // These follow from the others, or say which program wrote the file.
   constexpr std::array<std::string_view, 15> left_out = {
       "indexToCellID",        "indexToEdgeID",   "indexToVertexID", "cellQuality",
       "gridSpacing",          "nEdgesOnEdge",    "edgesOnEdge",     "weightsOnEdge",
@@ -369,6 +379,7 @@ MpasContent mpas_content(const VoronoiMesh& arrays, const Execution& execution) 
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   std::string nothing;
+  // The file is only defined: nothing is written to it.
   io::AtomicFile output(FileName::in_memory(nothing, {}));
   formats::MeshFile file(output, arrays, execution);
   formats::define_mpas(file);

@@ -29,6 +29,7 @@
 namespace rondel::mesh {
 namespace {
 
+// The number of elements that a thread reads at once.
 constexpr std::size_t read_grain = 4096;
 
 using io::BadValue;
@@ -36,9 +37,11 @@ using io::BadValue;
 // Reads the arrays and derives the lists that are not read.
 class MpasReader {
  public:
+  // Reads with the threads of `execution`, and announces its progress as "read".
   MpasReader(const io::NetcdfReader& file, const Execution& execution)
       : file_(file), threads_(execution.threads), execution_(execution) {}
 
+  // Returns the mesh. Throws BadValue if a variable is missing or the lists do not fit together.
   VoronoiMesh read() {
     read_sphere();
     read_points({"xCell", "yCell", "zCell"}, arrays_.cell_points);
@@ -57,6 +60,7 @@ class MpasReader {
     read_rows("cellsOnEdge", arrays_.num_edges(), arrays_.num_cells(), arrays_.cells_on_edge, true);
     read_rows("verticesOnEdge", arrays_.num_edges(), arrays_.num_vertices(),
               arrays_.vertices_on_edge, false);
+    // The border has to be known before the rings, whose lengths are checked by it.
     find_border();
     read_rings();
     turn_edges();
@@ -113,6 +117,7 @@ class MpasReader {
     });
   }
 
+  // Throws BadValue, with the name and the number of the value, unless it is finite.
   static void require_finite(const char* name, std::size_t i, double value) {
     if (std::isfinite(value)) return;
     throw BadValue("variable " + io::in_quotes(name) + ", value " + std::to_string(i) +
@@ -313,9 +318,11 @@ class MpasReader {
     });
   }
 
-  // Counterclockwise around its first cell, an edge begins at its first vertex.
+  // Finds the cells and vertices of one ring, and throws BadValue unless its edges follow each
+  // other counterclockwise. Around its first cell, an edge begins at its first vertex.
   void follow_ring(Index cell) {
     const std::uint64_t end = arrays_.edges_on_cell.offsets[cell + 1];
+    // A ring begins where its last edge ends.
     Index last_end = end_of(arrays_.edges_on_cell.values[end - 1], cell, 1);
     Point last_corner = arrays_.vertex_points[last_end] - arrays_.cell_points[cell];
     Point around{0, 0, 0};
@@ -333,8 +340,10 @@ class MpasReader {
       around = around + cross(last_corner, corner);
       last_corner = corner;
     }
+    // The vector area of the ring points outward if the ring is counterclockwise.
     if (!(dot(around, arrays_.cell_points[cell]) > 0)) refuse_ring(cell);
   }
+  // Throws BadValue for a ring that is broken or clockwise.
   [[noreturn]] static void refuse_ring(Index cell) {
     throw BadValue("the edges around cell " + std::to_string(cell) +
                    " do not follow each other counterclockwise");
@@ -387,6 +396,7 @@ class MpasReader {
             throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
                            std::to_string(cells[j]) + " and " + std::to_string(cells[next]));
           }
+          // The edge between cell j and the next one stands before the next one.
           edges[next] = arrays_.edges_on_cell.values[at];
           edges[j] = arrays_.edges_on_cell.values[after(at, cells[j])];
         }
@@ -423,6 +433,7 @@ class MpasReader {
   const io::NetcdfReader& file_;
   unsigned threads_;
   const Execution& execution_;
+  // The number of edges with one cell.
   std::uint64_t num_border_edges_ = 0;
   VoronoiMesh arrays_;
 };

@@ -29,8 +29,8 @@ void require_one_place(const io::NetcdfReader& file, const std::string& kind, Pl
 // True if a file has the lists of edges that a whole mesh of MPAS has.
 bool has_mpas_arrays(const io::NetcdfReader& file);
 
-// Returns the arrays that an MPAS file holds, with the orders that VoronoiMesh documents and indices
-// from 0, where the file counts from 1. Throws BadValue if they are not those of a mesh.
+// Returns the arrays that an MPAS file holds, with the orders that VoronoiMesh documents and
+// indices from 0, where the file counts from 1. Throws BadValue if they are not those of a mesh.
 mesh::VoronoiMesh read_mpas_arrays(const io::NetcdfReader& file, const Execution& execution);
 
 }  // namespace rondel::formats

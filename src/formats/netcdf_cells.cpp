@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Functions that the readers of all conventions share.
+// Functions that the readers of all conventions share: they read nodes, connectivities, masks and
+// centers into MeshContent, check them, and throw BadValue with the names of the variables.
 #include "formats/netcdf_cells.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ class ConnectivityReader {
     ValueRules(of_.variable).apply(meant_);
   }
 
+  // Reads all rows. Ragged rows follow each other; others have one length and may be transposed.
   void read() {
     if (!is_ragged()) require_values(of_.variable, of_.num_cells * of_.corners_per_cell);
     std::uint64_t begin = 0;  // where the row of the cell begins
@@ -50,18 +52,24 @@ class ConnectivityReader {
   }
 
  private:
+  // A cell with the place of its entries; `begin` is not in use if rows are transposed.
   struct Row {
     std::uint64_t cell;
     std::uint64_t begin;
     std::uint64_t length;  // number of entries in use
   };
 
+  // True if rows have different lengths and follow each other, as ESMF may have them.
   [[nodiscard]] bool is_ragged() const { return of_.corners_per_cell == 0; }
+  // Returns the index of entry k of a row among all entries.
   [[nodiscard]] std::uint64_t place_of(const Row& row, std::uint64_t k) const {
     return of_.is_transposed ? k * of_.num_cells + row.cell : row.begin + k;
   }
+  // Returns the quoted name of the variable, for messages.
   [[nodiscard]] std::string name() const { return io::in_quotes(of_.variable.name); }
 
+  // Returns the number of entries of a row that are in use. Throws BadValue for a count that is no
+  // whole number or more than the row has.
   [[nodiscard]] std::uint64_t length_of(std::uint64_t cell, std::uint64_t begin) const {
     if (counts_.empty()) return of_.corners_per_cell;
     const std::uint64_t most = is_ragged() ? entries_.size() - begin : of_.corners_per_cell;
@@ -73,6 +81,7 @@ class ConnectivityReader {
                    " corners of " + std::to_string(most));
   }
 
+  // True if an entry begins a further ring: `polybreak_value` of ESMF.
   [[nodiscard]] bool is_break(std::uint64_t at) const {
     return of_.break_value < of_.first && entries_[at] == of_.break_value;
   }
@@ -80,11 +89,13 @@ class ConnectivityReader {
   [[nodiscard]] bool is_none(std::uint64_t at) const {
     return std::isnan(meant_[at]) || entries_[at] < of_.first;
   }
+  // True if an entry is the number of a node.
   [[nodiscard]] bool is_node(std::uint64_t at) const {
     const double node = entries_[at] - of_.first;
     return !is_none(at) && node < static_cast<double>(mesh_.nodes.size()) &&
            node == std::floor(node);
   }
+  // Returns the index of a node, from 0. Precondition: is_node(at).
   [[nodiscard]] Index node_at(std::uint64_t at) const {
     return static_cast<Index>(entries_[at] - of_.first);
   }
@@ -129,6 +140,7 @@ class ConnectivityReader {
     }
   }
 
+  // Throws BadValue for entry k of a row, which is no corner though others follow or are counted.
   [[noreturn]] void refuse_none(const Row& row, std::uint64_t k) const {
     throw BadValue("cell " + std::to_string(row.cell) + " has the number " +
                    system::shortest_text(entries_[place_of(row, k)]) +
@@ -138,6 +150,7 @@ class ConnectivityReader {
                         : ", though it has " + std::to_string(row.length) + " corners"));
   }
 
+  // Throws BadValue for an entry that is too large, with a hint if numbers seem to count from 1.
   [[noreturn]] void refuse_node(std::uint64_t cell, std::uint64_t at) const {
     const bool may_count_from_1 = of_.first == 0 &&
                                   entries_[at] == static_cast<double>(mesh_.nodes.size()) &&
@@ -151,6 +164,7 @@ class ConnectivityReader {
              : std::string()));
   }
 
+  // Adds remarks on entries that were passed over.
   void tell() const {
     if (num_undeclared_ > 0) {
       mesh_.remarks.push_back(std::to_string(num_undeclared_) + " numbers of " + name() +
@@ -169,6 +183,7 @@ class ConnectivityReader {
   const Connectivity& of_;
   const std::vector<double>& counts_;
   MeshContent& mesh_;
+  // Entries as they are in the file; break values and numbers of nodes are compared with these.
   std::vector<double> entries_;
   std::vector<double> meant_;  // missing ones are NaN
   std::size_t num_undeclared_ = 0;
@@ -262,6 +277,7 @@ void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshCon
   cells.cells.reserve(num_cells + 1);
   for (std::size_t i = 0; i < num_cells; ++i) {
     std::size_t count = corners_per_cell;
+    // Files fill up the rows of cells with fewer corners by missing values.
     while (may_be_fewer && count > 3 &&
            is_missing_place(mesh.nodes[i * corners_per_cell + count - 1])) {
       --count;
@@ -316,6 +332,8 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
     bool is_whole = true;
     for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
       const Index node = cells.corners[k];
+      // The corners of a masked cell may be anything; elsewhere a number that is no place is an
+      // error, and only a missing one leaves out the cell.
       const bool may_be_no_place = mask[i] == 0 || is_missing_place(mesh.nodes[node]);
       if (!may_be_no_place) {
         (void)require_position(mesh.names, node, mesh.nodes[node]);
@@ -333,6 +351,7 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
   if (num_left_out > 0 && std::ranges::count(mask, 0) == std::ssize(mask)) {
     throw BadValue("no cell has corners: values of " + mesh.names + " are missing");
   }
+  // Nodes that no cell has any more get a place, so that all nodes can become unit vectors.
   for (LonLat& node : mesh.nodes) {
     node = is_nearly_place(node) ? LonLat{node.lon_deg, std::clamp(node.lat_deg, -90.0, 90.0)}
                                  : LonLat{0, 0};

@@ -73,11 +73,12 @@ std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
                                                    const MeshCoordinates& wanted,
                                                    const MeshCoordinates& related,
                                                    UsualUnits usual);
-// Returns the same coordinates as positions. Throws BadValue if the two variables have different
-// numbers of values.
+// Returns the coordinates of degrees_of_both() as positions. Throws BadValue if the two variables
+// have different numbers of values.
 std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
                                  const MeshCoordinates& related, UsualUnits usual);
-// Reads the nodes of a mesh.
+// Reads the nodes of a mesh, their precision and the names of their variables. Missing nodes are
+// NaN; `centers` give the units if the nodes have none.
 void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
                 const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh);
 // True if a coordinate of a place is NaN.
@@ -114,7 +115,8 @@ enum class MaskedBy : std::uint8_t { zero, others };
 // such variable.
 void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_t num_cells,
                MaskedBy masked_by, MeshContent& mesh);
-// Reads the centers of cells, if the file has them.
+// Reads the centers of cells, if the file has them. `nodes` give the units if the centers have
+// none. Throws BadValue if there is not one center for each cell.
 void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
                   const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);
 // Removes the rings of cells with a corner at a missing node, sets their mask to 0, and adds a

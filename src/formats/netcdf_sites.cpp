@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads sites from netCDF files: the centers of cells, or the places of values.
+// Reads sites from netCDF files: read_netcdf_sites(). Sites are the centers of the cells if the
+// file has cells with centers, or else the places of the fields; fields with one value at each site
+// become columns of the table.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -134,6 +136,8 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
     sites = std::move(*centers);
   }
   const std::size_t num_centers = sites.table.positions.size();
+  // The fields are needed if they give the sites or the columns, or if the name picks one of
+  // several, which then must exist.
   if (num_centers == 0 || keep_columns || named.is_one_of_several) {
     try {
       const FieldFile fields(file, names, num_centers, {}, {}, {sites.table.positions, 1e-9});

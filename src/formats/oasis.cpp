@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Grids of OASIS: several in one file, told apart by the first parts of variable names (OASIS3-MCT
-// user guide, section 5.1).
+// user guide, section 5.1). Grid torc has the corners torc.clo and torc.cla, which may be (corners,
+// ny, nx), the centers torc.lon and torc.lat, and the mask torc.msk, where 1 is masked.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -61,6 +62,7 @@ std::vector<LonLat> corners_last(const io::VariableInFile& variable, std::size_t
 std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::string& name) {
   const std::vector<std::string> grids = oasis_grids(file);
   if (grids.empty()) return std::nullopt;
+  // A name is that of a grid, or of a variable that begins with it and a dot.
   const auto chosen = std::ranges::find_if(grids, [&](const std::string& grid) {
     return name.empty() || name == grid || name.starts_with(grid + '.');
   });
@@ -88,6 +90,7 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
   mesh.names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
   mesh.is_single = lon.type == io::NetcdfType::float32;
   if (mesh.nodes.empty()) throw BadValue("grid " + *chosen + " has no cells");
+  // Cells of the shape (n, corners) are a list, which has no shape.
   for (std::size_t d = 0; d < lon.shape.size() && lon.shape.size() > 2; ++d) {
     if (d != corner) mesh.shape.push_back(lon.shape[d]);
   }

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Implements require_own_centers() by the rules in own_centers.h. A first pass over the cells finds
+// the centers outside of their circles, a second one over these compares them with the median
+// radius.
 #include "formats/own_centers.h"
 
 #include <algorithm>
@@ -25,21 +28,26 @@ constexpr double max_radii = 3;
 // How far the distances from a circumcenter to the corners may differ, in radii.
 constexpr double slack_of_circumcenter = 0.01;
 
+// The circle around the mean direction of a cell's corners, through the farthest one.
 struct CornerCircle {
   Point middle;
   double radius = 0;  // 0 for a cell that is not looked at
 };
 
+// Returns a place in words, for messages.
 std::string place_text(const LonLat& place) {
   return "longitude " + system::shortest_text(place.lon_deg) + " and latitude " +
          system::shortest_text(place.lat_deg);
 }
 
+// The check of one mesh. `cells` have unit vectors, `mesh` has the centers and the names.
 class CenterCheck {
  public:
+  // Precondition: all centers are places.
   CenterCheck(const MeshContent& mesh, const CellRings& cells)
       : mesh_(mesh), cells_(cells), centers_(unit_vectors(mesh.centers)) {}
 
+  // Returns the remark, or an empty text. Throws BadValue by rules 2 and 3.
   std::string run() {
     std::vector<double> radii;
     std::vector<std::size_t> outside;
@@ -76,6 +84,7 @@ class CenterCheck {
     }
   }
 
+  // Returns the circle of a cell; its radius is 0 for cells that pass by rule 1.
   [[nodiscard]] CornerCircle circle_of(std::size_t cell) const {
     if (!mesh_.mask.empty() && mesh_.mask[cell] == 0) return {};
     Point sum{0, 0, 0};
@@ -88,6 +97,7 @@ class CenterCheck {
     return circle.radius < max_radius ? circle : CornerCircle{};
   }
 
+  // True if the center is as far from all corners, within a hundredth of `radius`.
   [[nodiscard]] bool is_circumcenter(std::size_t cell, double radius) const {
     double least = 2;
     double most = 0;
@@ -99,6 +109,7 @@ class CenterCheck {
     return most - least <= slack_of_circumcenter * radius;
   }
 
+  // Returns, for example, "3 of 60 centers of cells in 'lon' and 'lat'".
   [[nodiscard]] std::string counted(std::size_t count, std::size_t of_all) const {
     return std::to_string(count) + " of " + std::to_string(of_all) + " centers of cells in " +
            mesh_.center_names;
@@ -111,6 +122,7 @@ class CenterCheck {
            ", with a corner at " + place_text(corner);
   }
 
+  // Throws BadValue that names a cell with a foreign center.
   [[noreturn]] void refuse(std::size_t cell, std::size_t count, std::size_t of_all) const {
     throw io::BadValue("centers belong to other cells than the corners in " + mesh_.names + ": " +
                        counted(count, of_all) + " are outside of their corners, such as " +

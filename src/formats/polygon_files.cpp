@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Reads the features of GeoJSON: read_polygons() returns the cells, and read_features() also the
+// lines and points. The rings become cells in overlay/feature_polygons.h; lines are divided here.
 #include "rondel/polygon_files.h"
 
 #include <cstddef>
@@ -94,6 +96,7 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
   FeatureTable table;
   for (std::size_t f = 0; f < features.rings.size(); ++f) {
+    // A feature without geometry, or one that was rejected, stays in the table without a place.
     table.is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
   }
   table.lines = lines_of_features(features, options);

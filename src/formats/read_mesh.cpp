@@ -43,6 +43,7 @@ bool has_corner(const VoronoiMesh& arrays, std::size_t cell, const Point& corner
                 double square_distance) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
        at < arrays.edges_on_cell.offsets[cell + 1]; ++at) {
+    // Corners are compared on the unit sphere.
     const Point away =
         (1 / arrays.radius) * arrays.vertex_points[arrays.vertices_on_cell[at]] - corner;
     if (dot(away, away) <= square_distance) return true;
@@ -89,7 +90,8 @@ void require_cells(const VoronoiMesh& arrays, const CellTable& table) {
   }
 }
 
-// Returns the Voronoi mesh of the centers, without a border.
+// Returns the Voronoi mesh of the centers, without a border. Throws BadValue if its cells are not
+// those of the file.
 VoronoiMesh whole_mesh(const CellTable& table, const Triangulation& triangulation,
                        const MeshOptions& options, const Execution& execution) {
   VoronoiMesh result = make_mesh(triangulation, options, execution);
@@ -115,6 +117,7 @@ std::optional<VoronoiMesh> part_of_mesh(const CellTable& table, const Triangulat
   meshing::require_rings_around_sites(from);
   const auto differing = meshing::cells_that_differ(from, execution);
   if (!differing) return meshing::bordered_mesh(from, options, execution);
+  // If no mesh without a border fits either, the message is the one on the first two cells.
   const io::BadValue refusal("cells " + std::to_string(differing->first) + " and " +
                              std::to_string(differing->second) +
                              " meet, but not in the same corners");
@@ -142,6 +145,7 @@ std::string remark_on_fields(const io::NetcdfReader& file) {
   for (std::size_t v = 0; v < headers.size(); ++v) {
     const VariableHeader& header = headers[v];
     const bool is_axis = header.dimensions.size() == 1 && header.dimensions[0] == header.name;
+    // Coordinates, axes and measures are computed again, so only other numbers are lost.
     if (parts[v] || header.shape.empty() || !header.is_number || is_axis ||
         std::ranges::count(measures, header.name) != 0 ||
         formats::coordinate_evidence(header, formats::CoordinateKind::lon) > 0 ||

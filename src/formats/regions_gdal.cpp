@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes regions by GDAL, first into its memory, so that the file appears whole or not at all.
+// Writes regions by GDAL: write_regions_gdal() and require_region_writer(). The polygons of a cell
+// become one feature, handed over as well-known binary. GDAL first writes into its memory, so that
+// the file appears whole or not at all.
 #include "formats/regions_gdal.h"
 
 #include <array>
@@ -58,14 +60,18 @@ class WkbWriter {
     append(&order, 1);
     add_number(static_cast<std::uint32_t>(type));
   }
+  // Appends a count, of 32 bits in WKB.
   void add_number(std::uint32_t number) { append(&number, sizeof number); }
+  // Appends a longitude and a latitude in degrees.
   void add_position(const LonLat& position) {
     append(&position.lon_deg, sizeof(double));
     append(&position.lat_deg, sizeof(double));
   }
+  // Returns the bytes so far.
   [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }
 
  private:
+  // Appends the bytes of a value in memory.
   void append(const void* data, std::size_t size) {
     const auto* const first = static_cast<const unsigned char*>(data);
     bytes_.insert(bytes_.end(), first, first + size);
@@ -101,8 +107,8 @@ std::optional<Number> number_in(std::string_view text) {
   return number;
 }
 
-// A column of numbers has integers of 64 bits if all of them are such, texts if doubles would round
-// others, and else doubles.
+// Returns the type of a field. A column of numbers has integers of 64 bits if all of them are such,
+// texts if doubles would round others, and else doubles.
 int field_type(const Column& column) {
   if (!column.is_numeric) return field_text;
   for (std::size_t row = 0; row < column.ends.size(); ++row) {
@@ -113,8 +119,8 @@ int field_type(const Column& column) {
   return field_integer;
 }
 
-// The names of the fields. GeoPackage takes upper and lower case for one, and has columns of its
-// own.
+// Returns the names of the fields, one for each column. GeoPackage takes upper and lower case for
+// one, and has columns of its own.
 std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
   const bool is_sqlite = format.ending == ".gpkg";
   std::set<std::string> taken = {"area"};
@@ -127,6 +133,7 @@ std::vector<std::string> field_names(std::span<const Column> columns, const Gdal
 // A dataset in GDAL's memory. What fails is told with the path of the file that it becomes.
 class GdalFile {
  public:
+  // Begins a dataset. Throws FileError if GDAL or its driver is missing, or refuses the dataset.
   GdalFile(const std::string& path, const GdalFormat& format)
       : gdal_(load_gdal(path)),
         quiet_(gdal_),
@@ -208,6 +215,7 @@ class GdalFile {
     if (!is_done) throw FileError(path_ + ": GDAL: " + gdal_.last_error());
   }
 
+  // Adds a field to the table. Throws FileError if GDAL refuses it.
   void add_field(const char* field_name, int type) {
     GdalHandle const field = gdal_.create_field(field_name, type);
     const int error = gdal_.add_field(layer_, field, 1);
@@ -230,6 +238,7 @@ class GdalFile {
   const Gdal& gdal_;
   QuietGdal quiet_;
   std::string path_;
+  // The name in GDAL's memory, the type of each column's field, and GDAL's handles.
   std::string name_;
   GdalHandle dataset_ = nullptr;
   GdalHandle layer_ = nullptr;

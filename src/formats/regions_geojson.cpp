@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes cells of any form as GeoJSON (RFC 7946): a FeatureCollection with a feature for each cell
-// that has rings.
+// Writes cells of any form as GeoJSON (RFC 7946) and returns their polygons: write_regions() and
+// region_polygons(). The file is a FeatureCollection with a feature for each cell that has rings.
+//
+// Cells are drawn in parallel: nearby points become one, each ring gets the corners that its
+// neighbors have on it, and the loops become polygons that do not overlap.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -40,8 +43,10 @@ struct RegionsToWrite {
   const Column& ids;
 };
 
+// The number of cells that a thread draws at once.
 constexpr std::size_t cells_per_task = 16;
 
+// Returns the corners of a ring, as indices of points.
 std::span<const Index> ring_of(const CellRings& cells, std::uint64_t ring) {
   return std::span(cells.corners)
       .subspan(cells.rings[ring], cells.rings[ring + 1] - cells.rings[ring]);
@@ -50,6 +55,7 @@ std::span<const Index> ring_of(const CellRings& cells, std::uint64_t ring) {
 // The points of the rings of a cell.
 class RingsOfCell {
  public:
+  // Takes the points of the corners as they are.
   RingsOfCell(const CellRings& cells, std::size_t cell)
       : RingsOfCell(cells, cell, [&](std::span<const Index> corners, std::vector<Point>& ring) {
           for (const Index corner : corners) ring.push_back(cells.points[corner]);
@@ -62,6 +68,7 @@ class RingsOfCell {
       append_ring(ring_of(cells, r), points_.emplace_back());
     rings_.assign(points_.begin(), points_.end());
   }
+  // Returns the rings, which live as long as this object.
   [[nodiscard]] std::span<const map::UnitVectors> rings() const { return rings_; }
 
  private:
@@ -69,6 +76,7 @@ class RingsOfCell {
   std::vector<map::UnitVectors> rings_;
 };
 
+// Returns the area to the left of the rings in steradians, from 0 to 4 pi.
 double area_of(std::span<const map::UnitVectors> rings) {
   const double area = map::areas_on_left(rings);
   return area < 0 ? area + 4 * std::numbers::pi : area;
@@ -85,6 +93,7 @@ map::LoopsOfRegion loops_of_cell(const RegionsToWrite& job, std::size_t cell,
   return std::move(region.loops);
 }
 
+// Returns the polygons of each cell, in degrees.
 std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
   const std::vector<Point> points = map::merged_points(job.cells.points);
   const map::CommonCorners common(job.cells, points, job.execution.threads);
@@ -113,6 +122,7 @@ double area_of(const CellRings& cells, std::size_t cell) {
   return cells.is_whole(cell) ? 4 * std::numbers::pi : area_of(RingsOfCell(cells, cell).rings());
 }
 
+// Writes a feature for each cell: its id, its area in steradians, its columns and its polygons.
 void write_regions_geojson(io::AtomicFile& file, const RegionsToWrite& job) {
   const std::vector<map::PolygonsOfRegion> drawn = draw(job);
   std::vector<std::string> geometries(drawn.size());
@@ -142,6 +152,7 @@ void write_regions_geojson(io::AtomicFile& file, const RegionsToWrite& job) {
   file.write(io::features_end);
 }
 
+// True if a column has a cell for each row, and its ends fit to its text.
 bool is_complete(const Column& column, std::size_t num_rows) {
   return column.ends.size() == num_rows && std::ranges::is_sorted(column.ends) &&
          (column.ends.empty() || column.ends.back() == column.text.size());

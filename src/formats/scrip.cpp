@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Grid files of SCRIP (Jones, SCRIP user's guide, 1998, section 2.2.1). Weights of SCRIP are in
-// weights_scrip.cpp.
+// Grid files of SCRIP (Jones, SCRIP user's guide, 1998, section 2.2.1): the corners of each cell
+// (`grid_corner_lon`, `grid_corner_lat`), the centers (`grid_center_lon`, `grid_center_lat`),
+// `grid_imask`, which is 0 for masked cells, and `grid_dims`, the fastest dimension first. Weights
+// of SCRIP are in weights_scrip.cpp.
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -44,6 +46,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
   mesh.convention = "SCRIP";
   (void)require_rank(*lon, 2);
   const MeshCoordinates centers = {file.find("grid_center_lon"), file.find("grid_center_lat")};
+  // Some files have the corners as (corners, cells); the dimension of the centers tells.
   const bool is_transposed = centers.lon != nullptr && centers.lon->dimensions.size() == 1 &&
                              centers.lon->dimensions[0] == lon->dimensions[1] &&
                              centers.lon->dimensions[0] != lon->dimensions[0];
@@ -66,6 +69,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
   if (const io::VariableInFile* const dims = file.find("grid_dims")) {
     mesh.shape = io::shape_of_grid(file, *dims, num_cells);
   }
+  // Only lists of cells have cells with fewer corners than others; cells of a grid have four.
   end_cells_of_nodes(corners_per_cell, !has_rows(mesh.shape), mesh);
   take_mask(file, "grid_imask", num_cells, MaskedBy::zero, mesh);
   take_centers(file, centers, {lon, lat}, UsualUnits::degrees, mesh);

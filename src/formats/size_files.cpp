@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads spacings and densities of files, at places in any order, as functions on the sphere.
+// Reads spacings and densities of files, at places in any order, as functions on the sphere:
+// read_spacings(), read_density() and read_refinement().
+//
+// The places of a table are its sites; those of a netCDF field are its longitudes and latitudes, or
+// the cells of a mesh. The values are interpolated linearly on the triangulation of the places.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -64,12 +68,14 @@ std::vector<Point> places_of_cells(const CellTable& table) {
     for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
       sum = sum + exact::to_vector(cells.points[cells.corners[k]]);
     }
+    // A cell without corners has no place, and then no cell is a place for values.
     if (!(norm(sum) > 0)) return {};
     places.push_back(exact::to_point(normalized(sum)));
   }
   return places;
 }
 
+// The fields of a netCDF file that may be meant.
 struct NetcdfFields {
   std::vector<std::string> names;
   bool is_mesh = false;  // cells whose coordinates no attribute of a field may name
@@ -102,16 +108,17 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
   });
 }
 
-// The field at places of this number; 0: those of its longitudes and latitudes. Empty values if it
-// is not one field at known places.
+// Returns the field at `num_points` places; with 0, at those of its own longitudes and latitudes.
+// The set is empty if the variable is not one field at known places. Throws FileError.
 FieldSet one_field(const FileName& file, const std::string& name, std::size_t num_points) {
   FieldSet fields = read_fields(file, {&name, 1}, num_points);
   if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) return {};
   return fields;
 }
 
-// The places of the field, by its coordinates or as the cells of the mesh, and its values; none if
-// nothing says where.
+// Returns the places of the field, by its coordinates or as the cells of the mesh, and its values;
+// no places if nothing says where it is. An error in the file counts only if the user named the
+// field.
 Spacings spacings_of_field(const FileName& file, const std::string& name,
                            const std::vector<Point>& cells, bool is_named) {
   FieldSet fields;
@@ -138,7 +145,8 @@ Spacings spacings_of_field(const FileName& file, const std::string& name,
   return result;
 }
 
-// Reads spacings from a netCDF file: of a field with coordinates, or of the cells of a mesh.
+// Reads spacings from a netCDF file: of a field with coordinates, or of the cells of a mesh. Throws
+// FileError unless exactly one field fits.
 Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
   const NetcdfFields known = netcdf_fields(file, name);
   const std::vector<Point> cells =
@@ -197,7 +205,8 @@ void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::str
   spacings.values.resize(kept);
 }
 
-// Returns the kilometers in one unit of length.
+// Returns the kilometers in one unit of length; without units, they are kilometers. Throws
+// FileError for other units.
 double kilometers_of(const FileName& file, const std::string& units) {
   const std::string_view text = formats::without_blanks(units);
   for (const std::string_view name :
@@ -211,7 +220,8 @@ double kilometers_of(const FileName& file, const std::string& units) {
                   "', which are neither kilometers nor meters");
 }
 
-// Returns the function that is linear on the triangulation of the places.
+// Returns the function that is linear on the triangulation of the places, and beyond them has the
+// value of the nearest one. `steps` is the resolution of SizeFunction::from_function().
 SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
                          std::vector<std::string>* remarks) {
   const Triangulation triangulation = delaunay(Sites::view(spacings.places), {}, execution);
@@ -255,9 +265,11 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
                            std::vector<std::string>* remarks) {
   Spacings spacings = spacings_of(file, name, execution);
   drop_missing(file, spacings, remarks);
+  // Meters become kilometers, which `unit` turns into radians.
   unit *= kilometers_of(file, spacings.units);
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
+    // A spacing is an angle in radians here; no mesh has one of nearly half a circle.
     if (!(value * unit > 0 && value * unit < 3)) {
       throw FileError(text_of_value(file, name, spacings, i, "spacing") +
                       " is not positive, or too large");
@@ -278,6 +290,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
                     " is not positive, or of no size that a mesh can have");
   }
   const double least = *std::ranges::min_element(densities.values);
+  // Spacing goes with the density to the power of -1/4; the smallest density has spacing 1.
   for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
   return function_of(densities, steps, execution, remarks);
 }

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // UGRID: meshes of faces, edges and nodes (UGRID conventions 1.0,
-// https://ugrid-conventions.github.io/ugrid-conventions). Files that are written count from 0.
+// https://ugrid-conventions.github.io/ugrid-conventions). A variable with the cf_role
+// `mesh_topology` names all others: `node_coordinates`, `face_coordinates` and
+// `face_node_connectivity` are read, and those of edges are written, too. Files that are written
+// count from 0.
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -23,7 +26,8 @@ using io::BadValue;
 using io::NetcdfReader;
 
 // Returns the longitudes and latitudes among the variables that an attribute names: those that say
-// what they are, or else the first two.
+// what they are, or else the first two. Returns null pointers if it names fewer than two; throws
+// BadValue if the file lacks one that it names.
 MeshCoordinates coordinates_named_by(const NetcdfReader& file, const io::VariableInFile& of,
                                      const char* attribute) {
   const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
@@ -44,7 +48,7 @@ MeshCoordinates coordinates_named_by(const NetcdfReader& file, const io::Variabl
 }
 
 // Returns the topology of faces that `name` names or that the variable `name` is on, or the first
-// one for an empty name; null if there is none.
+// one for an empty name; null if there is none. Adds a remark if there are others.
 const io::VariableInFile* topology_of(const NetcdfReader& file, const std::string& name,
                                       MeshContent& mesh) {
   const io::VariableInFile* const named = file.find(name);
@@ -97,7 +101,7 @@ using UgridTexts = MeshFile::Texts;
 constexpr UgridTexts east = {{"units", "degrees_east"}, {"standard_name", "longitude"}};
 constexpr UgridTexts north = {{"units", "degrees_north"}, {"standard_name", "latitude"}};
 
-// Defines longitudes and latitudes in degrees.
+// Defines longitudes and latitudes in degrees of nodes, edges or faces.
 void define_places(MeshFile& file, const char* lon, const char* lat, std::size_t dimension,
                    const std::vector<Point>& points) {
   file.numbers(lon, dimension, east, points.size(),
@@ -129,11 +133,13 @@ void define_face_list(MeshFile& file, io::NetcdfVariable variable, const CellCor
                          });
 }
 
+// Writes the corners of a cell to `out`: `face_node_connectivity`.
 void face_nodes(const mesh::VoronoiMesh& /*arrays*/, const CellCorners& corners, std::size_t cell,
                 std::int32_t* out) {
   corners.visit(cell, [&](Index corner) { *out++ = static_cast<std::int32_t>(corner); });
 }
 
+// Writes the edges of a cell that have a length: `face_edge_connectivity`.
 void face_edges(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
@@ -143,6 +149,8 @@ void face_edges(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/,
   }
 }
 
+// Writes the neighbors of a cell across these edges: `face_face_connectivity`. At a border,
+// no_index becomes -1.
 void face_faces(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/, std::size_t cell,
                 std::int32_t* out) {
   for (std::uint64_t at = arrays.edges_on_cell.offsets[cell];
@@ -153,6 +161,7 @@ void face_faces(const mesh::VoronoiMesh& arrays, const CellCorners& /*corners*/,
   }
 }
 
+// Writes two indices for each edge: `edge_node_connectivity` or `edge_face_connectivity`.
 template <class Row>
 void define_pairs(MeshFile& file, io::NetcdfVariable variable, const std::vector<Row>& rows) {
   file.add<std::int32_t>(std::move(variable), rows.size(), 2,
@@ -178,6 +187,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   take_nodes(file, nodes, centers, UsualUnits::degrees, mesh);
   const io::VariableInFile& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
+  // UGRID has the faces first, unless `face_dimension` says that they are the last dimension.
   const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
   const bool is_transposed = !dimension.empty() &&
                              file.dimensions()[faces.dimensions[1]].name == dimension &&
@@ -191,6 +201,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   return mesh;
 }
 
+// The variable `mesh` has no value of its own; its attributes name the other variables.
 void define_ugrid(MeshFile& file, const CellCorners& corners) {
   const mesh::VoronoiMesh& arrays = file.arrays();
   const std::size_t room = arrays.max_edges();
@@ -216,6 +227,7 @@ void define_ugrid(MeshFile& file, const CellCorners& corners) {
                           {"face_dimension", "n_face"},
                           {"edge_dimension", "n_edge"}});
   MeshFile::set(topology, "topology_dimension", 2);
+  // The topology is a variable without dimensions, whose value is 0.
   file.add<std::int32_t>(std::move(topology), 1, 1, [](std::size_t, std::int32_t*) {});
   define_places(file, "node_lon", "node_lat", nodes, arrays.vertex_points);
   define_places(file, "edge_lon", "edge_lat", edges, arrays.edge_points);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_weights() and read_weights() pick the format and check that the sizes of the content agree.
+// Implements write_weights() and read_weights(), which pick the format (weight_formats.h) and check
+// that the sizes of the content agree. A file that is read is recognized by its first bytes; of the
+// netCDF formats its variables say which one it is.
 #include "rondel/weight_files.h"
 
 #include <algorithm>
@@ -30,12 +32,14 @@ constexpr std::array<WeightWriter, 5> weight_writers = {{{".nc", &formats::write
 constexpr std::array<std::string_view, 7> weight_endings = {".nc",  ".nc4",  ".cdf",  ".ncf",
                                                             ".npz", ".esmf", ".scrip"};
 
+// Throws InvalidInput if an array has elements, and not as many as wanted.
 void require_number(const char* what, std::size_t length, std::size_t wanted) {
   if (length == 0 || length == wanted) return;
   throw InvalidInput(std::string(what) + " are " + std::to_string(length) + " instead of " +
                      std::to_string(wanted));
 }
 
+// Throws InvalidInput if an array of a side is not of `size` points.
 void require_side(const WeightSide& side, std::size_t size) {
   require_number("points", side.points.size(), size);
   require_number("areas", side.areas.size(), size);
@@ -54,10 +58,12 @@ void require_side(const WeightSide& side, std::size_t size) {
   for (const std::uint64_t length : side.shape) {
     if (__builtin_mul_overflow(product, length, &product)) product = 0;
   }
+  // A product of 0, also in place of an overflow, must not pass for a shape that is not known.
   require_number("the points of the shape", product == 0 ? ~std::size_t{0} : product, size);
 }
 
-// apply() with no field only checks the weights.
+// Throws InvalidInput if parts of the content do not fit together. apply() with no field only
+// checks the weights.
 void require_content(const WeightFile& content) {
   apply(content.weights, {}, {}, 0);
   require_side(content.source, content.weights.num_columns);

@@ -22,6 +22,7 @@
 
 namespace rondel::formats {
 
+// The input of a writer of weights.
 struct WeightsToWrite {
   const WeightFile& content;
   NetcdfOptions netcdf;
@@ -35,6 +36,8 @@ void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job);
 WeightFile read_weights_netcdf(const io::NetcdfReader& file);
 WeightFile read_weights_npz(std::string_view bytes);
 
+// Each of these reads one of the netCDF formats; read_weights_netcdf() calls the one whose
+// variables the file has.
 WeightFile read_esmf(const io::NetcdfReader& file);
 WeightFile read_scrip(const io::NetcdfReader& file);
 
@@ -73,14 +76,18 @@ io::NetcdfVariable variable(
     std::string name, io::NetcdfType type, std::vector<std::size_t> dimensions,
     std::initializer_list<std::pair<const char*, const char*>> attributes = {});
 
-// Writes and reads the attributes that only files of this library have: hashes, method, tables.
+// Writes the attributes that only files of this library have: hashes, method, tables.
 void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content);
+// Reads the attributes of add_own_attributes(), and `normalization` and `map_method`, which other
+// programs write as well. Throws BadValue for a hash that is none and for a table with another
+// number of rows.
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content);
 // True if the file says the method as this library writes it.
 bool has_own_method(const io::NetcdfReader& file);
 
 // The names that a netCDF format has for the variables and dimensions of one side.
 struct SideNames {
+  // Names of variables; `dims` holds the lengths of the grid, the fastest one first.
   std::string lon, lat, area, fraction, mask, dims;
   std::string corners;  // name of the dimension
   std::string corner_lon, corner_lat;
@@ -120,6 +127,8 @@ void write_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide&
   out.write_values<std::int32_t>(shape.size(),
                                  [&](std::size_t i) { return shape[shape.size() - 1 - i]; });
 }
+// Reads the variables of a side of `size` points; arrays of variables that are not there stay
+// empty. Throws BadValue for another number of values, and for numbers that are no place.
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side);
 

@@ -3,6 +3,9 @@
 
 // Weights as ESMF's offline regridding writes them: "Regrid Interpolation File Format" in
 // https://earthsystemmodeling.org/docs/release/latest/ESMF_refdoc/node3.html
+//
+// Entry k carries `S`(k) times the value of source `col`(k) to target `row`(k), both counted from
+// 1; `_a` marks sources, `_b` targets.
 #include "formats/cf_reader.h"
 #include "formats/weight_formats.h"
 
@@ -11,17 +14,20 @@ namespace {
 
 using io::NetcdfType;
 
+// Returns the names of the source's variables.
 const SideNames& source_names() {
   static const SideNames names = {"xc_a",          "yc_a", "area_a", "frac_a", "mask_a",
                                   "src_grid_dims", "nv_a", "xv_a",   "yv_a",   true};
   return names;
 }
+// Returns the names of the target's variables.
 const SideNames& target_names() {
   static const SideNames names = {"xc_b",          "yc_b", "area_b", "frac_b", "mask_b",
                                   "dst_grid_dims", "nv_b", "xv_b",   "yv_b",   true};
   return names;
 }
 
+// Writes `col` and `row`.
 template <typename T>
 void write_entries(io::NetcdfWriter& out, const Weights& weights) {
   out.write_values<T>(weights.columns.size(),
@@ -52,6 +58,7 @@ void write_esmf(io::AtomicFile& file, const WeightsToWrite& job) {
   add_own_attributes(out, content);
   add_side(out, source_names(), content.source, num_sources, n_a, src_rank);
   add_side(out, target_names(), content.target, num_targets, n_b, dst_rank);
+  // Both lists have one type, which has to count the longer side.
   const NetcdfType index = index_type(std::max(num_sources, num_targets));
   for (const char* name : {"col", "row"}) {
     io::NetcdfVariable entries = variable(name, index, {n_s});

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The parts that the ESMF and SCRIP formats of weights share.
+// The parts that the ESMF and SCRIP formats of weights share: the variables of both sides under the
+// names of each format, the attributes of this library, and the sorting of entries into rows.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -19,12 +20,14 @@
 namespace rondel::formats {
 namespace {
 
+// These global attributes are this library's own; other programs pass over them.
 constexpr const char* source_hash_name = "rondel_source_hash";
 constexpr const char* target_hash_name = "rondel_target_hash";
 constexpr const char* method_name = "rondel_method";
 constexpr const char* source_table_name = "rondel_source_table";
 constexpr const char* target_table_name = "rondel_target_table";
 
+// Returns a hash as 16 hexadecimal digits.
 std::string hexadecimal(std::uint64_t hash) {
   std::array<char, 16> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
@@ -32,6 +35,7 @@ std::string hexadecimal(std::uint64_t hash) {
   return std::string(digits.size() - text.size(), '0') + text;
 }
 
+// Returns the hash in an attribute; 0 if there is none. Throws BadValue for other texts.
 std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
   const std::string text = io::netcdf_text(file.attributes(), name);
   std::uint64_t hash = 0;
@@ -51,6 +55,8 @@ void add_table(io::NetcdfWriter& out, const char* name, const WeightSide& side) 
   if (!table.empty() && table.size() <= max_bytes) out.add_attribute(name, table);
 }
 
+// Reads the table of add_table() into the columns of a side, which is left without columns if there
+// is no table. Throws BadValue if it has not `size` rows.
 void read_table(const io::NetcdfReader& file, const char* name, std::size_t size,
                 WeightSide& side) {
   const std::string table = io::netcdf_text(file.attributes(), name);
@@ -61,6 +67,7 @@ void read_table(const io::NetcdfReader& file, const char* name, std::size_t size
   }
 }
 
+// Throws BadValue, with the name of the variable, for another number of values.
 template <typename Values>
 void require_size(const std::string& name, const Values& values, std::size_t size) {
   if (values.size() == size) return;
@@ -68,6 +75,8 @@ void require_size(const std::string& name, const Values& values, std::size_t siz
                      " values instead of " + std::to_string(size));
 }
 
+// Returns the `size` values of a variable; empty if there is no such variable or all of them are 0,
+// which programs write for numbers that they do not know.
 std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& name,
                                std::size_t size) {
   const io::VariableInFile* const variable = file.find(name);
@@ -110,11 +119,14 @@ LonLat place_of_side(const SideNames& names, std::size_t i, double lon, double l
   return {lon, std::clamp(lat, -90.0, 90.0)};
 }
 
+// Reads the corners of cells in degrees. Files of points have one corner each, or none: these are
+// left out. Throws BadValue if the numbers do not fit.
 void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                   WeightSide& side) {
   if (file.find(names.corner_lon) == nullptr || file.find(names.corner_lat) == nullptr) return;
   const auto [lon, lat] =
       degrees_of_pair(file, {names.corner_lon, names.corner_lat}, {names.lon, names.lat});
+  // One corner for each place is no cell.
   if (lon.size() <= size) return;
   if (size == 0 || lon.size() % size != 0) {
     throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
@@ -215,6 +227,7 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
   if (const auto* const mask = file.find(names.mask)) {
     const std::vector<double> values = meant_numbers(file, *mask);
     require_size(names.mask, values, size);
+    // A missing value masks, too; a mask that masks nothing is left out.
     for (const double value : values) side.mask.push_back(value == 0 || value != value ? 0 : 1);
     if (std::ranges::count(side.mask, 0) == 0) side.mask.clear();
   }
@@ -239,6 +252,8 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
   };
   Weights weights;
   weights.num_columns = num_columns;
+  // A counting sort: the first pass counts the entries of each row, the second one places them.
+  // Entries of a row stay in their order.
   system::RowPlaces places(num_rows);
   for (std::size_t k = 0; k < num_entries; ++k) {
     require("row", rows[k], num_rows, k);
@@ -271,6 +286,7 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
   throw io::BadValue("no dimension " + io::in_quotes(name));
 }
 
+// Picks the format by the variable that holds the weights.
 WeightFile read_weights_netcdf(const io::NetcdfReader& file) {
   if (file.find("S") != nullptr) return read_esmf(file);
   if (file.find("remap_matrix") != nullptr) return read_scrip(file);

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights as scipy.sparse.save_npz() stores a matrix in compressed sparse rows (CSR).
+// Weights as scipy.sparse.save_npz() stores a matrix in compressed sparse rows (CSR): a ZIP archive
+// with the arrays `data`, `indices` (columns from 0), `indptr` (offsets of rows), `shape` (targets,
+// sources) and the text `format`.
 #include <array>
 #include <limits>
 #include <optional>
@@ -20,6 +22,8 @@ namespace {
 // A member of the archive that is an array of one dimension.
 class NpzArray {
  public:
+  // Reads the member `name`.npy. Throws BadValue unless its size is that of one dimension of
+  // numbers.
   NpzArray(std::string_view archive, const std::string& name)
       : name_(name), bytes_(io::zip_member(archive, name + ".npy")) {
     header_ = io::parse_npy_header(bytes_);
@@ -34,6 +38,7 @@ class NpzArray {
     order_ = dtype[0] == '>' ? std::endian::big : std::endian::little;
   }
 
+  // Returns the numbers, doubles, floats or integers, converted to Out.
   template <typename Out>
   [[nodiscard]] std::vector<Out> values() const {
     const std::string_view type = std::string_view(header_.dtype).substr(1);
@@ -41,12 +46,15 @@ class NpzArray {
     if (type == "f4") return copied<float, Out>();
     return integers<Out>(type);
   }
+  // Returns the numbers converted to Out. Throws BadValue for other types than integers of 32 and
+  // 64 bits.
   template <typename Out>
   [[nodiscard]] std::vector<Out> integers() const {
     return integers<Out>(std::string_view(header_.dtype).substr(1));
   }
 
  private:
+  // Throws BadValue with the type and the shape of the array.
   [[noreturn]] void refuse() const {
     throw io::BadValue(io::in_quotes(name_) + " is an array " + io::in_quotes(header_.dtype) +
                        " of shape " + io::shape_text(header_.shape) +
@@ -87,6 +95,7 @@ std::string text_of_member(std::string_view archive, std::string_view name) {
   return text;
 }
 
+// Throws BadValue for matrices that SciPy stores in other formats.
 void require_csr(std::string_view archive) {
   const std::string format = text_of_member(archive, "format.npy");
   if (format != "csr") {
@@ -110,6 +119,8 @@ void add_facts(io::ZipWriter& zip, const WeightFile& content) {
   zip.add("fractions.npy", io::make_npy_header("<f8", shape), io::NumberBytes(fractions));
 }
 
+// Reads the members of add_facts() that are there. Throws BadValue unless there is a fraction for
+// each row.
 void read_facts(std::string_view archive, WeightFile& content) {
   const auto text = [&](std::string_view name) {
     return io::has_zip_member(archive, name) ? text_of_member(archive, name) : std::string();
@@ -168,6 +179,7 @@ WeightFile read_weights_npz(std::string_view bytes) {
   }
   weights.num_columns = static_cast<std::size_t>(shape[1]);
   weights.offsets.assign(offsets.begin(), offsets.end());
+  // Offsets begin with 0, never decrease, and end with the number of entries.
   for (std::size_t r = 0; r < offsets.size(); ++r) {
     const std::int64_t before = r == 0 ? 0 : offsets[r - 1];
     const bool is_last = r + 1 == offsets.size();

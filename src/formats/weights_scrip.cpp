@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights as SCRIP wrote them (Jones 1999), one weight a link: what CDO reads.
+// Weights as SCRIP wrote them (Jones 1999), one weight a link: what CDO reads. Link k carries
+// `remap_matrix`(k, 1) times the value of source `src_address`(k) to target `dst_address`(k), both
+// counted from 1. Files with more weights a link (second order) are refused.
 #include <cmath>
 #include <string>
 
@@ -15,6 +17,7 @@
 namespace rondel::formats {
 namespace {
 
+// Returns the names of the variables of a side; `grid` is "src" or "dst".
 SideNames names_of(const std::string& grid) {
   const std::string start = grid + "_grid_";
   return {start + "center_lon", start + "center_lat",
@@ -33,7 +36,8 @@ std::string known_method(const std::string& method) {
                                   : "Distance weighted avg of nearest neighbors";
 }
 
-// Reads what the weights are, in upper or lower case, as programs write both.
+// Sets content.normalization to lower case, since programs write both cases. Throws BadValue if it
+// is none of SCRIP's, and adds a remark if it is missing.
 void require_normalization(WeightFile& content) {
   if (content.normalization.empty()) {
     content.remarks.emplace_back(
@@ -48,8 +52,9 @@ void require_normalization(WeightFile& content) {
   content.normalization = word;
 }
 
-// SCRIP's weights of the normalization "none" are the areas of the pieces (Jones, SCRIP Users'
-// Guide 1.5, sections 2.2.3 and 3).
+// Turns areas into shares: SCRIP's weights of the normalization "none" are the areas of the pieces
+// (Jones, SCRIP Users' Guide 1.5, sections 2.2.3 and 3). Throws BadValue if the area of a target
+// with weights is missing.
 void divide_by_areas(const io::NetcdfReader& file, WeightFile& content) {
   const bool is_conservative = lower_case(content.method).find("conserv") != std::string::npos;
   if (!is_conservative || has_own_method(file)) return;
@@ -136,6 +141,7 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
   read_side(file, names_of("src"), num_sources, content.source);
   read_side(file, names_of("dst"), num_targets, content.target);
   const io::VariableInFile& matrix = file.require("remap_matrix");
+  // The further weights of a link multiply gradients of the source field.
   if (matrix.shape.size() == 2 && matrix.shape[1] != 1) {
     throw io::BadValue("remap_matrix has " + std::to_string(matrix.shape[1]) +
                        " weights a link, of which all but the first need gradients");
