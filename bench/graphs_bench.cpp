@@ -39,8 +39,8 @@ void run(std::size_t n, unsigned threads, std::uint64_t seed) {
       seconds[k].push_back(seconds_of(
           [&] { size += site_graph(triangulation, kinds[k].second, execution).edges.size(); }));
     }
-    seconds[std::size(kinds)].push_back(
-        seconds_of([&] { size += alpha_shape(triangulation, 1e-3, execution).rows.values.size(); }));
+    seconds[std::size(kinds)].push_back(seconds_of(
+        [&] { size += alpha_shape(triangulation, 1e-3, execution).rows.values.size(); }));
     seconds[std::size(kinds) + 1].push_back(
         seconds_of([&] { size += largest_empty_circles(triangulation, 10).size(); }));
     if (size == 0) std::abort();
