@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Cells as polygons of arcs with corners of their own, and what is known of them: the form in which
-/// files have cells and from which sets of cells (rondel/cell_set.h) are made.
+/// Cells as polygons of arcs with corners of their own, and what is known of them: the form in
+/// which files have cells and from which sets of cells (rondel/cell_set.h) are made.
 #pragma once
 
 #include <algorithm>

@@ -35,8 +35,8 @@ enum class GridSides : std::uint8_t {
 /// Returns the name of a value: "parallels", "great_circles"; empty for other numbers.
 RONDEL_API std::string_view name_of(GridSides sides) noexcept;
 
-/// A grid of the whole sphere with equal steps: from longitude -180 eastward and from the south pole
-/// northward. Every line and center is an exact quotient that is rounded once.
+/// A grid of the whole sphere with equal steps: from longitude -180 eastward and from the south
+/// pole northward. Every line and center is an exact quotient that is rounded once.
 struct GlobalGrid {
   std::uint64_t num_lon = 0;  ///< cells along a parallel
   std::uint64_t num_lat = 0;  ///< cells along a meridian

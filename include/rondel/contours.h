@@ -68,8 +68,8 @@ RONDEL_API std::vector<double> first_values(const Triangulation& triangulation,
 ///    first. A site whose value is the level has its unit vector as a point.
 /// 5. The bytes depend on the values and the places of the sites, not on their order, nor on the
 ///    number of threads. If several sites are in one place, the value of the lowest index that has
-///    one counts. (For a Triangulation::from_arrays() the order of faces decides the order of lines, and where
-///    a closed line begins.)
+///    one counts. (For a Triangulation::from_arrays() the order of faces decides the order of
+///    lines, and where a closed line begins.)
 ///
 /// The expected time is O(n log k + length of the result) for k levels. Below dimension 2 there are
 /// no lines.

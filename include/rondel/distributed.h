@@ -64,8 +64,8 @@ class RONDEL_API Communicator {
   virtual std::vector<Bytes> exchange(std::vector<Bytes> messages) = 0;
 
   /// Is called by the library before the work that leads to the next call, with its phase: "count",
-  /// "scatter", "triangulate", "join", "number", "finish"; "areas". It is meant for measurements; the
-  /// default does nothing. An exception ends the work of all ranks.
+  /// "scatter", "triangulate", "join", "number", "finish"; "areas". It is meant for measurements;
+  /// the default does nothing. An exception ends the work of all ranks.
   virtual void begin(std::string_view phase);
 };
 

@@ -84,9 +84,9 @@ struct FieldSet {
 /// places that its dimensions and its own attribute `coordinates` name. All variables that are read
 /// are at the places of the first one; others are left out, or an error if they are named. If the
 /// file has no longitudes and latitudes, the points are along the dimension of the length n, or
-/// consecutive dimensions whose product is n; it is an error if several fit. The attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`,
-/// `valid_range`, `_Unsigned`, `scale_factor` and `add_offset` turn the numbers of the file into
-/// values.
+/// consecutive dimensions whose product is n; it is an error if several fit. The attributes
+/// `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`,
+/// `scale_factor` and `add_offset` turn the numbers of the file into values.
 ///
 /// \param num_points  n. For tables 0 means the number of rows. For netCDF 0 means the number of
 ///                    longitudes and latitudes of the first variable that has them. Points whose

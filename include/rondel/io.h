@@ -89,8 +89,8 @@ struct ReadOptions {
   std::string radius;
   bool radians = false;       ///< longitude, latitude and radius are in radians
   bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
-  /// .csv and .tsv: a table without columns for places has no sites, and a row whose coordinates are
-  /// empty is a site that is not a number.
+  /// .csv and .tsv: a table without columns for places has no sites, and a row whose coordinates
+  /// are empty is a site that is not a number.
   bool may_lack_places = false;
 };
 
@@ -148,7 +148,8 @@ struct SiteTable {
   std::vector<std::uint64_t> lines;
   /// The line of site 0 if `lines` is empty; 0 if the format has no lines.
   std::uint64_t first_line = 1;
-  /// GeoJSON with several features in a line: the number of each site's feature, from 0; else empty.
+  /// GeoJSON with several features in a line: the number of each site's feature, from 0; else
+  /// empty.
   std::vector<std::uint64_t> features = {};
   /// GeoJSON: the number of features that were left out because they have no geometry
   std::uint64_t num_unlocated = 0;

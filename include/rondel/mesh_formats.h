@@ -92,10 +92,11 @@ RONDEL_API void write_graph(const FileName& file, const VoronoiMesh& mesh,
 ///    other lists follow from these and from the edges.
 /// 2. The file's lists must describe a surface, closed or with a border, with edges
 ///    counterclockwise around cells; 0 stands for a missing element.
-/// 3. Numbers that contradict the points are refused: dcEdge and dvEdge by more than a tenth (dvEdge
-///    by a quarter of dcEdge besides), angleEdge by more than 0.5 between two cells away from the
-///    poles, areaCell by a factor of more than 2, and longitudes and latitudes that are not the
-///    directions of x, y and z. The normal of an edge of the border is made to point outward.
+/// 3. Numbers that contradict the points are refused: dcEdge and dvEdge by more than a tenth
+///    (dvEdge by a quarter of dcEdge besides), angleEdge by more than 0.5 between two cells away
+///    from the poles, areaCell by a factor of more than 2, and longitudes and latitudes that are
+///    not the directions of x, y and z. The normal of an edge of the border is made to point
+///    outward.
 RONDEL_API VoronoiMesh read_mpas(const FileName& file, const Execution& execution = {});
 
 /// Reads a mesh of any convention: MPAS as read_mpas() does; UGRID, SCRIP and ESMF by the centers

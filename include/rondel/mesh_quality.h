@@ -102,8 +102,8 @@ RONDEL_API CellQuality cell_quality(const VoronoiMesh& mesh, const Execution& ex
 
 /// Returns a report of a few lines for people to read.
 RONDEL_API std::string quality_text(const Quality& quality);
-/// Returns one JSON object with the members of Quality as keys. A Extremum is {"value", "where"}; a
-/// number that is not finite is null.
+/// Returns one JSON object with the members of Quality as keys. An Extremum is {"value", "where"};
+/// a number that is not finite is null.
 RONDEL_API std::string quality_json(const Quality& quality);
 /// Returns the member with this name, with - instead of _ as on a command line: "min-edge-ratio";
 /// "min-dv-dc" is another name of that.

@@ -24,10 +24,10 @@ namespace rondel {
 /// \throws InvalidInput for less than two coordinates, or one that is not finite (its index).
 RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg);
 
-/// Returns the cells with these corners, `corners_per_cell` consecutive ones for each cell, as in bounds of
-/// CF. As in read_cells(), corners nearer than 1e-10 radians to each other are one.
-/// \throws InvalidInput if `corners_per_cell` is 0 or does not divide the number of corners, or (with the
-///         cell) if a corner is no place.
+/// Returns the cells with these corners, `corners_per_cell` consecutive ones for each cell, as in
+/// bounds of CF. As in read_cells(), corners nearer than 1e-10 radians to each other are one.
+/// \throws InvalidInput if `corners_per_cell` is 0 or does not divide the number of corners, or
+///         (with the cell) if a corner is no place.
 RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners,
                                       std::size_t corners_per_cell);
 

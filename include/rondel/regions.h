@@ -40,9 +40,9 @@ struct RegionPieces {
 /// 4. A piece that is the whole sphere has no border, and so no rings: it is in `rings.whole`.
 /// 5. The result depends on the cells and their order alone, not on the number of threads.
 ///
-/// If neither set of cells covers_sphere(), one of them is completed to a cover as by remap(), which takes
-/// longer: sides of its cells get corners where corners of its other cells, or the ends of the
-/// coordinate axes, lie on them.
+/// If neither set of cells covers_sphere(), one of them is completed to a cover as by remap(),
+/// which takes longer: sides of its cells get corners where corners of its other cells, or the ends
+/// of the coordinate axes, lie on them.
 /// \throws InvalidInput if cells are a grid of parallels, a cell crosses or overlaps itself,
 ///         or neither covers_sphere() and cells of both overlap, with two of each.
 RONDEL_API RegionPieces intersection(const CellSet& cells, const CellSet& regions,

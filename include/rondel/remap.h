@@ -100,14 +100,14 @@ struct Remap {
 /// both have as many) is completed by triangles, whose sides leave no trace in the pieces; if its
 /// cells overlap each other, the other one is. That takes longer.
 /// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its side,
-///         cells of a side overlap and the options have no rule for it (with the cells and a place),
-///         or a cell crosses or overlaps itself. The message begins with the name that the facts()
-///         of that side have, if any.
+///         cells of a side overlap and the options have no rule for it (with the cells and a
+///         place), or a cell crosses or overlaps itself. The message begins with the name that the
+///         facts() of that side have, if any.
 RONDEL_API Remap remap(const CellSet& source, const CellSet& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
 
-/// Returns the description of cells for a file of weights: the places, the mask, the shape of a grid,
-/// the corners and the columns.
+/// Returns the description of cells for a file of weights: the places, the mask, the shape of a
+/// grid, the corners and the columns.
 RONDEL_API WeightSide weight_side(const CellSet& cells);
 
 /// Returns the content of the file that write_weights() writes. The pieces are dropped.

@@ -68,22 +68,22 @@ RONDEL_API void apply(const Weights& weights, std::span<const double> in, std::s
 /// \param rows  one number below `num_rows` for each row, all different; rows that are not named are
 ///              empty
 /// \param columns  one number below `num_columns` for each column
-/// \throws InvalidInput if the weights are not in compressed rows, a length is not as described, or a
-///         number is too large or stands twice (its position).
+/// \throws InvalidInput if the weights are not in compressed rows, a length is not as described, or
+///         a number is too large or stands twice (its position).
 RONDEL_API Weights renumbered(const Weights& weights, std::span<const Index> rows,
                               std::size_t num_rows, std::span<const Index> columns,
                               std::size_t num_columns);
 
-/// Returns the matrix with rows replaced where a mask is 0: by the rows of another matrix, or by empty
-/// ones. The hashes are those of `weights`.
+/// Returns the matrix with rows replaced where a mask is 0: by the rows of another matrix, or by
+/// empty ones. The hashes are those of `weights`.
 /// \param mask  one number for each row
 /// \param others  a matrix of the same shape; null for empty rows
 /// \throws InvalidInput if a matrix is not in compressed rows, or the lengths differ.
 RONDEL_API Weights with_rows(const Weights& weights, std::span<const std::int32_t> mask,
                              const Weights* others = nullptr);
 
-/// Returns the matrix with empty rows instead of those that have an entry in a column whose mask is 0:
-/// their targets need a site that takes no part. The hashes are those of `weights`.
+/// Returns the matrix with empty rows instead of those that have an entry in a column whose mask is
+/// 0: their targets need a site that takes no part. The hashes are those of `weights`.
 /// \param mask  one number for each column
 /// \throws InvalidInput if the weights are not in compressed rows, or the lengths differ.
 RONDEL_API Weights without_columns(const Weights& weights, std::span<const std::int32_t> mask);

@@ -111,8 +111,8 @@ struct SizeFunction::Raster {
   double largest;
 };
 
-// Limits how fast spacings grow: lowers the values at the nodes until none exceeds that of a node a few steps away by more than
-// the slope times their distance.
+// Limits how fast spacings grow: lowers the values at the nodes until none exceeds that of a node a
+// few steps away by more than the slope times their distance.
 void limit_slope(const CubeRaster& cube, double slope, std::vector<double>& values);
 
 }  // namespace rondel::mesh

@@ -65,8 +65,8 @@ class Cap {
   double squared_ = 0;
 };
 
-// Returns the corners of the cells of grids whose nodes are `column` apart along a row of cells, and
-// `row` along a column.
+// Returns the corners of the cells of grids whose nodes are `column` apart along a row of cells,
+// and `row` along a column.
 std::vector<LonLat> corners_between(std::span<const LonLat> nodes, std::size_t of_one,
                                     const GridShape& shape, std::size_t row, std::size_t column) {
   std::vector<LonLat> corners;

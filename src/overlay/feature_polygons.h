@@ -59,8 +59,8 @@ std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring);
 [[noreturn]] void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
                                  const std::string& what);
 
-// Returns cells whose sides are great circles, of which cell i is feature i. A ring of a shell is around its smaller side, and a
-// hole is around the part that it removes.
+// Returns cells whose sides are great circles, of which cell i is feature i. A ring of a shell is
+// around its smaller side, and a hole is around the part that it removes.
 //
 // 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts
 //    cover the sphere is in `whole`.

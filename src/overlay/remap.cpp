@@ -273,8 +273,8 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   result.weights.num_columns = num_sources;
 }
 
-// Returns the name of the file that a message is about, or those of both sides; empty if one of them
-// has no name.
+// Returns the name of the file that a message is about, or those of both sides; empty if one of
+// them has no name.
 std::string file_of(std::string_view message, const std::string& source,
                     const std::string& target) {
   if (message.starts_with("source")) return source;

@@ -30,7 +30,8 @@ std::optional<nb::bytes> written(const PathOut& path, const Write& write) {
   return nb::bytes(text.data(), text.size());
 }
 
-// Calls read(FileName) for a path; or for bytes, which are GeoJSON of geometries. Returns its result.
+// Calls read(FileName) for a path; or for bytes, which are GeoJSON of geometries. Returns its
+// result.
 template <class Read>
 auto read_from(const PathIn& path, const Read& read) {
   if (const auto* const name = std::get_if<std::string>(&path)) return read(FileName(*name));

@@ -18,8 +18,8 @@
 namespace rondel::python {
 namespace {
 
-// Returns what a file says of places: degrees, areas, the shape of a grid and the mask. Empty arrays
-// are not written.
+// Returns what a file says of places: degrees, areas, the shape of a grid and the mask. Empty
+// arrays are not written.
 WeightSide side_of(const PairsIn& places, const NumbersIn& areas,
                    const std::vector<std::uint64_t>& shape, const IndicesIn& mask) {
   WeightSide side;
