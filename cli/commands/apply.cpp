@@ -34,7 +34,7 @@ struct ApplyCommandOptions {
   CommonOptions common;              // INPUT: the weights; output and threads
   std::string values_file;           // VALUES; "-": standard input
   std::vector<std::string> columns;  // --value
-  ApplyOptions apply;                // --fill --most-missing
+  ApplyOptions apply;                // --fill --max-missing
   NetcdfOptions netcdf;              // --kind --deflate
 
   // Return the two inputs with their formats; --input-format is for the one on standard input.
@@ -376,7 +376,7 @@ Command add_apply_command(CLI::App& tool) {
       ->check(fill_error)
       ->type_name("VALUE");
   parser
-      ->add_option("--most-missing", options->apply.max_missing,
+      ->add_option("--max-missing", options->apply.max_missing,
                    "The largest share of a target's weights whose values may be missing,\n"
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)

@@ -21,7 +21,9 @@ struct CompressedRows {
   std::vector<std::uint64_t> offsets = {0};  ///< one offset more than rows; never decreasing
   std::vector<T> values;
 
-  [[nodiscard]] std::size_t size() const noexcept { return offsets.size() - 1; }
+  [[nodiscard]] std::size_t size() const noexcept {
+    return offsets.empty() ? 0 : offsets.size() - 1;
+  }
   /// Returns row i. \pre i < size()
   [[nodiscard]] std::span<const T> operator[](std::size_t i) const {
     return {values.data() + offsets[i], values.data() + offsets[i + 1]};
@@ -34,7 +36,7 @@ struct CompressedRows {
     values.insert(values.end(), row.begin(), row.end());
     end_row();
   }
-  /// Appends all rows of another object.
+  /// Appends all rows of another object, which must not be this one.
   void append_rows(const CompressedRows& others) {
     for (std::size_t i = 0; i < others.size(); ++i) {
       offsets.push_back(values.size() + others.offsets[i + 1]);
@@ -52,7 +54,9 @@ struct RowGroups {
   std::vector<std::uint64_t> offsets = {0};  ///< one offset more than groups; counts rows
   Rows rows;
 
-  [[nodiscard]] std::size_t size() const noexcept { return offsets.size() - 1; }
+  [[nodiscard]] std::size_t size() const noexcept {
+    return offsets.empty() ? 0 : offsets.size() - 1;
+  }
   /// Ends a group, whose rows are those that were appended after the group before it.
   void end_group() { offsets.push_back(rows.size()); }
   friend bool operator==(const RowGroups&, const RowGroups&) = default;

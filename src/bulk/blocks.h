@@ -28,7 +28,7 @@ namespace rondel::bulk {
 
 // The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
 // so that the work does not depend on the threads.
-inline constexpr std::size_t most_block_sites = 3 << 14;
+inline constexpr std::size_t default_max_block_sites = 3 << 14;
 
 // Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
 // lie on curves, or are hidden: then all is seam, and blocks are a detour.

@@ -87,7 +87,7 @@ struct Bucket {
 // The sites of a square, at least one; `all` is of all sites, in all squares.
 RONDEL_API Bucket triangulate_bucket(std::span<const Point> sites, const Square& square,
                                      const AllSites& all, const system::Job& options,
-                                     std::size_t max_block_sites = most_block_sites,
+                                     std::size_t max_block_sites = default_max_block_sites,
                                      const SeamRule& rule = {});
 
 // What a bucket leaves to others, with all of its sites counted.

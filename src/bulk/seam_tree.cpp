@@ -260,7 +260,7 @@ kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Poi
   if (2 * static_cast<double>(points.size()) >= num_all) {
     result = kernel::triangulate(points, std::move(order), {}, options);
   } else {
-    const auto most = std::max(most_sphere_sites, static_cast<std::size_t>(num_all / 8));
+    const auto most = std::max(default_max_sphere_sites, static_cast<std::size_t>(num_all / 8));
     result = triangulate(points, std::move(order), {}, options, {}, most);
   }
   result.arrays.num_sites = points.size();

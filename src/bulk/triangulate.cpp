@@ -44,7 +44,7 @@ kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index
     result = triangulate_sphere(input, renamed);
   }
   if (!result && have_blocks()) {
-    result = triangulate_by_blocks(input, renamed, most_block_sites, std::move(copies));
+    result = triangulate_by_blocks(input, renamed, default_max_block_sites, std::move(copies));
   }
   if (result) return *std::move(result);
   copies = {};

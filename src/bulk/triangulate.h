@@ -33,13 +33,13 @@ namespace rondel::bulk {
 inline constexpr std::size_t min_copied_sites = std::size_t{3} << 18;
 
 // With more the mesh of a whole sphere would not fit into the second cache, more or less.
-inline constexpr std::size_t most_sphere_sites = std::size_t{1} << 16;
+inline constexpr std::size_t default_max_sphere_sites = std::size_t{1} << 16;
 
 // Computes what kernel::triangulate does. `copies` is empty, or has the memory in which
 // system::SiteCopies of the sites by rank lie, which becomes that of the faces.
 kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                                  std::span<const order::Renamed> renamed,
                                  const system::Job& options, LargeVector<Triple> copies = {},
-                                 std::size_t max_sphere_sites = most_sphere_sites);
+                                 std::size_t max_sphere_sites = default_max_sphere_sites);
 
 }  // namespace rondel::bulk

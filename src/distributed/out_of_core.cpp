@@ -164,7 +164,7 @@ class OutOfCoreRun {
     return num_done;
   }
 
-  // Scatters and triangulates all buckets that are not done; tries again once if the spool were
+  // Scatters and triangulates all buckets that are not done; tries again once if the spool was
   // damaged.
   void do_buckets(SiteSpool& spool, ResultStore& store) {
     scatter(spool);
@@ -185,7 +185,8 @@ class OutOfCoreRun {
         spool.scatter(rows_, options_, wanted, limits_.piece_sites, limits_.first_number), wanted);
   }
 
-  // Triangulates the buckets. Returns false if some spool do not contain what was scattered.
+  // Triangulates the buckets. Returns false if some slots of the spool do not contain what was
+  // scattered.
   bool triangulate(const SiteSpool& spool, ResultStore& store) {
     bool are_all_done = true;
     for (std::size_t i = 0; i < state_.num_buckets(); ++i) {

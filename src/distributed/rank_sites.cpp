@@ -158,7 +158,7 @@ RankSites::RankSites(BspSession& session, std::span<const Point> mine, RankCount
   for (std::size_t rank = 0; rank < session.size(); ++rank)
     max_num_sites = std::max(max_num_sites, counts.num_sites(rank));
   const std::size_t num_buckets = counts.plan.num_buckets(session.rank());
-  Scatter dealer(counts.plan, session.rank(), session.size());
+  Scatter scatter(counts.plan, session.rank(), session.size());
   std::span<const PointCopy> copies = counts.copies;
   std::span<const std::uint64_t> keys = counts.keys;
   for (std::uint64_t first = 0; first < max_num_sites; first += limits.max_scattered_sites) {
@@ -167,7 +167,7 @@ RankSites::RankSites(BspSession& session, std::span<const Point> mine, RankCount
     const std::uint64_t size = std::min(limits.max_scattered_sites, mine.size() - begin);
     const auto next = std::ranges::lower_bound(copies, begin + size, {}, &PointCopy::site);
     const auto num_copies = static_cast<std::size_t>(next - copies.begin());
-    std::vector<Bytes> received = session.exchange(dealer.scatter(
+    std::vector<Bytes> received = session.exchange(scatter.scatter(
         {mine.subspan(begin, size), begin, copies.first(num_copies), keys.first(size - num_copies)},
         first_index_ + begin));
     copies = copies.subspan(num_copies);

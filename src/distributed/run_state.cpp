@@ -72,14 +72,14 @@ void RunState::read(const Words& record) {
     reader.read(all);
     counts_ = {all.front(), {}};
     reader.read(counts_->cuts);
-    dealt_.resize(counts_->cuts.size());
+    scattered_.resize(counts_->cuts.size());
     done_.resize(counts_->cuts.size());
   } else if (kind == JournalRecord::scattered) {
     std::vector<std::uint64_t> buckets;
     std::vector<SpoolChecksums> sums;
     reader.read(buckets);
     reader.read(sums);
-    for (std::size_t i = 0; i < buckets.size(); ++i) dealt_[buckets[i]] = sums[i];
+    for (std::size_t i = 0; i < buckets.size(); ++i) scattered_[buckets[i]] = sums[i];
   } else {
     std::vector<StoredBucket> stored;
     const std::uint64_t bucket = reader.word();
@@ -95,7 +95,7 @@ void RunState::set_counts(SiteCounts counts) {
   writer.add(counts.cuts);
   journal_.append(writer.words());
   counts_ = std::move(counts);
-  dealt_.resize(counts_->cuts.size());
+  scattered_.resize(counts_->cuts.size());
   done_.resize(counts_->cuts.size());
 }
 
@@ -107,7 +107,7 @@ void RunState::set_scattered(std::span<const SpoolChecksums> sums,
     if (!wanted[i]) continue;
     buckets.push_back(i);
     wanted_sums.push_back(sums[i]);
-    dealt_[i] = sums[i];
+    scattered_[i] = sums[i];
   }
   WordWriter writer;
   writer.add(JournalRecord::scattered);

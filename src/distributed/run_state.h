@@ -37,9 +37,9 @@ class RunState {
   [[nodiscard]] bool has_counts() const { return counts_.has_value(); }
   [[nodiscard]] const SiteCounts& counts() const { return *counts_; }
   [[nodiscard]] std::size_t num_buckets() const { return counts_->cuts.size(); }
-  [[nodiscard]] const SpoolChecksums& scattered(std::size_t i) const { return *dealt_[i]; }
+  [[nodiscard]] const SpoolChecksums& scattered(std::size_t i) const { return *scattered_[i]; }
   [[nodiscard]] const StoredBucket& done(std::size_t i) const { return *done_[i]; }
-  [[nodiscard]] bool is_scattered(std::size_t i) const { return dealt_[i].has_value(); }
+  [[nodiscard]] bool is_scattered(std::size_t i) const { return scattered_[i].has_value(); }
   [[nodiscard]] bool is_done(std::size_t i) const { return done_[i].has_value(); }
 
   // Records that the sites have been counted.
@@ -49,7 +49,7 @@ class RunState {
   // Records that bucket i has been triangulated and stored.
   void set_done(std::size_t i, const StoredBucket& stored);
   // Forgets that a bucket was scattered or done, because the files do not contain it.
-  void lose_scattered(std::size_t i) { dealt_[i].reset(); }
+  void lose_scattered(std::size_t i) { scattered_[i].reset(); }
   void lose_done(std::size_t i) { done_[i].reset(); }
 
  private:
@@ -58,7 +58,7 @@ class RunState {
 
   Journal journal_;
   std::optional<SiteCounts> counts_;
-  std::vector<std::optional<SpoolChecksums>> dealt_;
+  std::vector<std::optional<SpoolChecksums>> scattered_;
   std::vector<std::optional<StoredBucket>> done_;
 };
 

@@ -13,9 +13,9 @@
 
 namespace rondel::distributed {
 // Successive sites, sorted by bucket.
-class SiteSpool::DealtSites {
+class SiteSpool::ScatteredSites {
  public:
-  DealtSites(std::size_t max_num_sites, std::size_t num_buckets)
+  ScatteredSites(std::size_t max_num_sites, std::size_t num_buckets)
       : sites_(max_num_sites),
         keys_(max_num_sites),
         bucket_of_(max_num_sites),
@@ -74,7 +74,7 @@ std::vector<SpoolChecksums> SiteSpool::scatter(const io::NpyRows& rows, const sy
   std::vector<std::uint64_t> filled(cuts_.size(), 0);
   std::vector<Checksum> point_sums(cuts_.size());
   std::vector<Checksum> row_sums(cuts_.size());
-  DealtSites piece(std::min<std::uint64_t>(piece_sites, rows.num_rows()), cuts_.size());
+  ScatteredSites piece(std::min<std::uint64_t>(piece_sites, rows.num_rows()), cuts_.size());
   for (std::uint64_t first = 0; first < rows.num_rows(); first += piece_sites) {
     system::obey_stop();
     const std::size_t size = std::min<std::uint64_t>(piece_sites, rows.num_rows() - first);

@@ -44,7 +44,7 @@ class SiteSpool {
   void read_rows(std::size_t bucket, std::uint64_t first, std::span<std::uint64_t> rows) const;
 
  private:
-  class DealtSites;
+  class ScatteredSites;
 
   [[nodiscard]] std::uint64_t points_at(std::size_t bucket) const {
     return slot_bytes * first_site_[bucket];

@@ -40,7 +40,8 @@ namespace {
 std::pair<FileName, std::string> split_part(const FileName& file) {
   const std::size_t at = file.path.rfind(':');
   constexpr std::size_t drive = 2;  // a drive of Windows, C:
-  if (at == std::string::npos || at < drive || at + 1 == file.path.size()) return {file, {}};
+  if (file.bytes != nullptr || at == std::string::npos || at < drive || at + 1 == file.path.size())
+    return {file, {}};
   std::error_code ignored;
   const std::string whole = file.path.substr(0, at);
   if (std::filesystem::exists(file.path, ignored) || !std::filesystem::exists(whole, ignored)) {

@@ -39,6 +39,9 @@ bool load_symbols(void* library, Gdal& gdal) {
   from.get(gdal.pop_error_handler, "CPLPopErrorHandler");
   from.get(gdal.quiet_error_handler, "CPLQuietErrorHandler");
   from.get(gdal.last_error, "CPLGetLastErrorMsg");
+  from.get(gdal.last_error_type, "CPLGetLastErrorType");
+  from.get(gdal.reset_error, "CPLErrorReset");
+  from.get(gdal.config_option, "CPLGetThreadLocalConfigOption");
   from.get(gdal.set_config_option, "CPLSetThreadLocalConfigOption");
   from.get(gdal.driver_by_name, "GDALGetDriverByName");
   from.get(gdal.create, "GDALCreate");

@@ -9,6 +9,7 @@
 // out   pointers to its functions
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace rondel::formats {
@@ -27,6 +28,9 @@ struct Gdal {
   void (*pop_error_handler)();
   void* quiet_error_handler;
   const char* (*last_error)();
+  int (*last_error_type)();  // 3 and more are failures
+  void (*reset_error)();
+  const char* (*config_option)(const char*, const char*);
   void (*set_config_option)(const char*, const char*);
   GdalHandle (*driver_by_name)(const char*);
   GdalHandle (*create)(GdalHandle, const char*, int, int, int, int, char**);
@@ -73,6 +77,26 @@ class QuietGdal {
 
  private:
   const Gdal& gdal_;
+};
+
+// While this object exists, GDAL dates what this thread writes 1970-01-01, so that files have equal
+// bytes in every run.
+class FixedDate {
+ public:
+  // Sets the date. `gdal` must live as long as this object.
+  explicit FixedDate(const Gdal& gdal) : gdal_(gdal) {
+    if (const char* const before = gdal_.config_option(name, nullptr)) before_ = before;
+    gdal_.set_config_option(name, "1970-01-01T00:00:00.000Z");
+  }
+  // Gives GDAL the date back that its user had set, if any.
+  ~FixedDate() { gdal_.set_config_option(name, before_ ? before_->c_str() : nullptr); }
+  FixedDate(const FixedDate&) = delete;
+  FixedDate& operator=(const FixedDate&) = delete;
+
+ private:
+  static constexpr const char* name = "OGR_CURRENT_DATE";
+  const Gdal& gdal_;
+  std::optional<std::string> before_;
 };
 
 }  // namespace rondel::formats

@@ -10,13 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "exact/angles.h"
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "meshing/consistency.h"
+#include "system/disjoint_sets.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
@@ -75,20 +75,13 @@ void MeshFile::write(const NetcdfOptions& options) {
 // Each vertex is represented by the lowest of the vertices with which it is joined.
 CellCorners::CellCorners(const mesh::VoronoiMesh& arrays) : arrays_(arrays) {
   if (std::ranges::find(arrays.vertex_distances, 0.0) == arrays.vertex_distances.end()) return;
-  joined_.resize(arrays.num_vertices());
-  std::iota(joined_.begin(), joined_.end(), Index{0});
-  // Returns the vertex that stands for v, and shortens the way to it (union-find).
-  const auto lowest = [&](Index v) {
-    while (joined_[v] != v) v = joined_[v] = joined_[joined_[v]];
-    return v;
-  };
+  system::DisjointSets sets(arrays.num_vertices());
   for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
     if (arrays.vertex_distances[e] != 0) continue;
-    const Index v = lowest(arrays.vertices_on_edge[e][0]);
-    const Index w = lowest(arrays.vertices_on_edge[e][1]);
-    joined_[std::max(v, w)] = std::min(v, w);
+    sets.join(arrays.vertices_on_edge[e][0], arrays.vertices_on_edge[e][1]);
   }
-  for (Index& v : joined_) v = lowest(v);
+  joined_.reserve(arrays.num_vertices());
+  for (Index v = 0; v < arrays.num_vertices(); ++v) joined_.push_back(sets[v]);
 }
 
 }  // namespace rondel::formats

@@ -137,17 +137,15 @@ class GdalFile {
   GdalFile(const std::string& path, const GdalFormat& format)
       : gdal_(load_gdal(path)),
         quiet_(gdal_),
+        date_(gdal_),
         path_(path),
         name_("/vsimem/rondel" + std::string(format.ending)) {
-    // Files have equal bytes in every run.
-    gdal_.set_config_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");
     dataset_ = gdal_.create(driver(path, format), name_.c_str(), 0, 0, 0, 0, nullptr);
     require(dataset_ != nullptr);
   }
   ~GdalFile() {
     if (dataset_ != nullptr) gdal_.close(dataset_);
     gdal_.free_bytes(gdal_.take_bytes(name_.c_str(), nullptr, 1));
-    gdal_.set_config_option("OGR_CURRENT_DATE", nullptr);
   }
   GdalFile(const GdalFile&) = delete;
   GdalFile& operator=(const GdalFile&) = delete;
@@ -177,7 +175,8 @@ class GdalFile {
       types_.push_back(field_type(columns[k]));
       add_field(names[k].c_str(), types_.back());
     }
-    gdal_.start_transaction(dataset_, 0);  // faster, in formats that have transactions
+    // Transactions make it faster, in formats that have them.
+    has_transaction_ = gdal_.start_transaction(dataset_, 0) == 0;
   }
 
   // Adds a feature. A cell of a column that is empty stays NULL, unless it is an empty text of
@@ -201,8 +200,12 @@ class GdalFile {
 
   // Closes the dataset, which completes its bytes, and returns them.
   std::string finish() {
-    gdal_.commit_transaction(dataset_);
+    require(!has_transaction_ || gdal_.commit_transaction(dataset_) == 0);
+    // Some formats are written when they are closed, which returns nothing before GDAL 3.7.
+    gdal_.reset_error();
     gdal_.close(std::exchange(dataset_, nullptr));
+    constexpr int failure = 3;
+    require(gdal_.last_error_type() < failure);
     unsigned long long size = 0;
     const unsigned char* const bytes = gdal_.take_bytes(name_.c_str(), &size, 0);
     require(bytes != nullptr);
@@ -237,12 +240,14 @@ class GdalFile {
 
   const Gdal& gdal_;
   QuietGdal quiet_;
+  FixedDate date_;
   std::string path_;
   // The name in GDAL's memory, the type of each column's field, and GDAL's handles.
   std::string name_;
   GdalHandle dataset_ = nullptr;
   GdalHandle layer_ = nullptr;
   std::vector<int> types_;
+  bool has_transaction_ = false;
 };
 
 }  // namespace
@@ -255,7 +260,8 @@ void write_regions_gdal(const FileName& file, const LonLatRegions& regions,
   const GdalFormat& format = *gdal_format(file);
   GdalFile made(file.path, format);
   const std::string stem = std::filesystem::path(file.path).stem().string();
-  made.make_layer(file.path == "-" ? "cells" : stem, columns, field_names(columns, format));
+  const bool has_name = file.path != "-" && file.bytes == nullptr;
+  made.make_layer(has_name ? stem : "cells", columns, field_names(columns, format));
   // Polygons of one cell follow each other; they are one feature.
   for (std::size_t p = 0; p < regions.owners.size();) {
     const std::size_t first = p;
@@ -263,7 +269,7 @@ void write_regions_gdal(const FileName& file, const LonLatRegions& regions,
     while (p < regions.owners.size() && regions.owners[p] == owner) ++p;
     made.add(owner, areas[owner], columns, wkb_of(regions, first, p));
   }
-  write_file(file.path, made.finish());
+  write_file(file, made.finish());
 }
 
 }  // namespace rondel::formats

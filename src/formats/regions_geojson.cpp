@@ -216,6 +216,7 @@ void write_regions(const FileName& file, const CellRings& cells, std::span<const
                                         return formats::is_complete(column, cells.num_cells());
                                       }),
                   "columns");
+  require_region_writer(file);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   const formats::RegionsToWrite job{cells, columns, tolerance, execution, ids};
   if (formats::is_format_of_gdal(file)) {

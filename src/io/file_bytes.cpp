@@ -90,7 +90,8 @@ void FileBytes::grow(std::size_t capacity) {
 
 void FileBytes::read_at(std::uint64_t place, char* bytes, std::size_t size) const {
   if (descriptor_.value < 0) {
-    if (place + size > num_read_) throw FileError(name_ + ": shorter than it says");
+    if (size > num_read_ || place > num_read_ - size)
+      throw FileError(name_ + ": shorter than it says");
     std::copy_n(bytes_.get() + place, size, bytes);
     return;
   }

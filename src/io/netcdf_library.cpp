@@ -112,10 +112,12 @@ void require_netcdf(const NetcdfLibrary& library, int error) {
 
 }  // namespace io
 
-// Looks only at regular files, since a pipe could not be read again.
+// Looks only at regular files and at strings, since a pipe could not be read again.
 bool is_netcdf_file(const FileName& file) {
   std::error_code error;
-  if (file.format.empty() && std::filesystem::is_regular_file(file.path, error)) {
+  const bool is_readable_twice =
+      file.bytes != nullptr || std::filesystem::is_regular_file(file.path, error);
+  if (file.format.empty() && is_readable_twice) {
     try {
       const io::FileBytes bytes(file, true);
       if (io::is_netcdf(bytes.head())) return true;

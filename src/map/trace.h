@@ -46,9 +46,8 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
 // in `starts`.
 void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace);
 
-// Finds the places where a ring that is simple on the sphere crosses itself when it is drawn in the
-// plane.
-// Returns all pairs of lines of a trace that meet without being neighbors. A line is named by its
+// Returns all pairs of lines of a trace that meet without being neighbors: the places where a ring
+// that is simple on the sphere crosses itself when it is drawn in the plane. A line is named by its
 // first point. Nearly parallel arcs that are densified at different places have such lines. The
 // time is O(n log n) plus the number of pairs of lines whose rectangles overlap.
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "overlay/overlaps.h"
 #include "overlay/single_cells.h"
 #include "rondel/error.h"
+#include "system/disjoint_sets.h"
 
 namespace rondel::overlay {
 namespace {
@@ -56,25 +56,20 @@ std::optional<CellSet> united(const CellSetData& cells, const char* what,
                               const Execution& execution) {
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return std::nullopt;
-  std::vector<Index> firsts(cells.areas().size());
-  std::iota(firsts.begin(), firsts.end(), Index{0});
-  const auto first_of = [&](Index i) {
-    while (firsts[i] != i) i = firsts[i] = firsts[firsts[i]];
-    return i;
-  };
+  const std::size_t size = cells.areas().size();
+  system::DisjointSets sets(size);
   for (const CrossingCells& pair : overlaps) {
     if (pair.first == pair.second) {
       throw InvalidInput(std::string(what) + ' ' + message_of(pair), pair.second);
     }
-    const auto [low, high] = std::minmax({first_of(pair.first), first_of(pair.second)});
-    firsts[high] = low;
+    sets.join(pair.first, pair.second);
   }
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   const CellRings all = rings_of(cells);
   std::vector<CellRings> unions;
-  for (Index i = 0; i < firsts.size(); ++i) {
+  for (Index i = 0; i < size; ++i) {
     unions.push_back(one_cell(all, i));
-    const Index first = first_of(i);
+    const Index first = sets[i];
     if (first == i) continue;
     unions[first] = union_of(unions[first], unions[i], told);
     unions[i] = one_cell({.cells = {0, 0}, .rings = {0}, .corners = {}, .points = {}}, 0);

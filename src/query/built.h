@@ -24,7 +24,8 @@ namespace rondel::query {
 // RONDEL_API, here and in engine.h: what rondel::geo uses.
 class RONDEL_API Built {
  public:
-  // Vertices whose keys are equal are in the order of the input, or as this puts them (ties.h).
+  // Vertices whose keys are equal are in the order of the input, or as this puts them:
+  // order_ties_by_place().
   using OrderTies = void (*)(const Triangulation&, order::KeyedIndices&);
 
   // `ids`, if any, are what the sites are called outside, in increasing order; otherwise that is
@@ -84,7 +85,8 @@ class RONDEL_API Built {
   Index entry_face_ = no_index;
 };
 
-// Ranks that depend on places alone: for who promises that the order of the sites changes no bit.
+// Ranks that depend on places alone: for those who promise that the order of the sites changes no
+// bit.
 // Orders the vertices of equal keys, which are in the order of the input, by what else there is to their
 // places. A Built::OrderTies; apart from it, so that programs without need of it have nothing of it.
 RONDEL_API void order_ties_by_place(const Triangulation& triangulation,

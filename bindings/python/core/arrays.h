@@ -104,18 +104,30 @@ auto& part_of(Object& object) {
   }
 }
 
-// Adds a vector of an object as an array that refers to it. An assignment copies an array into the
-// vector; it is for objects that nobody has seen yet, as they are made of what was pickled.
+// The vector that is a member of an object, or a member of its member and so on.
+template <class Object, auto... members>
+using PartOf = std::remove_cvref_t<decltype(part_of<members...>(std::declval<Object&>()))>;
+
+// Adds a vector of an object as an array that refers to it.
+template <class T, auto... members, class Object>
+void add_fixed_array(nb::class_<Object>& type, const char* name) {
+  type.def_prop_ro(name, [](const nb::object& self) {
+    const PartOf<Object, members...>& rows = part_of<members...>(nb::cast<const Object&>(self));
+    return array_of<T>(self, std::span(rows));
+  });
+}
+
+// Adds the same, and an assignment, which copies an array into the vector. It is for objects that
+// nobody has seen yet, as they are made of what was pickled: the vector's memory may move.
 template <class T, auto... members, class Object>
 void add_array(nb::class_<Object>& type, const char* name) {
-  using Rows = std::remove_cvref_t<decltype(part_of<members...>(std::declval<Object&>()))>;
-  using Row = typename Rows::value_type;
+  using Row = typename PartOf<Object, members...>::value_type;
   using Given = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
   type.def_prop_rw(
       name,
       [](const nb::object& self) {
-        const Rows& rows = part_of<members...>(nb::cast<const Object&>(self));
-        return array_of<T>(self, std::span<const Row>(rows));
+        const PartOf<Object, members...>& rows = part_of<members...>(nb::cast<const Object&>(self));
+        return array_of<T>(self, std::span(rows));
       },
       [](Object& self, const Given& given) {
         const auto* const rows = reinterpret_cast<const Row*>(given.data());

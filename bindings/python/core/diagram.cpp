@@ -139,10 +139,10 @@ nb::list to_lists(const IndicesIn& items, const OffsetsIn& offsets) {
 
 void add_diagram_class(nb::module_& module) {
   nb::class_<Diagram> type(module, "Diagram");
-  add_array<std::int64_t, &Diagram::cells, &Cells::rings, &Lists::offsets>(type, "offsets");
-  add_array<std::int32_t, &Diagram::cells, &Cells::rings, &Lists::values>(type, "rings");
-  add_array<double, &Diagram::cells, &Cells::points>(type, "points");
-  add_array<double, &Diagram::areas>(type, "areas");
+  add_fixed_array<std::int64_t, &Diagram::cells, &Cells::rings, &Lists::offsets>(type, "offsets");
+  add_fixed_array<std::int32_t, &Diagram::cells, &Cells::rings, &Lists::values>(type, "rings");
+  add_fixed_array<double, &Diagram::cells, &Cells::points>(type, "points");
+  add_fixed_array<double, &Diagram::areas>(type, "areas");
 }
 
 }  // namespace

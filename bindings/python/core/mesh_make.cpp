@@ -67,8 +67,8 @@ void add_results(nb::module_& module) {
       .def_ro("obtuse_triangles", &mesh::ScvtDefects::obtuse_triangles)
       .def_ro("min_edge_ratio", &mesh::ScvtDefects::min_edge_ratio);
   nb::class_<mesh::Scvt> scvt(module, "Scvt");
-  add_array<double, &mesh::Scvt::sites>(scvt, "points");
-  add_array<std::int32_t, &mesh::Scvt::fixed>(scvt, "fixed");
+  add_fixed_array<double, &mesh::Scvt::sites>(scvt, "points");
+  add_fixed_array<std::int32_t, &mesh::Scvt::fixed>(scvt, "fixed");
   scvt.def_prop_ro("end", [](const mesh::Scvt& self) { return std::string(name_of(self.end)); })
       .def_prop_ro("steps", [](const mesh::Scvt& self) { return self.last.iteration; })
       .def_prop_ro("mean_offset", [](const mesh::Scvt& self) { return self.last.mean_offset; })
@@ -78,9 +78,9 @@ void add_results(nb::module_& module) {
       .def_prop_ro("defects_after", [](const mesh::Scvt& self) { return self.repair.after; })
       .def_prop_ro("moved", [](const mesh::Scvt& self) { return self.repair.moved; });
   nb::class_<mesh::EqualArea> partition(module, "EqualArea");
-  add_array<double, &mesh::EqualArea::poles>(partition, "points");
-  add_array<double, &mesh::EqualArea::weights>(partition, "weights");
-  add_array<double, &mesh::EqualArea::areas>(partition, "areas");
+  add_fixed_array<double, &mesh::EqualArea::poles>(partition, "points");
+  add_fixed_array<double, &mesh::EqualArea::weights>(partition, "weights");
+  add_fixed_array<double, &mesh::EqualArea::areas>(partition, "areas");
   partition
       .def_prop_ro("end",
                    [](const mesh::EqualArea& self) { return std::string(name_of(self.end)); })

@@ -58,12 +58,12 @@ void write_remap(const std::string& path, const std::string& format, const Weigh
 void add_remap(nb::module_& module) {
   nb::class_<Remap> type(module, "Remap");
   type.def("take_weights", [](Remap& self) { return std::move(self.weights); })
-      .def_ro("source", &Remap::source)
-      .def_ro("target", &Remap::target);
-  add_array<double, &Remap::source_areas>(type, "source_areas");
-  add_array<double, &Remap::target_areas>(type, "target_areas");
-  add_array<double, &Remap::source_fractions>(type, "source_fractions");
-  add_array<double, &Remap::target_fractions>(type, "target_fractions");
+      .def_prop_ro("source", [](const Remap& self) { return self.source; })
+      .def_prop_ro("target", [](const Remap& self) { return self.target; });
+  add_fixed_array<double, &Remap::source_areas>(type, "source_areas");
+  add_fixed_array<double, &Remap::target_areas>(type, "target_areas");
+  add_fixed_array<double, &Remap::source_fractions>(type, "source_fractions");
+  add_fixed_array<double, &Remap::target_fractions>(type, "target_fractions");
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::kw_only(),
              nb::arg("order"), nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),

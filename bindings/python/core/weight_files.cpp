@@ -34,9 +34,9 @@ WeightSide side_of(const PairsIn& places, const NumbersIn& areas,
 
 void add_weight_files(nb::module_& module) {
   nb::class_<WeightSide> side(module, "WeightSide");
-  add_array<std::int32_t, &WeightSide::mask>(side, "mask");
-  add_array<double, &WeightSide::points>(side, "centers");
-  add_array<double, &WeightSide::corners>(side, "corners");
+  add_fixed_array<std::int32_t, &WeightSide::mask>(side, "mask");
+  add_fixed_array<double, &WeightSide::points>(side, "centers");
+  add_fixed_array<double, &WeightSide::corners>(side, "corners");
   nb::class_<WeightFile>(module, "WeightFile")
       .def("take_weights", [](WeightFile& self) { return std::move(self.weights); })
       .def_ro("source", &WeightFile::source)

@@ -111,7 +111,7 @@ class CellSet(Described):
         Raises
         ------
         TypeError
-            As in `voronoi`.
+            If `sites` is neither a triangulation nor a diagram.
 
         """
         owner = _triangulated_of(sites)

@@ -53,8 +53,10 @@ class Contours:
         InvalidInput
             If a value is infinite, the levels do not increase, or the sites are weighted.
 
-        Notes ----- Lines pass edges where linear interpolation between their ends has the level;
-        values equal to the level belong to the higher side. No line visits a point twice.
+        Notes
+        -----
+        Lines pass edges where linear interpolation between their ends has the level; values equal
+        to the level belong to the higher side. No line visits a point twice.
 
         Examples
         --------

@@ -338,8 +338,10 @@ class CellRegions:
         OSError
             If the file cannot be read.
 
-        Notes ----- Which sides cross is decided exactly, and two regions that meet have the same
-        corners there, bit by bit (docs/theory/overlay.md).
+        Notes
+        -----
+        Which sides cross is decided exactly, and two regions that meet have the same corners there,
+        bit by bit (docs/theory/overlay.md).
 
         Examples
         --------

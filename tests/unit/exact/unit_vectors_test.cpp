@@ -24,7 +24,7 @@
 namespace rondel::test {
 namespace {
 
-// Bit for bit those of single points, for which predicates_bounds_test.cpp has an oracle.
+// Bit for bit those of single points, for which predicates/bounds_test.cpp has an oracle.
 void expect_unit_vectors(const std::vector<Point>& sites, const Point& center) {
   std::vector<Index> order(sites.size());
   std::iota(order.rbegin(), order.rend(), Index{0});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Gradients from values around: rows by their laws (their fits: interpolation_fit_test.cpp).
+// Gradients from values around: rows by their laws (their fits: fit_test.cpp).
 
 #include "interpolation/gradient.h"
 

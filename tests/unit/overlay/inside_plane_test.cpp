@@ -3,7 +3,7 @@
 
 // The inside of hostile polygons of files, read with straight lines in longitude and latitude and
 // with arcs, is right. Lines are judged in their plane, by rational numbers and by integrals, arcs
-// by the oracle of overlay_oracle.h, and so are the pieces of what was read. RONDEL_TEST_SCALE
+// by the oracle of oracle.h, and so are the pieces of what was read. RONDEL_TEST_SCALE
 // multiplies the number of polygons.
 #include <gmpxx.h>
 #include <gtest/gtest.h>

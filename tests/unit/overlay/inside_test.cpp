@@ -259,7 +259,7 @@ TEST(overlay_inside, polar_rows_in_great_circles) {
 }
 
 // The inside of hostile regions is found for cells of every kind. The oracle computes winding
-// numbers of rings with 77 digits (overlay_oracle.h): either pieces are correct up to rounding, or
+// numbers of rings with 77 digits (oracle.h): either pieces are correct up to rounding, or
 // it agrees that the rings bound nothing. RONDEL_TEST_SCALE multiplies the number of regions.
 
 class OverlayInside : public testing::TestWithParam<std::size_t> {};

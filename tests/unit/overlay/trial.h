@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A region laid over sets of cells of every kind, judged by the oracle of overlay_oracle.h.
+// A region laid over sets of cells of every kind, judged by the oracle of oracle.h.
 #pragma once
 
 #include <cstdint>
