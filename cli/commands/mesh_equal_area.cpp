@@ -89,7 +89,7 @@ ExitStatus run_equal_area(const EqualAreaCommandOptions& options) {
       table, [&] { return mesh::equal_area(table.sites, targets, partition, execution); });
   job.time(Stage::write, [&] {
     write_sites(common.target(), made.poles, table.positions,
-                table.is_lonlat() ? made.radii_deg : std::vector<double>{}, execution);
+                table.is_lonlat() ? made.radii_deg : std::vector<double>{}, job.execution());
   });
   // An area may be as near as doubles allow without being within the tolerance: that is a success.
   const bool is_whole =

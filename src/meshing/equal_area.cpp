@@ -331,6 +331,38 @@ EqualArea equal_lunes(const std::vector<Point>& units, const std::vector<double>
                        options, execution);
 }
 
+// What a step of Newton's method leads to.
+struct Trial {
+  std::optional<Weighted> now;  // nothing if no length of the step brings the areas nearer
+  FineWeights weights;
+  double length = 1;    // as a multiple of Newton's step
+  double rounding = 0;  // the error of areas that rounding may leave
+};
+
+// Tries Newton's step from the weights, and half of it again and again, until the areas are nearer
+// to the targets and none is below `min_area`. Throws Interrupted if Execution::stop is set.
+Trial shorter_steps(const Newton& newton, const FineWeights& weights, const Weighted& now,
+                    double min_area) {
+  const Newton::NewtonStep step = newton.step_from(now);
+  Trial trial;
+  trial.rounding = step.rounding;
+  for (int halving = 0; halving < max_halvings; ++halving, trial.length /= 2) {
+    trial.weights = stepped(weights, step.of_log, trial.length);
+    trial.now = newton.measure(trial.weights, now.poles);
+    const double fall = 1 - trial.length / 2;
+    // Near the end, rounding is most of the sum of squares, and few cells have larger errors.
+    if (trial.now && trial.now->smallest_area >= min_area &&
+        (trial.now->square_error <= fall * fall * now.square_error ||
+         trial.now->largest_error <= fall * now.largest_error)) {
+      break;
+    }
+    trial.now.reset();
+    // A shorter step does not help if only rounding is left.
+    if (now.largest_error <= step.rounding) break;
+  }
+  return trial;
+}
+
 }  // namespace
 
 std::string_view name_of(EqualAreaEnd end) noexcept {
@@ -360,35 +392,24 @@ EqualArea equal_area(std::span<const Point> sites, std::span<const double> targe
     if (now->largest_error <= options.tolerance) break;
     result.end = EqualAreaEnd::iterations;
     if (result.steps == options.max_steps) break;
-    result.end = EqualAreaEnd::stopped;
+    result.end = EqualAreaEnd::stopped;  // also if the step does not come to its end
     if (execution.stop != nullptr && execution.stop->load()) break;
 
-    const Newton::NewtonStep step = newton.step_from(*now);
-    std::optional<Weighted> next;
-    FineWeights tried;
-    length = 1;
-    for (int halving = 0; halving < max_halvings; ++halving, length /= 2) {
-      tried = stepped(weights, step.of_log, length);
-      next = newton.measure(tried, now->poles);
-      const double fall = 1 - length / 2;
-      // Near the end, rounding is most of the sum of squares, and few cells have larger errors.
-      if (next && next->smallest_area >= min_area &&
-          (next->square_error <= fall * fall * now->square_error ||
-           next->largest_error <= fall * now->largest_error)) {
-        break;
-      }
-      next.reset();
-      // A shorter step does not help if only rounding is left.
-      if (now->largest_error <= step.rounding) break;
+    Trial trial;
+    try {
+      trial = shorter_steps(newton, weights, *now, min_area);
+    } catch (const Interrupted&) {
+      break;
     }
-    if (!next) {
-      const bool is_rounding = now->largest_error <= step.rounding;
+    length = trial.length;
+    if (!trial.now) {
+      const bool is_rounding = now->largest_error <= trial.rounding;
       result.end = is_rounding ? EqualAreaEnd::rounded : EqualAreaEnd::infeasible;
       if (!is_rounding) result.reason = no_step;
       break;
     }
-    weights = std::move(tried);
-    now = std::move(next);
+    weights = std::move(trial.weights);
+    now = std::move(trial.now);
     ++result.steps;
   }
   finish(result, weights, std::move(*now));

@@ -222,9 +222,10 @@ def equal_area(
     Raises
     ------
     InvalidInput
-        If two points are in one place, or an area is not positive. Its `index` is the site.
+        If two points are in one place, or an area is not positive and finite. Its `index` is the
+        site.
     ValueError
-        If the tolerance is not positive and finite.
+        If the tolerance is not positive and finite, or `areas` has another shape than (n,).
 
     Warns
     -----
@@ -249,8 +250,12 @@ def equal_area(
     sites = as_points(points)
     targets = np.empty(0)
     if areas is not None:
-        targets = as_floats(areas, "areas")
-        targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
+        targets = np.ascontiguousarray(as_floats(areas, "areas"))
+        if targets.shape != (len(sites),):
+            raise ValueError(f"areas has shape {targets.shape}, not ({len(sites)},)")
+        if np.all((targets > 0) & np.isfinite(targets)):  # the library names the first that is not
+            targets = targets / targets.max()
+            targets *= 4 * np.pi / targets.sum()
     found = _core.make_equal_area(sites, targets, float(tolerance), as_threads(threads))
     if found.end not in ("converged", "rounded"):
         warn_caller(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
@@ -315,8 +316,12 @@ class Mesh:
         ------
         OSError
             If the file cannot be written; then nothing is left of it.
+        ValueError
+            If `graph` and `path` are one file.
 
         """
+        if graph is not None and os.path.realpath(graph) == os.path.realpath(path):
+            raise ValueError("graph is the file of path")
         self._write(path, "mpas", kind, threads)
         if graph is not None:
             self._arrays.write_graph(as_name(graph))

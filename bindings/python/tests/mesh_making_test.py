@@ -129,3 +129,19 @@ def test_areas_are_as_wanted():
     assert found.reason == ""
     with pytest.raises(rondel.InvalidInput, match="not positive"):
         rondel.mesh.equal_area(points, points[:, 0] + 1)
+    large = rondel.mesh.equal_area(points, 1e308 * wanted / 2)  # in any unit
+    assert np.allclose(large.areas, found.areas, rtol=1e-10)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, 0.0, -1.0])
+def test_the_first_bad_area_is_named(bad):
+    points = np.random.default_rng(4).normal(size=(50, 3))
+    areas = np.ones(50)
+    areas[[7, 9]] = bad
+    with pytest.raises(rondel.InvalidInput, match="the area of site 7 is not positive") as caught:
+        rondel.mesh.equal_area(points, areas)
+    assert caught.value.index == 7
+    with pytest.raises(rondel.InvalidInput, match="site 0"):
+        rondel.mesh.equal_area(points, -np.ones(50))
+    with pytest.raises(ValueError, match=r"areas has shape \(50, 1\), not \(50,\)"):
+        rondel.mesh.equal_area(points, np.ones((50, 1)))

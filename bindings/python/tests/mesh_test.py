@@ -42,6 +42,8 @@ def test_files_come_back(tmp_path):
     density = np.linspace(0.1, 1, 300)
     mesh = rondel.mesh.from_points(sites(), density=density)
     mesh.to_mpas(tmp_path / "m.nc", graph=tmp_path / "graph.info", kind="cdf2", threads=1)
+    with pytest.raises(ValueError, match="graph is the file of path"):
+        mesh.to_mpas(tmp_path / "m.nc", graph=tmp_path / "." / "m.nc")
     again = rondel.mesh.read(tmp_path / "m.nc")
     assert (again.kite_areas == mesh.kite_areas).all()
     assert (again.density == density).all()
