@@ -60,12 +60,12 @@ Command add_remap_command(CLI::App& tool);
 Command add_apply_command(CLI::App& tool);
 Command add_check_weights_command(CLI::App& tool);
 Command add_mesh_command(CLI::App& tool);
-Command add_mesh_scvt_command(CLI::App& mesh);
-Command add_mesh_icosahedral_command(CLI::App& mesh);
-Command add_mesh_points_command(CLI::App& mesh);
-Command add_mesh_equal_area_command(CLI::App& mesh);
-Command add_mesh_convert_command(CLI::App& mesh);
-Command add_mesh_cull_command(CLI::App& mesh);
-Command add_mesh_quality_command(CLI::App& mesh);
+Command add_mesh_scvt_command(CLI::App& group);
+Command add_mesh_icosahedral_command(CLI::App& group);
+Command add_mesh_points_command(CLI::App& group);
+Command add_mesh_equal_area_command(CLI::App& group);
+Command add_mesh_convert_command(CLI::App& group);
+Command add_mesh_cull_command(CLI::App& group);
+Command add_mesh_quality_command(CLI::App& group);
 
 }  // namespace rondel::cli

@@ -33,9 +33,9 @@ ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
 
 }  // namespace
 
-Command add_mesh_convert_command(CLI::App& mesh) {
+Command add_mesh_convert_command(CLI::App& group) {
   auto options = std::make_shared<MeshConvertOptions>();
-  CLI::App* parser = mesh.add_subcommand("convert", "Write the mesh of sites, or of another file");
+  CLI::App* parser = group.add_subcommand("convert", "Write the mesh of sites, or of another file");
   MeshOutput& written = options->written;
   add_input_options(*parser, written.common, mesh_input_help);
   add_mesh_output_options(*parser, written, MeshOutputKind::mesh);

@@ -81,9 +81,9 @@ ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
 
 }  // namespace
 
-Command add_mesh_quality_command(CLI::App& mesh) {
+Command add_mesh_quality_command(CLI::App& group) {
   auto options = std::make_shared<MeshQualityOptions>();
-  CLI::App* parser = mesh.add_subcommand("quality", "Report how good a mesh is");
+  CLI::App* parser = group.add_subcommand("quality", "Report how good a mesh is");
   add_input_options(*parser, options->common, mesh_input_help);
   parser
       ->add_option_function<std::vector<std::string>>(

@@ -96,11 +96,12 @@ template <auto read>
 std::vector<ArrayOut<double>> lines_of_file(const PathIn& path, nb::handle edges,
                                             unsigned threads) {
   const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
-  std::vector<ArrayOut<double>> lines;
   std::vector<std::vector<Point>> found = read_from(path, [&](const FileName& file) {
     return watched_quietly(
         0, threads, [&](const Execution& execution) { return read(file, options, execution); });
   });
+  std::vector<ArrayOut<double>> lines;
+  lines.reserve(found.size());
   for (std::vector<Point>& line : found) lines.push_back(points_out(std::move(line)));
   return lines;
 }
