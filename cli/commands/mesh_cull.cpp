@@ -164,7 +164,8 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options) {
 
 Command add_mesh_cull_command(CLI::App& group) {
   auto options = std::make_shared<MeshCullOptions>();
-  CLI::App* parser = group.add_subcommand("cull", "Remove cells of a mesh: those on land, a region");
+  CLI::App* parser =
+      group.add_subcommand("cull", "Remove cells of a mesh: those on land, a region");
   add_input_options(*parser, options->written.common, mesh_input_help);
   parser
       ->add_option("--inside", options->inside,
