@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the commands of `rondel mesh` share: they read a mesh, or make one of sites, and write it.
+/// The commands of `rondel mesh` read a mesh, or make one of sites, and write it by these functions.
 ///
 /// in    a mesh of netCDF, or sites, whose mesh is that of their Voronoi cells
 /// out   a mesh in a format of models, its graph of neighbors, a report on its quality

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What `rondel voronoi` has of `rondel regions`: the same options, for the same results.
+/// The options of `rondel regions` that `rondel voronoi` has too, for the same results.
 ///
 /// in    sites, or lines and polygons; polygons that clip; a column that groups
 /// out   features, each with the polygons of one cell, group or piece

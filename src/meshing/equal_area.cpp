@@ -331,7 +331,7 @@ EqualArea equal_lunes(const std::vector<Point>& units, const std::vector<double>
                        options, execution);
 }
 
-// What a step of Newton's method leads to.
+// The weights and cells to which a step of Newton's method leads.
 struct Trial {
   std::optional<Weighted> now;  // nothing if no length of the step brings the areas nearer
   FineWeights weights;

@@ -108,13 +108,17 @@ auto& part_of(Object& object) {
 template <class Object, auto... members>
 using PartOf = std::remove_cvref_t<decltype(part_of<members...>(std::declval<Object&>()))>;
 
+// Returns a vector of an object as an array that refers to it.
+template <class T, class Object, auto... members>
+ArrayOut<const T> array_of_part(const nb::object& self) {
+  const PartOf<Object, members...>& rows = part_of<members...>(nb::cast<const Object&>(self));
+  return array_of<T>(self, std::span(rows));
+}
+
 // Adds a vector of an object as an array that refers to it.
 template <class T, auto... members, class Object>
 void add_fixed_array(nb::class_<Object>& type, const char* name) {
-  type.def_prop_ro(name, [](const nb::object& self) {
-    const PartOf<Object, members...>& rows = part_of<members...>(nb::cast<const Object&>(self));
-    return array_of<T>(self, std::span(rows));
-  });
+  type.def_prop_ro(name, &array_of_part<T, Object, members...>);
 }
 
 // Adds the same, and an assignment, which copies an array into the vector. It is for objects that
@@ -124,12 +128,7 @@ void add_array(nb::class_<Object>& type, const char* name) {
   using Row = typename PartOf<Object, members...>::value_type;
   using Given = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
   type.def_prop_rw(
-      name,
-      [](const nb::object& self) {
-        const PartOf<Object, members...>& rows = part_of<members...>(nb::cast<const Object&>(self));
-        return array_of<T>(self, std::span(rows));
-      },
-      [](Object& self, const Given& given) {
+      name, &array_of_part<T, Object, members...>, [](Object& self, const Given& given) {
         const auto* const rows = reinterpret_cast<const Row*>(given.data());
         part_of<members...>(self).assign(rows, rows + given.size() * sizeof(T) / sizeof(Row));
       });
