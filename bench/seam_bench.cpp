@@ -49,7 +49,7 @@ bool build(std::span<const Point> sites, Ledger& ledger) {
   const auto order = order::spatial_order(sites, options.model, {}, 1, {}, copies);
   ledger.order = take();
   const bulk::Input input = bulk::make_input(sites, order.order, options, copies);
-  const auto squares = bulk::make_squares(input, bulk::most_block_sites);
+  const auto squares = bulk::make_squares(input, bulk::default_max_block_sites);
   const auto blocks = bulk::blocks_of(squares);
   const auto results = bulk::triangulate_blocks(input, blocks, arrays);
   ledger.blocks = take();

@@ -67,6 +67,7 @@ TEST(cell_corners, group_cells_into_blocks) {
   arrays.vertex_points.resize(8);
   arrays.cell_points.resize(4);
   arrays.edges_on_cell.offsets = {0, 4, 7, 11, 14};
+  arrays.edges_on_cell.values.resize(14);  // only how many each cell has matters here
   arrays.vertices_on_cell = {0, 1, 2, 3, 0, 1, 4, 4, 5, 6, 7, 5, 6, 2};
   arrays.vertices_on_edge = {{0, 1}, {5, 4}};
   arrays.vertex_distances = {1, 0};
