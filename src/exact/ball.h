@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -184,6 +185,15 @@ class Ball {
   Magnitude radius_ = nothing;
   bool is_negative_ = false;
 };
+
+// The double made of the first 64 bits of the midpoint: nearest to it but for one case in 2^11.
+template <std::size_t N>
+double leading_double(const Ball<N>& ball) {
+  const Magnitude size = ball.size_of_midpoint();
+  if (size == nothing) return 0;
+  const double value = std::ldexp(static_cast<double>(ball.leading()), size - 64);
+  return ball.midpoint().sign() == Sign::negative ? -value : value;
+}
 
 // 1 / sqrt(a); empty if a may be 0 or negative, or is known too badly.
 //

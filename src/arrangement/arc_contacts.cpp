@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "arrangement/arc_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include "exact/eft.h"
+#include "predicates/bounds.h"
+#include "rondel/arrangement.h"
+#include "rondel/predicates.h"
+
+namespace rondel::arrangement {
+namespace {
+
+using exact::to_vector;
+
+// How far beyond an arc its box reaches: more than the radius, and what computing it may lose.
+constexpr double margin = 0x1p-49;
+static_assert(margin >= 2 * arrangement_radius + 8 * predicates::unit_roundoff);
+
+// Returns the least value that dot(normal, p - a) has for a point p that is farther from the great
+// circle of ab than the radius, relative to the length of the step from a to b. The normal is
+// a x (b - a): it is off by 6.9 u |b - a|, and the product by 7.9 u |p - a| |b - a| with |p - a| <=
+// 2 (see overlay/perturbed_predicates.h). The sum of the sizes of the coordinates, by which the
+// value is multiplied, is not below the length.
+constexpr double side_bound = 18 * predicates::unit_roundoff + 2 * arrangement_radius;
+
+// An arc, and on which side of it points are.
+class SidedArc {
+ public:
+  SidedArc(const Point& a, const Point& b) : a_(to_vector(a)) {
+    const Vec step = to_vector(b) - a_;
+    normal_ = cross(a_, step);
+    // Steps whose products may underflow are never sure.
+    constexpr double min_step = 0x1p-400;
+    const double size = std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
+    limit_ = size > min_step ? side_bound * size : 1;
+  }
+  // Returns the side of a point, positive to the left; zero if the point may be within the radius
+  // of the great circle.
+  [[nodiscard]] int side(const Point& p) const {
+    const double value = dot(normal_, to_vector(p) - a_);
+    return static_cast<int>(value > limit_) - static_cast<int>(value < -limit_);
+  }
+
+ private:
+  Vec a_;
+  Vec normal_{};
+  double limit_ = 0;
+};
+
+// True if the arcs ab and cd cross in the inside of both; exact. Where each great circle separates
+// the ends of the other arc, an arc crosses the other one or the antipodes of the other one; it
+// crosses the other one if c is on one side of ab and a on the other side of cd.
+bool cross_exactly(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Sign first = orientation(a, b, c);
+  return first != Sign::zero && orientation(a, b, d) == -first && orientation(c, d, a) == -first &&
+         orientation(c, d, b) == first;
+}
+
+Box box_of(const Point& a, const Point& b) {
+  // A point of the arc is a point of the chord, moved away from the center by the sagitta or less
+  // along the direction to the middle.
+  const Vec chord = to_vector(b) - to_vector(a);
+  const double sagitta = 1 - std::sqrt(std::max(0.0, 1 - dot(chord, chord) / 4));
+  const Vec bulge = sagitta * normalized(to_vector(a) + to_vector(b));
+  const auto range = [](double from, double to, double beyond) {
+    return std::array{std::min(from, to) + std::min(beyond, 0.0) - margin,
+                      std::max(from, to) + std::max(beyond, 0.0) + margin};
+  };
+  const auto [low_x, high_x] = range(a.x, b.x, bulge.x);
+  const auto [low_y, high_y] = range(a.y, b.y, bulge.y);
+  const auto [low_z, high_z] = range(a.z, b.z, bulge.z);
+  return {{low_x, low_y, low_z}, {high_x, high_y, high_z}};
+}
+
+// Collects the contacts of pairs of arcs whose boxes overlap.
+class ContactFinder {
+ public:
+  ContactFinder(const NodedArcs& input, Contacts& found) : input_(input), found_(found) {}
+
+  void add(Index i, Index j) {
+    const Arc s = input_.arcs[i];
+    const Arc t = input_.arcs[j];
+    const SidedArc first(point(s.from), point(s.to));
+    const SidedArc second(point(t.from), point(t.to));
+    const bool is_from_shared = t.from == s.from || t.from == s.to;
+    const bool is_to_shared = t.to == s.from || t.to == s.to;
+    const int from = is_from_shared ? 0 : first.side(point(t.from));
+    const int to = is_to_shared ? 0 : first.side(point(t.to));
+    if (from * to > 0) return;
+    const int of_from = s.from == t.from || s.from == t.to ? 0 : second.side(point(s.from));
+    const int of_to = s.to == t.from || s.to == t.to ? 0 : second.side(point(s.to));
+    if (of_from * of_to > 0) return;
+    if (from * to < 0 && of_from * of_to < 0) {
+      if (from * of_from < 0) found_.crossings.push_back({i, j});
+      return;
+    }
+    if (from == 0) add_if_near(i, t.from);
+    if (to == 0 && t.to != t.from) add_if_near(i, t.to);
+    if (of_from == 0) add_if_near(j, s.from);
+    if (of_to == 0 && s.to != s.from) add_if_near(j, s.to);
+    if (!is_from_shared && !is_to_shared &&
+        cross_exactly(point(s.from), point(s.to), point(t.from), point(t.to))) {
+      found_.crossings.push_back({i, j});
+    }
+  }
+
+ private:
+  [[nodiscard]] const Point& point(Index node) const { return input_.nodes[node]; }
+  void add_if_near(Index arc, Index node) {
+    const Arc ends = input_.arcs[arc];
+    if (node == ends.from || node == ends.to) return;
+    if (is_near(point(ends.from), point(ends.to), point(node))) found_.near.push_back({arc, node});
+  }
+
+  const NodedArcs& input_;
+  Contacts& found_;
+};
+
+template <class T>
+void sort_and_join(std::vector<std::vector<T>>& parts, std::vector<T>& all) {
+  std::size_t size = 0;
+  for (const auto& part : parts) size += part.size();
+  all.reserve(size);
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+constexpr std::size_t blocks_per_task = 128;
+constexpr std::size_t points_per_task = 1024;
+
+}  // namespace
+
+bool is_near(const Point& a, const Point& b, const Point& p) {
+  const Vec step = to_vector(b) - to_vector(a);
+  const Vec normal = cross(to_vector(a), step);
+  const Vec direction = normalized(normal);
+  // These vectors are perpendicular to a and to b, so that only the part of the difference along
+  // the sphere counts. The foot is within the arc if p is ahead of a and behind b.
+  if (!(dot(cross(direction, to_vector(a)), to_vector(p) - to_vector(a)) > 0) ||
+      !(dot(cross(direction, to_vector(b)), to_vector(p) - to_vector(b)) < 0)) {
+    return false;
+  }
+  const exact::Vector3<exact::DoubleDouble> from_center = {{a.x, 0}, {a.y, 0}, {a.z, 0}};
+  const exact::DoubleDouble volume =
+      det(from_center, exact::difference(b, a), exact::difference(p, a));
+  return std::abs(volume.hi) <= arrangement_radius * exact::length_of(normal);
+}
+
+bool is_on_near_arc(const Point& a, const Point& b, const Point& p) {
+  return orientation(a, b, p) == Sign::zero;
+}
+
+BoxTree boxes_of(const NodedArcs& input, unsigned threads) {
+  std::vector<Box> boxes(input.arcs.size());
+  constexpr std::size_t grain = 4096;
+  system::parallel_for(threads, boxes.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      boxes[i] = box_of(input.from(static_cast<Index>(i)), input.to(static_cast<Index>(i)));
+    }
+  });
+  return {std::move(boxes), threads};
+}
+
+Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned threads) {
+  const std::size_t num_blocks = boxes.num_blocks();
+  const std::size_t num_tasks = system::num_pieces(num_blocks, blocks_per_task);
+  std::vector<std::vector<Crossing>> crossings(num_tasks);
+  std::vector<std::vector<NearNode>> near(num_tasks);
+  system::parallel_for(threads, num_blocks, blocks_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         Contacts found;
+                         ContactFinder finder(input, found);
+                         for (std::size_t block = begin; block < end; ++block) {
+                           boxes.visit_pairs(block, [&](Index i, Index j) { finder.add(i, j); });
+                         }
+                         std::ranges::sort(found.near);
+                         const auto repeated = std::ranges::unique(found.near);
+                         found.near.erase(repeated.begin(), repeated.end());
+                         std::ranges::sort(found.crossings);
+                         crossings[begin / blocks_per_task] = std::move(found.crossings);
+                         near[begin / blocks_per_task] = std::move(found.near);
+                       });
+  Contacts result;
+  // The tasks have the first arcs of their crossings in ascending order.
+  for (const auto& part : crossings) {
+    result.crossings.insert(result.crossings.end(), part.begin(), part.end());
+  }
+  sort_and_join(near, result.near);
+  return result;
+}
+
+std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
+                                std::span<const Point> points, unsigned threads) {
+  std::vector<std::vector<NearNode>> parts(system::num_pieces(points.size(), points_per_task));
+  system::parallel_for(threads, points.size(), points_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         std::vector<NearNode>& part = parts[begin / points_per_task];
+                         for (std::size_t k = begin; k < end; ++k) {
+                           const Point& p = points[k];
+                           boxes.visit({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, [&](Index arc) {
+                             if (is_near(input.from(arc), input.to(arc), p)) {
+                               part.push_back({arc, static_cast<Index>(k)});
+                             }
+                           });
+                         }
+                       });
+  std::vector<NearNode> result;
+  sort_and_join(parts, result);
+  return result;
+}
+
+}  // namespace rondel::arrangement

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Within the radius of a node the sphere is a plane up to a relative 2^-52: the squared distance of
+// the place t along the arc from a node at (x, y) is (t - x)^2 + y^2. The nearest nodes are those of
+// the lower envelope of these parabolas, where it is below the squared radius. Nodes may be much
+// closer to each other than the radius. So x and y are taken relative to one of them.
+#include "arrangement/snapped_chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "exact/ball.h"
+#include "exact/exact_sign.h"
+#include "exact/vector.h"
+#include "rondel/arrangement.h"
+#include "rondel/predicates.h"
+
+namespace rondel::arrangement {
+namespace {
+
+using exact::to_vector;
+
+// A node in coordinates along the arc (x) and across (y), relative to the first node of its group.
+struct Place {
+  double x;
+  double y;
+  Index node;
+};
+
+// The nodes of an arc in groups: nodes of different groups are farther apart than both radii.
+class NodesAlong {
+ public:
+  NodesAlong(std::span<const Point> nodes, Arc arc)
+      : nodes_(nodes), arc_(arc), a_(to_vector(nodes[arc.from])) {
+    const Vec normal = cross(a_, to_vector(nodes[arc.to]) - a_);
+    normal_ = normalized(normal);
+    length_ = exact::length_of(normal);
+    forward_ = cross(normal_, a_);
+  }
+
+  // Returns a number from 0 to 2 that grows along the arc, at least half as fast as the angle. It is
+  // off by a few units in the last place of 1.
+  [[nodiscard]] double rough_place(Index node) const {
+    const Vec p = to_vector(nodes_[node]);
+    const double sine = dot(forward_, p);
+    const double cosine = dot(a_, p);
+    const double quarter = sine / (std::abs(sine) + std::abs(cosine));
+    return cosine > 0 ? quarter : 2 - quarter;
+  }
+  // Returns the place of a node relative to another one near to it.
+  [[nodiscard]] Place place(Index node, Index first) const {
+    const Vec origin = to_vector(nodes_[first]);
+    const Vec step = to_vector(nodes_[node]) - origin;
+    return {dot(cross(normal_, origin), step), dot(normal_, step), node};
+  }
+  // Returns the distance of a node from the arc, positive to the left, with a small relative error.
+  [[nodiscard]] double height(Index node) const {
+    if (node == arc_.from || node == arc_.to) return 0;
+    const Point& a = nodes_[arc_.from];
+    const exact::BallStep<104> step;  // exact, see exact::sign_of_cubic()
+    const auto volume = det(step(Point{}, a), step(a, nodes_[arc_.to]), step(a, nodes_[node]));
+    return exact::leading_double(volume) / length_;
+  }
+
+ private:
+  std::span<const Point> nodes_;
+  Arc arc_;
+  Vec a_;
+  Vec normal_{};
+  double length_ = 0;
+  Vec forward_{};
+};
+
+struct RoughPlace {
+  double at;
+  Index node;
+};
+
+// Appends the nodes of a group that the arc is led through.
+class Envelope {
+ public:
+  // `height` is the distance of the group's first node from the arc.
+  Envelope(std::vector<Place>& places, double height) : height_(height) {
+    std::ranges::sort(places, {}, [&](const Place& p) {
+      return std::tuple(p.x, std::abs(height + p.y), p.node);
+    });
+    for (const Place& place : places) add(place);
+  }
+
+  // Calls visit(node) for each node of which a place is within the radius, in order.
+  template <class Visit>
+  void visit(const Visit& visit) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+      const Place& place = nearest_[i];
+      const double begin = i == 0 ? -infinity : middle_of(nearest_[i - 1], place);
+      const double end = i + 1 == nearest_.size() ? infinity : middle_of(place, nearest_[i + 1]);
+      const double x = std::clamp(place.x, begin, end) - place.x;
+      const double y = height_ + place.y;
+      if (x * x + y * y <= arrangement_radius * arrangement_radius) visit(place.node);
+    }
+  }
+
+ private:
+  // Returns the place along the arc that is equally far from two nodes. Precondition: first.x <
+  // second.x
+  [[nodiscard]] double middle_of(const Place& first, const Place& second) const {
+    const double slope = (second.y - first.y) / (second.x - first.x);
+    return (first.x + second.x + slope * (2 * height_ + first.y + second.y)) / 2;
+  }
+  void add(const Place& place) {
+    if (!nearest_.empty() && nearest_.back().x == place.x) return;  // it is not nearer
+    while (nearest_.size() > 1 && middle_of(nearest_.back(), place) <=
+                                      middle_of(nearest_[nearest_.size() - 2], nearest_.back())) {
+      nearest_.pop_back();
+    }
+    nearest_.push_back(place);
+  }
+
+  double height_;
+  std::vector<Place> nearest_;
+};
+
+}  // namespace
+
+bool append_nearest_nodes(std::span<const Point> nodes, Arc arc, std::span<const Index> near,
+                          std::vector<Index>& chain) {
+  const NodesAlong along(nodes, arc);
+  std::vector<RoughPlace> order;
+  order.reserve(near.size() + 2);
+  for (const Index node : near) order.push_back({along.rough_place(node), node});
+  for (const Index node : {arc.from, arc.to}) order.push_back({along.rough_place(node), node});
+  std::ranges::sort(order, {}, [](const RoughPlace& p) { return std::pair(p.at, p.node); });
+  // Rough places of nodes whose disks may meet differ by less: both radii, and errors.
+  constexpr double group_width = 16 * arrangement_radius;
+  bool is_crowded = false;
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < order.size();) {
+    std::size_t k = i + 1;
+    while (k < order.size() && order[k].at - order[k - 1].at <= group_width) ++k;
+    if (k == i + 1) {
+      if (order[i].node != arc.from && order[i].node != arc.to) chain.push_back(order[i].node);
+    } else {
+      is_crowded = true;
+      places.clear();
+      for (std::size_t m = i; m < k; ++m) {
+        places.push_back(along.place(order[m].node, order[i].node));
+      }
+      Envelope(places, along.height(order[i].node)).visit([&](Index node) {
+        if (node != arc.from && node != arc.to) chain.push_back(node);
+      });
+    }
+    i = k;
+  }
+  return is_crowded;
+}
+
+void append_nodes_on_arc(std::span<const Point> nodes, Arc arc, std::span<const Index> on,
+                         std::vector<Index>& chain) {
+  const auto begin = static_cast<std::ptrdiff_t>(chain.size());
+  chain.insert(chain.end(), on.begin(), on.end());
+  const Vec from = to_vector(nodes[arc.from]);
+  // The cross product of two nodes on the arc is a multiple of the exact normal, and so its product
+  // with the rounded one has the sign of the multiple.
+  const Point normal = exact::to_point(normalized(cross(from, to_vector(nodes[arc.to]) - from)));
+  std::sort(chain.begin() + begin, chain.end(), [&](Index p, Index q) {
+    return orientation(nodes[p], nodes[q], normal) == Sign::positive;
+  });
+}
+
+}  // namespace rondel::arrangement
