@@ -63,22 +63,6 @@ bool cross_exactly(const Point& a, const Point& b, const Point& c, const Point& 
          orientation(c, d, b) == first;
 }
 
-Box box_of(const Point& a, const Point& b) {
-  // A point of the arc is a point of the chord, moved away from the center by the sagitta or less
-  // along the direction to the middle.
-  const Vec chord = to_vector(b) - to_vector(a);
-  const double sagitta = 1 - std::sqrt(std::max(0.0, 1 - dot(chord, chord) / 4));
-  const Vec bulge = sagitta * normalized(to_vector(a) + to_vector(b));
-  const auto range = [](double from, double to, double beyond) {
-    return std::array{std::min(from, to) + std::min(beyond, 0.0) - margin,
-                      std::max(from, to) + std::max(beyond, 0.0) + margin};
-  };
-  const auto [low_x, high_x] = range(a.x, b.x, bulge.x);
-  const auto [low_y, high_y] = range(a.y, b.y, bulge.y);
-  const auto [low_z, high_z] = range(a.z, b.z, bulge.z);
-  return {{low_x, low_y, low_z}, {high_x, high_y, high_z}};
-}
-
 // Collects the contacts of pairs of arcs whose boxes overlap.
 class ContactFinder {
  public:
@@ -156,6 +140,22 @@ bool is_near(const Point& a, const Point& b, const Point& p) {
 
 bool is_on_near_arc(const Point& a, const Point& b, const Point& p) {
   return orientation(a, b, p) == Sign::zero;
+}
+
+Box box_of(const Point& a, const Point& b) {
+  // A point of the arc is a point of the chord, moved away from the center by the sagitta or less
+  // along the direction to the middle.
+  const Vec chord = to_vector(b) - to_vector(a);
+  const double sagitta = 1 - std::sqrt(std::max(0.0, 1 - dot(chord, chord) / 4));
+  const Vec bulge = sagitta * normalized(to_vector(a) + to_vector(b));
+  const auto range = [](double from, double to, double beyond) {
+    return std::array{std::min(from, to) + std::min(beyond, 0.0) - margin,
+                      std::max(from, to) + std::max(beyond, 0.0) + margin};
+  };
+  const auto [low_x, high_x] = range(a.x, b.x, bulge.x);
+  const auto [low_y, high_y] = range(a.y, b.y, bulge.y);
+  const auto [low_z, high_z] = range(a.z, b.z, bulge.z);
+  return {{low_x, low_y, low_z}, {high_x, high_y, high_z}};
 }
 
 BoxTree boxes_of(const NodedArcs& input, unsigned threads) {

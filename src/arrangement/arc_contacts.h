@@ -45,6 +45,9 @@ bool is_near(const Point& a, const Point& b, const Point& p);
 // True if a point is in the inside of the arc ab; exact. Precondition: is_near(a, b, p).
 bool is_on_near_arc(const Point& a, const Point& b, const Point& p);
 
+// Returns a box that contains the arc ab and what is near to it.
+Box box_of(const Point& a, const Point& b);
+
 // Returns the boxes of all arcs, which contain what is near to the arcs.
 BoxTree boxes_of(const NodedArcs& input, unsigned threads);
 
