@@ -83,10 +83,10 @@ ExitStatus run_equal_area(const EqualAreaCommandOptions& options) {
   }
   Execution execution = job.execution();
   execution.stop = &interrupted_by_user();
-  mesh::EqualAreaOptions partition{.tolerance = options.tolerance};
-  partition.on_step = [&](const mesh::EqualAreaStep& step) { show(step, partition, execution); };
-  const mesh::EqualArea made = with_places(
-      table, [&] { return mesh::equal_area(table.sites, targets, partition, execution); });
+  mesh::EqualAreaOptions rules{.tolerance = options.tolerance};
+  rules.on_step = [&](const mesh::EqualAreaStep& step) { show(step, rules, execution); };
+  const mesh::EqualArea made =
+      with_places(table, [&] { return mesh::equal_area(table.sites, targets, rules, execution); });
   job.time(Stage::write, [&] {
     write_sites(common.target(), made.poles, table.positions,
                 table.is_lonlat() ? made.radii_deg : std::vector<double>{}, job.execution());

@@ -33,15 +33,15 @@ using IntegerRay = std::array<std::int64_t, 3>;  // smaller than 2^61
 // The ray from o to p in a unit of which the longest coordinate of the two has between 2^59 and
 // 2^60; whether all are multiples of the unit, which is no subnormal number.
 bool find_ray(const Point& p, const Point& o, IntegerRay& ray) {
-  constexpr std::uint64_t most_bits = 59;
+  constexpr std::uint64_t max_bits = 59;
   constexpr std::uint64_t bias = 1023;
   const std::array<double, 6> given = {p.x, p.y, p.z, o.x, o.y, o.z};
   double longest = 0;
   for (const double x : given) longest = std::max(longest, std::abs(x));
   const std::uint64_t exponent = std::bit_cast<std::uint64_t>(longest) >> 52U;
-  if (exponent <= most_bits) return false;
-  const auto unit = std::bit_cast<double>((exponent - most_bits) << 52U);
-  const auto per_unit = std::bit_cast<double>((2 * bias + most_bits - exponent) << 52U);
+  if (exponent <= max_bits) return false;
+  const auto unit = std::bit_cast<double>((exponent - max_bits) << 52U);
+  const auto per_unit = std::bit_cast<double>((2 * bias + max_bits - exponent) << 52U);
   std::array<std::int64_t, 6> integers{};
   bool are_exact = true;
   for (std::size_t i = 0; i < 6; ++i) {

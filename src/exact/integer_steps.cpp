@@ -28,18 +28,18 @@ double power_of_two(std::uint64_t biased_exponent) {
 // The coordinate of the steps from o to the others, in a unit of which the longest coordinate has
 // between 2^59 and 2^60; whether all are multiples of the unit, which is no subnormal number.
 bool steps_along_axis(double o, double a, double b, double c, Column& steps) {
-  constexpr std::uint64_t most_bits = 59;
+  constexpr std::uint64_t max_bits = 59;
   constexpr std::uint64_t bias = 1023;
   const std::array<double, 4> given = {o, a, b, c};
   double longest = 0;
   for (const double x : given) longest = std::max(longest, std::abs(x));
   const std::uint64_t exponent = std::bit_cast<std::uint64_t>(longest) >> 52U;
-  if (exponent <= most_bits) {
+  if (exponent <= max_bits) {
     steps = {};
     return longest == 0;
   }
-  const double unit = power_of_two(exponent - most_bits);
-  const double per_unit = power_of_two(2 * bias + most_bits - exponent);
+  const double unit = power_of_two(exponent - max_bits);
+  const double per_unit = power_of_two(2 * bias + max_bits - exponent);
   std::array<std::int64_t, 4> integers{};
   bool are_exact = true;
   for (std::size_t i = 0; i < 4; ++i) {

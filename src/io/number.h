@@ -43,10 +43,10 @@ Index checked_index(Integer value) {
 template <typename Number>
 double exact_double(Number value) {
   if constexpr (std::is_integral_v<Number> && sizeof(Number) == 8) {
-    constexpr int most_bits = std::numeric_limits<double>::digits;
+    constexpr int max_bits = std::numeric_limits<double>::digits;
     const auto bits = static_cast<std::uint64_t>(value);
     const std::uint64_t magnitude = value < 0 ? 0 - bits : bits;
-    if (magnitude != 0 && magnitude >> std::countr_zero(magnitude) >> most_bits != 0) {
+    if (magnitude != 0 && magnitude >> std::countr_zero(magnitude) >> max_bits != 0) {
       throw BadValue(std::to_string(value) + " is no double");
     }
   }

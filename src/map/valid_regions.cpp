@@ -21,7 +21,7 @@ namespace rondel::map {
 namespace {
 
 constexpr std::size_t regions_per_task = 16;
-constexpr int most_passes = 40;
+constexpr int max_mending_passes = 40;
 // Bounds the changes: so many for each position of the regions, and some more. Lines that are
 // bisected forever would fill the memory.
 constexpr std::size_t max_changes_of_position = 8;
@@ -93,7 +93,7 @@ class RegionsInPlane {
     std::vector<std::size_t> open(regions_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
     const std::size_t limit = max_changes();
-    for (int pass = 0; pass < most_passes && num_changes_ <= limit; ++pass) {
+    for (int pass = 0; pass < max_mending_passes && num_changes_ <= limit; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
       if (open.empty()) return may_overlap ? settled() : looked_at();

@@ -18,8 +18,8 @@
 // narrow gap between them. Each step changes a line for all regions that have it. Sides that then
 // occur in both directions are removed, and so are parts narrower than rounding. The reach begins
 // with merge_distance and grows if the steps do not end. If they have not ended after
-// `most_passes`, or make too many lines, the lines of all regions are rounded to a grid, and each
-// face of the subdivision that they form is given to one region (settled_regions.h).
+// `max_mending_passes`, or make too many lines, the lines of all regions are rounded to a grid, and
+// each face of the subdivision that they form is given to one region (settled_regions.h).
 #pragma once
 
 #include <vector>

@@ -9,7 +9,7 @@ namespace rondel::order {
 
 KeyTree::KeyTree(std::span<const std::uint64_t> sample, int key_bits, int root_bits,
                  std::size_t most)
-    : key_bits_(key_bits), root_shift_(64 - root_bits), most_(most) {
+    : key_bits_(key_bits), root_shift_(64 - root_bits), max_keys_(most) {
   entries_.resize(std::size_t{1} << root_bits);
   grow(sample, 0, 0, root_bits);
 }
@@ -24,7 +24,7 @@ void KeyTree::grow(std::span<const std::uint64_t> sample, std::size_t first_entr
     const auto end = std::ranges::partition_point(
         sample, [&](std::uint64_t key) { return ((key >> shift) & mask) <= digit; });
     const auto count = static_cast<std::size_t>(end - sample.begin());
-    if (count > most_ && prefix + bits + child_bits <= key_bits_) {
+    if (count > max_keys_ && prefix + bits + child_bits <= key_bits_) {
       const std::size_t children = entries_.size();
       entries_[first_entry + digit] = is_node | static_cast<std::uint32_t>(children);
       entries_.resize(children + num_children);

@@ -45,7 +45,7 @@ class KeyTree {
 
   int key_bits_;
   int root_shift_;
-  std::size_t most_;
+  std::size_t max_keys_;
   std::vector<std::uint32_t> entries_;  // leaves, or is_node | index of the first child
   std::vector<std::uint8_t> prefix_bits_;
   int longest_prefix_bits_ = 0;

@@ -12,7 +12,7 @@
 namespace rondel::order {
 namespace {
 
-constexpr int most_bits = 11;
+constexpr int max_bits = 11;
 constexpr std::size_t small = 24;
 
 void insertion_sort(std::span<std::uint64_t> words) {
@@ -41,11 +41,11 @@ void sort_words(std::span<std::uint64_t> words, std::span<std::uint64_t> result)
     return;
   }
   const int agreed = std::countl_zero(differences);
-  const int bits = std::min(most_bits, static_cast<int>(std::bit_width(words.size())));
+  const int bits = std::min(max_bits, static_cast<int>(std::bit_width(words.size())));
   const std::size_t num_cells = std::size_t{1} << bits;
   const auto cell = [=](std::uint64_t word) { return word << agreed >> (64 - bits); };
 
-  std::array<std::uint32_t, std::size_t{1} << most_bits> counts;
+  std::array<std::uint32_t, std::size_t{1} << max_bits> counts;
   std::fill_n(counts.begin(), num_cells, 0U);
   for (const std::uint64_t word : words) ++counts[cell(word)];
   std::uint32_t sum = 0;

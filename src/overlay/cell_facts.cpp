@@ -22,7 +22,7 @@ namespace rondel {
 namespace {
 
 // Cells with more corners are written without corners.
-constexpr std::size_t most_corners = 16;
+constexpr std::size_t max_corners = 16;
 
 // Throws InvalidInput unless there is nothing, or something for each cell.
 void require_size(const char* what, std::size_t size, std::size_t num_cells) {
@@ -60,7 +60,7 @@ std::size_t corners_of_each(const CellRings& cells) {
     if (cells.cells[i + 1] != ring + 1) return 0;
     most = std::max<std::size_t>(most, cells.rings[ring + 1] - cells.rings[ring]);
   }
-  return most > most_corners ? 0 : most;
+  return most > max_corners ? 0 : most;
 }
 
 // Returns the corners of cells that have one ring at most.

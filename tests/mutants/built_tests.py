@@ -17,7 +17,7 @@ BUILD = TREE / "build" / "mutants"
 LOG = ROOT / "build" / "mutants" / "log.txt"
 MEMORY = 8 << 30  # a mutant may ask for all there is
 SCALES = (0.2, 1)  # of random tests: most mutants are found by few
-MOST_PATIENCE = 3600  # seconds, also of waiting: the machine may be busy
+MAX_PATIENCE = 3600  # seconds, also of waiting: the machine may be busy
 
 
 def run(command):
@@ -107,7 +107,7 @@ def ends_well(command, limit):
         with subprocess.Popen(command, cwd=BUILD, stdout=log, stderr=log, start_new_session=True,
                               preexec_fn=lambda: set_limits(math.ceil(limit))) as process:
             try:
-                status = process.wait(MOST_PATIENCE)
+                status = process.wait(MAX_PATIENCE)
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 status = process.wait()
@@ -152,6 +152,6 @@ def time_computed():
 def time_without_mutant(test):
     """How long a test computes where random tests are repeated least."""
     start = time_computed()
-    if not passes(test, SCALES[0], MOST_PATIENCE):
+    if not passes(test, SCALES[0], MAX_PATIENCE):
         sys.exit(f"{test} fails without a mutant: {LOG} says why")
     return time_computed() - start

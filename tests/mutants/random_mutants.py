@@ -13,7 +13,7 @@ import switches
 REACHED = built_tests.BUILD / "reached"
 PATIENCE = 20  # times as much computing as without a mutant, which may never end
 LEAST_PATIENCE = 5  # seconds of computing
-MOST_BUILDS = 12
+MAX_BUILDS = 12
 
 
 class Changes:
@@ -62,7 +62,7 @@ def built(changes, count, tests):
     """The numbers of the first `count` changes that the compiler takes, all of which are in the build."""
     spans = {}
     num_tried = 0
-    for _ in range(MOST_BUILDS):
+    for _ in range(MAX_BUILDS):
         while len(spans) < count + count // 10 and num_tried < len(changes.drawn):
             span = changes.span(num_tried)
             if span is not None:

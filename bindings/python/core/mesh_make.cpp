@@ -77,11 +77,11 @@ void add_results(nb::module_& module) {
       .def_prop_ro("defects_before", [](const mesh::Scvt& self) { return self.repair.before; })
       .def_prop_ro("defects_after", [](const mesh::Scvt& self) { return self.repair.after; })
       .def_prop_ro("moved", [](const mesh::Scvt& self) { return self.repair.moved; });
-  nb::class_<mesh::EqualArea> partition(module, "EqualArea");
-  add_fixed_array<double, &mesh::EqualArea::poles>(partition, "points");
-  add_fixed_array<double, &mesh::EqualArea::weights>(partition, "weights");
-  add_fixed_array<double, &mesh::EqualArea::areas>(partition, "areas");
-  partition
+  nb::class_<mesh::EqualArea> equal_area(module, "EqualArea");
+  add_fixed_array<double, &mesh::EqualArea::poles>(equal_area, "points");
+  add_fixed_array<double, &mesh::EqualArea::weights>(equal_area, "weights");
+  add_fixed_array<double, &mesh::EqualArea::areas>(equal_area, "areas");
+  equal_area
       .def_prop_ro("end",
                    [](const mesh::EqualArea& self) { return std::string(name_of(self.end)); })
       .def_ro("steps", &mesh::EqualArea::steps)

@@ -17,7 +17,7 @@ import numpy as np
 from ._types import BoolArray, FloatArray, IntArray
 
 TOLERANCE_DEG = 1e-4
-MOST_PIECES = 4096
+MAX_PIECES = 4096
 WIDEST_DEG = 90  # of a piece of a side; less than half a turn, so that its way is known
 LONGITUDES_PER_DEG = 2.0**43  # exact up to 1024 degrees
 ROUNDING = 2.0**-48  # of positions, as a part of the largest coordinate
@@ -214,7 +214,7 @@ class _Conversion:
         bent = np.arange(len(first))
         pieces = 1
         is_bent = _is_off_arcs if self._is_geodesic else _is_off_lines
-        while len(bent) > 0 and pieces < MOST_PIECES:
+        while len(bent) > 0 and pieces < MAX_PIECES:
             finer = max(2, 16 // pieces)
             shares = np.arange(finer * pieces + 1) / (finer * pieces)
             points = first[bent, None] + step[bent, None] * shares[:, None]

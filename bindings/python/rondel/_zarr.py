@@ -20,7 +20,7 @@ from . import _core, _ugrid
 from ._types import FloatArray, Path, Progress, Triangulated
 from ._zarr_folder import replaced
 
-_MOST_ROWS = 1 << 20  # of a chunk
+_MAX_ROWS = 1 << 20  # of a chunk
 
 
 class Rows(Protocol):
@@ -201,7 +201,7 @@ def chunk_rows(num_rows: int) -> int:
 
     The last chunk is stored in full, so that chunks of 2^20 rows would waste space.
     """
-    num_chunks = -(-num_rows // _MOST_ROWS)
+    num_chunks = -(-num_rows // _MAX_ROWS)
     return -(-num_rows // num_chunks) if num_chunks else 1
 
 

@@ -146,7 +146,7 @@ def test_chunks_have_equal_numbers_of_rows():
 
 def test_several_chunks(zarr, tmp_path, monkeypatch):
     """Also of numbers of 64 bits, which only more than 2^32 sites have."""
-    monkeypatch.setattr(_zarr, "_MOST_ROWS", 100)
+    monkeypatch.setattr(_zarr, "_MAX_ROWS", 100)
     points = clouds.uniform(250)
     tri = rondel.delaunay(points)
     np.save(tmp_path / "faces.npy", tri.simplices.astype(np.int64) + (1 << 40))
