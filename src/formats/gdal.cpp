@@ -5,7 +5,6 @@
 // loaded until the process ends; load_gdal() may be called by several threads.
 #include "formats/gdal.h"
 
-#include <cstdlib>
 #include <string>
 
 #include "rondel/error.h"
@@ -13,22 +12,6 @@
 
 namespace rondel::formats {
 namespace {
-
-// Returns a handle of the library that RONDEL_GDAL names, or else of the first one that the system
-// finds, from versions in the future down to 3.0 (libgdal.so.26); null if there is none.
-void* open_gdal() {
-  if (const char* const name = std::getenv("RONDEL_GDAL"); name != nullptr) {
-    return system::open_library(name);
-  }
-  for (const char* const name : {"libgdal.so", "libgdal.dylib", "gdal.dll"}) {
-    if (void* const library = system::open_library(name)) return library;
-  }
-  for (int version = 60; version >= 26; --version) {
-    const std::string name = "libgdal.so." + std::to_string(version);
-    if (void* const library = system::open_library(name)) return library;
-  }
-  return nullptr;
-}
 
 // Sets all members by the names that GDAL's C interface gives them; false if one is missing.
 bool load_symbols(void* library, Gdal& gdal) {
@@ -75,7 +58,12 @@ bool load_symbols(void* library, Gdal& gdal) {
 const Gdal& load_gdal(const std::string& path) {
   static Gdal gdal{};
   static const bool is_loaded = [] {
-    void* const library = open_gdal();
+    void* const library =
+        system::find_library({.variable = "RONDEL_GDAL",
+                              .soname = "libgdal.so.",
+                              .newest = 60,
+                              .oldest = 26,  // GDAL 3.0
+                              .others = {"libgdal.so", "libgdal.dylib", "gdal.dll"}});
     return library != nullptr && load_symbols(library, gdal);
   }();
   if (!is_loaded) {

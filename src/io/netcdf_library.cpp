@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/netcdf_library.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "io/bad_value.h"
 #include "io/ending.h"
@@ -22,28 +22,6 @@ namespace {
 std::string& named_netcdf_library() {
   static std::string name;
   return name;
-}
-
-// Tries the names of the library with the versions of its interface, from future ones down to that
-// of netCDF-C 4.4.
-void* open_netcdf_library() {
-  if (const char* const name = std::getenv("RONDEL_NETCDF"); name != nullptr && *name != '\0') {
-    return system::open_library(name);
-  }
-  if (!named_netcdf_library().empty()) {
-    if (void* const library = system::open_library(named_netcdf_library())) return library;
-  }
-  for (int version = 40; version >= 11; --version) {
-    if (void* const library = system::open_library("libnetcdf.so." + std::to_string(version))) {
-      return library;
-    }
-  }
-  for (const char* const name :
-       {"libnetcdf.so", "libnetcdf.dylib", "/opt/homebrew/lib/libnetcdf.dylib",
-        "/usr/local/lib/libnetcdf.dylib", "netcdf.dll", "libnetcdf.dll"}) {
-    if (void* const library = system::open_library(name)) return library;
-  }
-  return nullptr;
 }
 
 // Loads all functions; returns false if one is missing.
@@ -94,7 +72,14 @@ system::Mutex& netcdf_library_lock() {
 const NetcdfLibrary& netcdf_library() {
   static NetcdfLibrary netcdf{};
   static const bool is_loaded = [] {
-    void* const library = open_netcdf_library();
+    void* const library = system::find_library(
+        {.variable = "RONDEL_NETCDF",
+         .soname = "libnetcdf.so.",
+         .newest = 40,
+         .oldest = 11,  // netCDF-C 4.4
+         .others = {"libnetcdf.so", "libnetcdf.dylib", "/opt/homebrew/lib/libnetcdf.dylib",
+                    "/usr/local/lib/libnetcdf.dylib", "netcdf.dll", "libnetcdf.dll"},
+         .preferred = named_netcdf_library()});
     return library != nullptr && load_netcdf(library, netcdf);
   }();
   if (!is_loaded) {
