@@ -4,7 +4,6 @@
 #include "overlay/snapped_sides.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -91,20 +90,9 @@ bool Snaps::is_nearly(const Point& a, const Point& b) const {
   return dot(step, step) <= distance_ * distance_;
 }
 
-Index Snaps::name(Index p) const {
-  if (parents_.empty()) return p;
-  while (parents_[p] != p) p = parents_[p];
-  return p;
-}
-
 void Snaps::join(Index p, Index q) {
-  if (parents_.empty()) {
-    parents_.resize(points_.size());
-    std::iota(parents_.begin(), parents_.end(), Index{0});
-  }
-  const auto [low, high] = std::minmax({name(p), name(q)});
-  parents_[high] = low;
-  has_joined_ = true;
+  if (!merged_) merged_.emplace(points_.size());
+  merged_->join(p, q);
 }
 
 // Divides the side from `low` to `high` at a corner. A corner near an end is merged with that end.

@@ -9,11 +9,13 @@
 // index points; owners are cells
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "predicates/bounds.h"
 #include "rondel/types.h"
+#include "system/disjoint_sets.h"
 
 namespace rondel::overlay {
 
@@ -35,7 +37,7 @@ class Snaps {
   // Finds the corners of these sides that are within `distance` of other sides.
   Snaps(std::span<const Point> points, std::span<const OwnedSide> sides,
         double distance = snapping_distance);
-  [[nodiscard]] bool is_empty() const { return passed_.empty() && !has_joined_; }
+  [[nodiscard]] bool is_empty() const { return passed_.empty() && !merged_; }
   // True if snapping changes any of these sides, which need not be those of the constructor.
   [[nodiscard]] bool would_change(std::span<const OwnedSide> sides) const;
   // Returns the sides divided at all corners near them, without those that then cancel for their
@@ -52,17 +54,15 @@ class Snaps {
   };
 
   [[nodiscard]] bool is_nearly(const Point& a, const Point& b) const;
-  [[nodiscard]] Index name(Index p) const;
+  [[nodiscard]] Index name(Index p) const { return merged_ ? (*merged_)[p] : p; }
   void join(Index p, Index q);
   void take(Index low, Index high, Index corner);
   [[nodiscard]] std::span<const PassedCorner> passed_by(const OwnedSide& side) const;
 
   std::span<const Point> points_;
   double distance_;
-  // A union-find forest of merged points; the lowest index is the root.
-  std::vector<Index> parents_;
+  std::optional<system::DisjointSets> merged_;  // the points, once two of them are merged
   std::vector<PassedCorner> passed_;
-  bool has_joined_ = false;
 };
 
 }  // namespace rondel::overlay

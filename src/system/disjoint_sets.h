@@ -23,6 +23,11 @@ class DisjointSets {
     while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
     return i;
   }
+  // Returns the lowest index of the set, and changes nothing.
+  Index operator[](Index i) const {
+    while (parents_[i] != i) i = parents_[i];
+    return i;
+  }
   // Joins the sets of two indices, and returns whether they were different.
   bool join(Index i, Index k) {
     const auto [low, high] = std::minmax({(*this)[i], (*this)[k]});
