@@ -24,6 +24,14 @@ std::uint64_t checksum_of(std::span<const T> values) {
   return sum.value();
 }
 
+// Reads values at a place of a file.
+template <class Values>
+Values values_at(const ScratchFile& file, std::uint64_t place, std::uint64_t size) {
+  Values values(size);
+  file.read(place, std::span(values));
+  return values;
+}
+
 // Returns a sum that does not depend on the order of the duplicates, so that they may be added in
 // pieces.
 std::uint64_t sum_of(std::span<const DuplicateRow> duplicates) {
@@ -180,27 +188,19 @@ std::uint64_t ResultStore::duplicates_sum(std::size_t i, const StoredBucket& sto
 
 std::vector<std::uint64_t> ResultStore::vertex_rows(std::size_t i,
                                                     const StoredBucket& stored) const {
-  std::vector<std::uint64_t> rows(stored.num_vertices);
-  faces_.read(rows_at(i, stored), std::span(rows));
-  return rows;
+  return values_at<std::vector<std::uint64_t>>(faces_, rows_at(i, stored), stored.num_vertices);
 }
 
 LargeVector<Triple> ResultStore::faces(std::size_t i, const StoredBucket& stored) const {
-  LargeVector<Triple> faces(stored.num_faces);
-  faces_.read(faces_at(i, stored), std::span(faces));
-  return faces;
+  return values_at<LargeVector<Triple>>(faces_, faces_at(i, stored), stored.num_faces);
 }
 
 LargeVector<Triple> ResultStore::neighbors(std::size_t i, const StoredBucket& stored) const {
-  LargeVector<Triple> neighbors(stored.num_faces);
-  faces_.read(neighbors_at(i, stored), std::span(neighbors));
-  return neighbors;
+  return values_at<LargeVector<Triple>>(faces_, neighbors_at(i, stored), stored.num_faces);
 }
 
 LargeVector<Point> ResultStore::points(std::size_t i, const StoredBucket& stored) const {
-  LargeVector<Point> points(stored.num_vertices);
-  faces_.read(points_at(i, stored), std::span(points));
-  return points;
+  return values_at<LargeVector<Point>>(faces_, points_at(i, stored), stored.num_vertices);
 }
 
 void ResultStore::read_duplicates(std::size_t i, std::uint64_t first,
@@ -209,9 +209,7 @@ void ResultStore::read_duplicates(std::size_t i, std::uint64_t first,
 }
 
 Words ResultStore::border_words(const StoredBucket& stored) const {
-  Words words(stored.border_words);
-  borders_.read(stored.border_place, std::span(words));
-  return words;
+  return values_at<Words>(borders_, stored.border_place, stored.border_words);
 }
 
 std::uint64_t ResultStore::num_open_sites(const StoredBucket& stored) const {
