@@ -56,23 +56,6 @@ void write_mesh_files(const MeshOutput& output, const mesh::VoronoiMesh& arrays,
   });
 }
 
-// Returns an object of JSON in one line as dump(2) prints it where it is a member of another one.
-std::string indented(const std::string& json) {
-  std::string text;
-  std::string line_end = "\n  ";
-  for (const char c : json) {
-    if (c == '}' || c == ']') {
-      line_end.resize(line_end.size() - 2);
-      text += line_end;
-    }
-    if (c == '\n' || (c == ' ' && text.ends_with(line_end))) continue;
-    text += c;
-    if (c == '{' || c == '[') line_end += "  ";
-    if (c == '{' || c == '[' || c == ',') text += line_end;
-  }
-  return text;
-}
-
 // Returns the mesh of sites that were made. The message of an error names the output, as no file
 // has the sites.
 mesh::VoronoiMesh arrays_of_made(const Triangulation& triangulation,
@@ -160,7 +143,7 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
                 const mesh::SizeFunction* size, const std::string& how, nlohmann::ordered_json json,
                 Job& job) {
   const CommonOptions& common = output.common;
-  std::string quality;  // JSON; empty: no mesh was computed
+  nlohmann::ordered_json quality;  // null if no mesh is computed
   const bool wants_arrays = is_mesh_file(common) || !output.report.empty() || !output.graph.empty();
   if (wants_arrays) {
     std::vector<double> density;
@@ -173,7 +156,8 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
         .radius = output.radius.value_or(1), .density = density, .allow_zero_edges = !is_for_model};
     const Triangulation triangulation = delaunay(Sites::view(sites), {}, job.execution());
     const mesh::VoronoiMesh made = arrays_of_made(triangulation, options, common, job);
-    quality = indented(mesh::quality_json(mesh::quality(made, job.execution())));
+    quality =
+        nlohmann::ordered_json::parse(mesh::quality_json(mesh::quality(made, job.execution())));
     write_mesh_files(output, made, job);
   }
   if (!is_mesh_file(common)) {
@@ -181,14 +165,9 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
   }
   const Seconds seconds = job.seconds();
   json["cells"] = sites.size();
-  if (!quality.empty()) json["quality"] = nullptr;
+  if (!quality.is_null()) json["quality"] = std::move(quality);
   json["seconds"] = {{"write", seconds.write}, {"total", seconds.total}};
-  std::string report = json.dump(2) + '\n';
-  if (!quality.empty()) {
-    const std::string_view place = "\"quality\": null";
-    report.replace(report.find(place), place.size(), "\"quality\": " + quality);
-  }
-  job.report(report,
+  job.report(json.dump(2) + '\n',
              how + "wrote " + count(sites.size(), "cell", "cells") + " to " + common.output + '\n');
 }
 
