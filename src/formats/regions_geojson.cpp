@@ -117,11 +117,6 @@ bool has_feature(const CellRings& cells, std::size_t cell) {
   return cells.cells[cell] != cells.cells[cell + 1] || cells.is_whole(cell);
 }
 
-// Returns the area of a cell in steradians.
-double area_of(const CellRings& cells, std::size_t cell) {
-  return cells.is_whole(cell) ? 4 * std::numbers::pi : area_of(RingsOfCell(cells, cell).rings());
-}
-
 // Writes a feature for each cell: its id, its area in steradians, its columns and its polygons.
 void write_regions_geojson(io::AtomicFile& file, const RegionsToWrite& job) {
   const std::vector<map::PolygonsOfRegion> drawn = draw(job);
@@ -133,6 +128,7 @@ void write_regions_geojson(io::AtomicFile& file, const RegionsToWrite& job) {
                            io::append_geometry(geometries[i], drawn[i]);
                          }
                        });
+  const std::vector<double> sizes = areas(job.cells);
   const std::vector<std::string> keys = io::property_keys(job.columns, {"area"});
   file.write(io::features_begin);
   bool is_first = true;
@@ -141,7 +137,7 @@ void write_regions_geojson(io::AtomicFile& file, const RegionsToWrite& job) {
     std::string text;
     io::begin_feature(text, std::exchange(is_first, false), job.ids, i);
     text += R"("area":)";
-    io::append_number(text, area_of(job.cells, i));
+    io::append_number(text, sizes[i]);
     for (std::size_t k = 0; k < keys.size(); ++k) {
       text += keys[k];
       io::append_value(text, job.columns[k], i);
