@@ -99,17 +99,6 @@ void require_separate_files(const std::vector<NamedFile>& inputs,
   }
 }
 
-std::pair<FileName, std::string> netcdf_part(const FileName& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file.path, error)) return {file, {}};
-  for (std::size_t colon = file.path.rfind(':'); colon != std::string::npos && colon >= 2;
-       colon = file.path.rfind(':', colon - 1)) {
-    FileName before(file.path.substr(0, colon), file.format);
-    if (is_netcdf_file(before)) return {std::move(before), file.path.substr(colon + 1)};
-  }
-  return {file, {}};
-}
-
 std::pair<std::string, std::string> split_at_colon(const std::string& text) {
   const std::size_t at = text.rfind(':');
   if (at == std::string::npos || at < 2) return {text, {}};

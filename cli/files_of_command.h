@@ -34,11 +34,6 @@ struct NamedFile {
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
 
-/// Divides FILE.nc:NAME, a variable of a netCDF file, into the file and the name behind a colon;
-/// the name may have colons itself. Returns the whole path and no name if there is a file of that
-/// name, or if no part before a colon is a netCDF file.
-std::pair<FileName, std::string> netcdf_part(const FileName& file);
-
 /// Returns FILE and the text behind its last colon, except for the colon of C:\.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);
 

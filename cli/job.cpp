@@ -87,7 +87,7 @@ void tell_of_columns(const std::string& netcdf, const ReadOptions& read) {
 NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
                            std::span<const std::string> names) {
   const Clock::time_point start = Clock::now();
-  const auto part = netcdf_part(file);
+  const auto part = file_and_variable(file);
   const bool is_netcdf = is_netcdf_file(part.first);
   const std::span<const std::string> columns = part.second.empty() ? names : decltype(names)();
   if (!part.second.empty()) names = {&part.second, 1};

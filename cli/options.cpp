@@ -41,7 +41,7 @@ CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
 // Returns true if the command line says how to read this file: it is no netCDF and no grid.
 bool may_be_table(const FileName& file) {
   return !file.path.empty() && !file.path.starts_with("grid:") &&
-         !is_netcdf_file(netcdf_part(file).first);
+         !is_netcdf_file(file_and_variable(file).first);
 }
 
 // True if at least one of the files is a table, whose columns the options may name.

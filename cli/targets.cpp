@@ -91,7 +91,7 @@ Targets read_targets(const FileName& target, const ReadOptions& read) {
     targets.table.sites = unit_vectors(targets.side.points);
     return targets;
   }
-  if (const auto [file, variable] = netcdf_part(target); is_netcdf_file(file)) {
+  if (const auto [file, variable] = file_and_variable(target); is_netcdf_file(file)) {
     std::vector<std::string> names;
     if (!variable.empty()) names.push_back(variable);
     NetcdfSites sites = read_netcdf_sites(file, names, false);

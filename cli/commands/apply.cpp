@@ -302,7 +302,7 @@ ValuesAtSources values_of(const ApplyCommandOptions& options, const WeightFile& 
   }
   if (has_rows && options.values_file == "-") return read_standard_table(options, file);
   if (has_rows) require_places_of_table(options, file);
-  const auto [values_file, variable] = netcdf_part(options.values());
+  const auto [values_file, variable] = file_and_variable(options.values());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
   ValuesAtSources in(open_fields(options, file, values_file, names));

@@ -110,7 +110,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
                         const Targets& targets, const std::optional<Weights>& weights,
                         InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
-  const auto [file, variable] = netcdf_part(options.source_file());
+  const auto [file, variable] = file_and_variable(options.source_file());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
   // The fields must be at the places of the sites, in the same order.
@@ -207,7 +207,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
 // for options that contradict each other, FileError for files that cannot be read.
 ExitStatus run_interpolate(const InterpolateOptions& options) {
   const CommonOptions& common = options.common;
-  const bool is_netcdf = is_netcdf_file(netcdf_part(options.source_file()).first);
+  const bool is_netcdf = is_netcdf_file(file_and_variable(options.source_file()).first);
   const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
   if (has_values != !common.output.empty()) {
     throw UsageError("--value and --output go together: values of a column to a file");

@@ -78,6 +78,11 @@ RONDEL_API void set_netcdf_library(const std::string& path);
 /// read twice, or else by the ending of its path: .nc .nc4 .cdf .ncf .ug .exo .e .g .h5.
 RONDEL_API bool is_netcdf_file(const FileName& file);
 
+/// Divides `FILE.nc:NAME`, a variable of a netCDF file, into the file and the name behind a colon;
+/// the name may have colons itself. Returns the whole path and no name if there is a file of that
+/// path, or if no part before a colon is a netCDF file.
+RONDEL_API std::pair<FileName, std::string> file_and_variable(const FileName& file);
+
 /// Options for reading sites.
 struct ReadOptions {
   char delimiter = '\0';  ///< for .csv and .tsv; 0: a comma, or a tab

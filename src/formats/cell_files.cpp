@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "formats/cf_names.h"
@@ -33,22 +31,6 @@
 
 namespace rondel {
 namespace {
-
-// Returns the file, and the name of a variable that its user has written behind the last colon, as
-// in FILE.nc:NAME. The name is empty if a file of the whole name exists, or no file of the part
-// before the colon.
-std::pair<FileName, std::string> split_part(const FileName& file) {
-  const std::size_t at = file.path.rfind(':');
-  constexpr std::size_t drive = 2;  // a drive of Windows, C:
-  if (file.bytes != nullptr || at == std::string::npos || at < drive || at + 1 == file.path.size())
-    return {file, {}};
-  std::error_code ignored;
-  const std::string whole = file.path.substr(0, at);
-  if (std::filesystem::exists(file.path, ignored) || !std::filesystem::exists(whole, ignored)) {
-    return {file, {}};
-  }
-  return {FileName(whole, file.format), file.path.substr(at + 1)};
-}
 
 // Reads the cells by the first convention that the file follows. `name` is a variable that is on
 // the cells, or empty. Throws BadValue if there is no variable of this name or no convention fits.
@@ -220,7 +202,7 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_
   return std::move(maker).take();
 }
 
-bool can_read_cells(const FileName& file) { return is_netcdf_file(split_part(file).first); }
+bool can_read_cells(const FileName& file) { return is_netcdf_file(file_and_variable(file).first); }
 
 CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& file_name,
                             const std::string& part) {
@@ -243,7 +225,7 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
 
 CellTable read_cells(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  const std::pair<FileName, std::string> part = split_part(file);
+  const std::pair<FileName, std::string> part = file_and_variable(file);
   io::FileBytes bytes(part.first, true);
   if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(part.first)) {
     io::throw_unknown_ending(part.first,

@@ -113,6 +113,18 @@ bool is_netcdf_file(const FileName& file) {
   return io::has_netcdf_ending(file);
 }
 
+std::pair<FileName, std::string> file_and_variable(const FileName& file) {
+  std::error_code error;
+  if (file.bytes != nullptr || std::filesystem::exists(file.path, error)) return {file, {}};
+  // Position 1 is the colon of a drive of Windows, C:.
+  for (std::size_t colon = file.path.rfind(':'); colon != std::string::npos && colon >= 2;
+       colon = file.path.rfind(':', colon - 1)) {
+    FileName before(file.path.substr(0, colon), file.format);
+    if (is_netcdf_file(before)) return {std::move(before), file.path.substr(colon + 1)};
+  }
+  return {file, {}};
+}
+
 void set_netcdf_library(const std::string& path) { io::named_netcdf_library() = path; }
 
 }  // namespace rondel

@@ -169,6 +169,7 @@ void test(std::string_view bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
   set_netcdf_library("none");
   require(is_netcdf_file(path), "the ending tells netCDF");
+  require(file_and_variable(path + ":a:b").second == "a:b", "a name may have colons");
   expect_answer([&] {
     const NetcdfSites sites = read_netcdf_sites(path, {}, true);
     require(sites.unmasked().size() == sites.table.sites.size(), "each site takes part or not");
