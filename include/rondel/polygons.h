@@ -6,7 +6,9 @@
 /// draw or store maps: the polygons of the GeoJSON that write_cells() and write_triangles() write.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rondel/compressed_rows.h"
@@ -31,6 +33,14 @@ struct LonLatPolygons {
 RONDEL_API LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& diagram,
                                         double tolerance_deg = 0.01,
                                         const Execution& execution = {});
+
+/// Computes lines along arcs of great circles, cut at the antimeridian: each row is a line, and an
+/// arc has one or more.
+/// \param ends  unit vectors: the two ends of each arc. Opposite ends have no line.
+/// \param tolerance_deg  how far lines may leave the arcs, degrees
+/// \throws InvalidInput if the tolerance is not positive
+RONDEL_API CompressedRows<LonLat> arc_lines(std::span<const std::array<Point, 2>> ends,
+                                            double tolerance_deg = 0.01);
 
 /// Computes the polygons of the solid faces, as write_triangles() writes them. A face no wider than
 /// rounding has no polygon.

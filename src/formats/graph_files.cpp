@@ -16,6 +16,7 @@
 #include "exact/unit_vector.h"
 #include "io/atomic_file.h"
 #include "io/binary.h"
+#include "io/cell_formats.h"
 #include "io/ending.h"
 #include "io/flat_arrays.h"
 #include "io/geojson_writer.h"
@@ -26,6 +27,7 @@
 #include "rondel/error.h"
 #include "rondel/graphs.h"
 #include "rondel/outlines.h"
+#include "rondel/polygons.h"
 #include "system/job.h"
 #include "system/row_assembly.h"
 
@@ -36,7 +38,7 @@ namespace {
 struct GraphToWrite {
   const Triangulation& triangulation;
   const SiteGraph& graph;
-  double tolerance;  // radians
+  double tolerance_deg;
 };
 
 // The input of a writer of outlines.
@@ -47,12 +49,6 @@ struct OutlineToWrite {
 };
 
 using Circles = std::span<const EmptyCircle>;
-
-// Converts a tolerance to radians. Throws InvalidInput unless it is positive.
-double tolerance_of(double degrees) {
-  if (!(degrees > 0)) throw InvalidInput("the tolerance is not positive");
-  return degrees / map::degrees_per_radian;
-}
 
 // Returns the unit vector from the center to a site.
 Point unit_of(const Triangulation& triangulation, Index site) {
@@ -73,14 +69,11 @@ void write_graph_geojson(io::AtomicFile& file, const GraphToWrite& job) {
     text += io::geometry_begin;
     const std::array<Point, 2> ends = {unit_of(job.triangulation, a),
                                        unit_of(job.triangulation, b)};
-    // Between opposite ends every half of a great circle is as short as the others.
-    const bool are_opposite = ends[0] == Point{-ends[1].x, -ends[1].y, -ends[1].z};
+    const CompressedRows<LonLat> parts = arc_lines(std::span(&ends, 1), job.tolerance_deg);
     std::string lines;
-    if (!are_opposite) {
-      for (const std::vector<LonLat>& part : map::line_parts(ends, false, job.tolerance)) {
-        if (!lines.empty()) lines += ',';
-        io::append_positions(lines, part);
-      }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (k > 0) lines += ',';
+      io::append_positions(lines, parts[k]);
     }
     io::append_multi_line(text, lines);
     file.write(text + '}');
@@ -187,9 +180,8 @@ void write_graph(const FileName& file, const Triangulation& triangulation, const
       throw InvalidInput("an edge is not one between sites", i);
     }
   }
-  const double tolerance = tolerance_of(tolerance_deg);
   io::write_whole<GraphToWrite>(graph_writers, file, "graphs are written as",
-                                {triangulation, graph, tolerance});
+                                {triangulation, graph, io::checked_tolerance(tolerance_deg)});
 }
 
 void write_outline(const FileName& file, const Triangulation& triangulation, const Outline& outline,
@@ -202,7 +194,7 @@ void write_outline(const FileName& file, const Triangulation& triangulation, con
       !std::ranges::all_of(sites, is_site)) {
     throw InvalidInput("the arrays of the outline do not fit together");
   }
-  const double tolerance = tolerance_of(tolerance_deg);
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<OutlineToWrite>(outline_writers, file, "outlines are written as",
                                   {triangulation, outline, tolerance});
 }

@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Makes polygons in flat arrays: pieces are drawn in parallel and joined in order.
+// Makes polygons and lines in flat arrays: pieces of polygons are drawn in parallel and joined in
+// order.
 #include "rondel/polygons.h"
 
 #include "io/cell_formats.h"
+#include "map/arc.h"
 #include "map/cell_map.h"
 #include "map/face_map.h"
+#include "map/region.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
@@ -68,6 +71,18 @@ LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& 
                      append(piece, cell_map.polygons(site, pen), static_cast<Index>(site));
                    }
                  });
+}
+
+CompressedRows<LonLat> arc_lines(std::span<const std::array<Point, 2>> ends, double tolerance_deg) {
+  const system::ArithmeticScope arithmetic;
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
+  CompressedRows<LonLat> lines;
+  for (const auto& arc : ends) {
+    // Between opposite ends every half of a great circle is as short as the others.
+    if (arc[0] == Point{-arc[1].x, -arc[1].y, -arc[1].z}) continue;
+    for (const auto& part : map::line_parts(arc, false, tolerance)) lines.append(part);
+  }
+  return lines;
 }
 
 LonLatPolygons face_polygons(const Triangulation& triangulation, const Execution& execution) {

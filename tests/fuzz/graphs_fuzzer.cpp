@@ -18,6 +18,7 @@
 #include "rondel/diagram.h"
 #include "rondel/graphs.h"
 #include "rondel/outlines.h"
+#include "rondel/polygons.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -95,6 +96,14 @@ void test_files(const ScratchFolder& folder, const Triangulation& t) {
   write_circles(path, circles);
   require(nlohmann::json::parse(content(path)).at("features").size() == circles.size(),
           "a feature a circle");
+  std::vector<std::array<Point, 2>> arcs;
+  for (const EmptyCircle& circle : circles) {
+    arcs.push_back({circle.center, circles.front().center});
+  }
+  const CompressedRows<LonLat> lines = arc_lines(arcs, 1);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    require(lines[i].size() >= 2, "a line has two ends");
+  }
 }
 
 }  // namespace
