@@ -11,7 +11,6 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "job.h"
 #include "process.h"
 #include "report.h"
+#include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/fields.h"
 #include "rondel/remap.h"
@@ -45,17 +45,6 @@ struct ApplyCommandOptions {
 // How far a place may be from its source: longitudes of floats are off by up to 8e-6 degrees,
 // tables have few digits.
 constexpr double max_apart_deg = 1e-4;
-// This is the bound in radians; for such small angles it is also the length of a chord.
-constexpr double max_apart = max_apart_deg * std::numbers::pi / 180;
-
-// True if two unit vectors are at most max_apart_deg apart, by the square of their chord.
-bool is_near(const Point& a, const Point& b) {
-  const double x = a.x - b.x;
-  const double y = a.y - b.y;
-  const double z = a.z - b.z;
-  return x * x + y * y + z * z <= max_apart * max_apart;
-}
-
 // True if a longitude and latitude are a place. Files of weights have NaN, or numbers that are no
 // degrees, for places that they do not know.
 bool is_known(const LonLat& place) {
@@ -72,15 +61,16 @@ struct ComparedPlaces {
 // index of both counts sources.
 ComparedPlaces compare(const std::vector<LonLat>& sources, const std::vector<Point>& places) {
   std::vector<LonLat> known;
-  std::vector<Point> own;
+  std::vector<Point> own;  // points of a table may be anywhere on their rays
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (!is_known(sources[i]) || std::isnan(places[i].x)) continue;
     known.push_back(sources[i]);
     own.push_back(places[i]);
   }
-  // The points of a table may be anywhere on their rays.
   return {known.size(),
-          std::ranges::equal(unit_vectors(lonlats(own)), unit_vectors(known), is_near)};
+          std::ranges::equal(lonlats(own), known, [](const LonLat& a, const LonLat& b) {
+            return is_same_place(a, b, max_apart_deg);
+          })};
 }
 
 // Values that have places must have those of the weights, as far as both are known; tables the very

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "rondel/export.h"
+#include "rondel/types.h"
 
 namespace rondel {
 
@@ -137,6 +138,19 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 
 /// True if models give this name to the dimension of their cells (`nCells`, `ncol`, `cell` ...).
 RONDEL_API bool is_name_of_cells(std::string_view dimension);
+
+/// Returns the dimensions that may count cells: those that are as long and are called cells, or
+/// else all that are as long, without times if there are several.
+/// \param names  the names of the dimensions
+/// \param lengths  by dimension
+RONDEL_API std::vector<std::size_t> dimensions_of_cells(std::span<const std::string> names,
+                                                        std::span<const std::uint64_t> lengths,
+                                                        std::uint64_t num_cells);
+
+/// True if two places, which may be from different files, are one: they are at most `max_apart_deg`
+/// degrees apart in latitude, and along their parallel. A place that is missing (NaN) is the same
+/// as any.
+RONDEL_API bool is_same_place(const LonLat& a, const LonLat& b, double max_apart_deg);
 
 /// True if the dimension has a usual name of time (`time`, `Time`, `record` ...).
 RONDEL_API bool is_name_of_time(std::string_view dimension);

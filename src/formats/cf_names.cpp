@@ -8,7 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace rondel::formats {
 namespace {
@@ -133,6 +138,19 @@ bool is_name_of_cells(std::string_view dimension) {
                                                      "ncol",      "n_face",       "nMesh2_face",
                                                      "grid_size", "elementCount", "cells"};
   return std::ranges::find(names, dimension) != names.end();
+}
+
+std::vector<std::size_t> dimensions_of_cells(std::span<const std::string> names,
+                                             std::span<const std::uint64_t> lengths,
+                                             std::uint64_t num_cells) {
+  std::vector<std::size_t> named;
+  std::vector<std::size_t> others;
+  for (std::size_t d = 0; d < names.size(); ++d) {
+    if (lengths[d] == num_cells) (is_name_of_cells(names[d]) ? named : others).push_back(d);
+  }
+  if (!named.empty()) return named;
+  if (others.size() > 1) std::erase_if(others, [&](auto d) { return is_name_of_time(names[d]); });
+  return others;
 }
 
 bool is_name_of_time(std::string_view dimension) {

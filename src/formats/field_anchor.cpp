@@ -8,26 +8,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/angles.h"
 #include "formats/field_layout.h"
+#include "rondel/conventions.h"
+
+namespace rondel {
+
+bool is_same_place(const LonLat& a, const LonLat& b, double max_apart_deg) {
+  const double east = std::abs(std::remainder(a.lon_deg - b.lon_deg, 360));
+  const double north = std::abs(a.lat_deg - b.lat_deg);
+  if (a == b || std::isnan(east) || std::isnan(north)) return true;
+  const double lat = std::max(std::abs(a.lat_deg), std::abs(b.lat_deg));
+  return north <= max_apart_deg &&
+         (east <= max_apart_deg ||
+          east * std::cos(lat / exact::degrees_per_radian) <= max_apart_deg);
+}
+
+}  // namespace rondel
 
 namespace rondel::formats {
 namespace {
 
-// True if a coordinate of the place is missing.
-bool is_nowhere(const LonLat& place) {
-  return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
-}
-
-// True if both lists have the same places in the same order, up to `max_apart_deg` degrees in each
-// coordinate. At the poles longitudes do not count. Places that are missing on one side fit.
+// True if both lists have the same places in the same order.
 bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double max_apart_deg) {
-  const auto is_near = [&](const LonLat& x, const LonLat& y) {
-    if (x == y || is_nowhere(x) || is_nowhere(y)) return true;
-    const bool is_pole = std::min(std::abs(x.lat_deg), std::abs(y.lat_deg)) >= 90 - max_apart_deg;
-    return std::abs(x.lat_deg - y.lat_deg) <= max_apart_deg &&
-           (is_pole || std::abs(std::remainder(x.lon_deg - y.lon_deg, 360)) <= max_apart_deg);
-  };
-  return std::ranges::equal(a, b, is_near);
+  return std::ranges::equal(
+      a, b, [&](const LonLat& x, const LonLat& y) { return is_same_place(x, y, max_apart_deg); });
 }
 
 }  // namespace

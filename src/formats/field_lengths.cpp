@@ -164,15 +164,14 @@ bool FieldDimensionFinder::has_same_dimensions(const io::VariableInFile& variabl
 void FieldDimensionFinder::choose_dimension_of_cells(
     std::span<const io::VariableInFile* const> variables) {
   for (const io::VariableInFile* const variable : variables) {
-    for (std::size_t d = 0; d < variable->shape.size(); ++d) {
-      const std::size_t dimension = variable->dimensions[d];
-      if (variable->shape[d] != num_points_ || num_points_ < 2) continue;
-      if (!is_name_of_cells(file_.dimensions()[dimension].name)) continue;
-      dimensions_of_points_ = {dimension};
-      first_by_lengths_ = variable->name;
-      are_along_cells_ = true;
-      return;
-    }
+    std::vector<std::string> names;
+    for (const std::size_t d : variable->dimensions) names.push_back(file_.dimensions()[d].name);
+    const std::vector<std::size_t> found = dimensions_of_cells(names, variable->shape, num_points_);
+    if (num_points_ < 2 || found.empty() || !is_name_of_cells(names[found[0]])) continue;
+    dimensions_of_points_ = {variable->dimensions[found[0]]};
+    first_by_lengths_ = variable->name;
+    are_along_cells_ = true;
+    return;
   }
 }
 

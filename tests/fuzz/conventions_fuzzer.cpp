@@ -130,6 +130,16 @@ void test_repeated(ByteSource& source) {
     require(!repeated[d] || shape[d] != 1 || is_time, "one place is no repetition but of time");
     require(!is_time || !is_name_of_cells(of_dimensions[d]), "times are no cells");
   }
+  for (const std::size_t d : dimensions_of_cells(of_dimensions, shape, 2)) {
+    require(shape[d] == 2, "there are as many cells");
+  }
+}
+
+void test_same(ByteSource& source) {
+  const LonLat a = {10.0 * source.small(), 1.0 * source.small()};
+  const LonLat b = {10.0 * source.small(), 1.0 * source.small()};
+  require(is_same_place(a, a, 0) && is_same_place(a, {NAN, 0}, 0), "a place is where it is");
+  require(is_same_place(a, b, 1) == is_same_place(b, a, 1), "neither place is the first");
 }
 
 void test_missing(ByteSource& source) {
@@ -181,6 +191,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       default:
         rondel::fuzz::test_repeated(source);
+        rondel::fuzz::test_same(source);
     }
   } catch (const rondel::InvalidInput& error) {
     const std::string what = error.what();
