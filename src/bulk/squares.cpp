@@ -62,21 +62,6 @@ Index split(const Block& block, std::size_t max_sites, const Input& input,
 
 }  // namespace
 
-Square quadrant(const Square& square, unsigned rank) {
-  Square child = square;
-  --child.bits;
-  const std::uint64_t half = std::uint64_t{1} << child.bits;
-  for (unsigned u = 0; u < 2; ++u) {
-    for (unsigned v = 0; v < 2; ++v) {
-      if (order::hilbert_table::rank_in(square.state, u, v) != rank) continue;
-      child.corner.u += u * half;
-      child.corner.v += v * half;
-    }
-  }
-  child.state ^= order::hilbert_table::state_change[rank];
-  return child;
-}
-
 bool has(const Square& square, const order::CubePosition& p) {
   return (p.u - square.corner.u) >> square.bits == 0 && (p.v - square.corner.v) >> square.bits == 0;
 }

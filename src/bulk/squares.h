@@ -9,12 +9,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "bulk/input.h"
 #include "order/hilbert.h"
-#include "rondel/export.h"
 
 namespace rondel::bulk {
 
@@ -57,7 +57,20 @@ std::vector<Block> blocks_of(std::span<const TreeSquare> squares);
 bool has(const Square& square, const order::CubePosition& p);
 
 // One of its quarters, in the order of the curve.
-RONDEL_API Square quadrant(const Square& square, unsigned rank);
+inline Square quadrant(const Square& square, unsigned rank) {
+  Square child = square;
+  --child.bits;
+  const std::uint64_t half = std::uint64_t{1} << child.bits;
+  for (unsigned u = 0; u < 2; ++u) {
+    for (unsigned v = 0; v < 2; ++v) {
+      if (order::hilbert_table::rank_in(square.state, u, v) != rank) continue;
+      child.corner.u += u * half;
+      child.corner.v += v * half;
+    }
+  }
+  child.state ^= order::hilbert_table::state_change[rank];
+  return child;
+}
 
 // The block of at most so many sites to which a rank belongs.
 Block block_around(Index rank, const Input& input, std::size_t max_sites);

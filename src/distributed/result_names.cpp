@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "io/ending.h"
 #include "rondel/error.h"
+#include "rondel/io.h"
 
 namespace rondel::distributed {
 
@@ -22,8 +22,8 @@ bool are_same_file(const std::string& a, const std::string& b) {
 }
 
 void require_npy(const std::string& name) {
-  const std::string ending = io::ending(name);
-  if (!ending.empty() && ending != ".npy") throw FileError(name + ": results are .npy files");
+  const std::string format = format_of(name);
+  if (!format.empty() && format != "npy") throw FileError(name + ": results are .npy files");
 }
 
 void require_different(const std::string& sites, const std::vector<std::string>& results) {
@@ -33,7 +33,7 @@ void require_different(const std::string& sites, const std::vector<std::string>&
     const std::string& name = results[i];
     if (name.empty()) continue;
     if (are_same_file(sites, name)) throw FileError(name + ": the file of the sites, too");
-    if (io::ending(name) == ".zarr") {
+    if (format_of(name) == "zarr") {
       throw FileError(name +
                       ": Zarr groups are written in Python, by rondel.out_of_core.delaunay; here "
                       "results are .npy files");

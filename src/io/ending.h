@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "io/atomic_file.h"
-#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
@@ -22,7 +21,7 @@ namespace rondel::io {
 // Returns ".csv" for the format "CSV" or, if no format is named, for the path "data/Stations.CSV":
 // the ending in lower case. Returns an empty text if the path has no ending. Slashes at the end, as
 // of a folder, do not count.
-RONDEL_API std::string ending(const FileName& file);
+std::string ending(const FileName& file);
 
 // The endings of netCDF files, including those of UGRID, Exodus and HDF5.
 inline constexpr std::array<std::string_view, 9> netcdf_endings = {
