@@ -9,6 +9,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -113,8 +114,21 @@ void add_conventions(nb::module_& module) {
       },
       nb::arg("texts"));
   module.def(
-      "is_name_of_cells", [](const std::string& dimension) { return is_name_of_cells(dimension); },
-      nb::arg("dimension"));
+      "dimensions_of_cells",
+      [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& lengths,
+         std::uint64_t num_cells) { return dimensions_of_cells(names, lengths, num_cells); },
+      nb::arg("names"), nb::arg("lengths"), nb::arg("num_cells"));
+  module.def(
+      "are_same_places",
+      [](const PairsIn& a, const PairsIn& b, double max_apart_deg) {
+        std::vector<std::uint8_t> are_same(a.shape(0));
+        std::ranges::transform(rows_of<LonLat>(a), rows_of<LonLat>(b), are_same.begin(),
+                               [&](const LonLat& p, const LonLat& q) {
+                                 return is_same_place(p, q, max_apart_deg) ? 1 : 0;
+                               });
+        return to_array<std::uint8_t>(std::move(are_same));
+      },
+      nb::arg("a").noconvert(), nb::arg("b").noconvert(), nb::arg("max_apart_deg"));
   module.def(
       "is_name_of_time", [](const std::string& dimension) { return is_name_of_time(dimension); },
       nb::arg("dimension"));

@@ -6,6 +6,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -24,8 +25,6 @@
 namespace rondel::python {
 namespace {
 
-using PolygonsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
-
 SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
   const std::span<const Point> sites = points_of(points);
@@ -34,15 +33,14 @@ SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& column
   return table;
 }
 
-// Returns the positions (k, 2), the offsets of the rings and their owners.
-PolygonsOut polygons_out(LonLatPolygons&& polygons) {
-  return {to_array<double>(std::move(polygons.rings.values)),
-          offsets_out(std::move(polygons.rings.offsets)), indices_out(std::move(polygons.owners))};
-}
-
 }  // namespace
 
 void add_files(nb::module_& module) {
+  nb::class_<LonLatPolygons> polygons(module, "LonLatPolygons");
+  using Rings = CompressedRows<LonLat>;
+  add_fixed_array<double, &LonLatPolygons::rings, &Rings::values>(polygons, "positions");
+  add_fixed_array<std::int64_t, &LonLatPolygons::rings, &Rings::offsets>(polygons, "rings");
+  add_fixed_array<std::int32_t, &LonLatPolygons::owners>(polygons, "owners");
   module.def(
       "write_cells",
       [](const PathOut& path, const Triangulation& t, const PointsIn& points,
@@ -68,20 +66,31 @@ void add_files(nb::module_& module) {
   module.def(
       "cell_polygons",
       [](const Triangulation& t, const Diagram& diagram, double tolerance_deg) {
-        return polygons_out(
-            watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
-              return cell_polygons(t, diagram, tolerance_deg, execution);
-            }));
+        return watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
+          return cell_polygons(t, diagram, tolerance_deg, execution);
+        });
       },
       nb::arg("triangulation"), nb::arg("diagram"), nb::arg("tolerance_deg"));
   module.def(
       "face_polygons",
       [](const Triangulation& t) {
-        return polygons_out(watched_quietly(
-            t.num_sites(), threads_of(t),
-            [&](const Execution& execution) { return face_polygons(t, execution); }));
+        return watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
+          return face_polygons(t, execution);
+        });
       },
       nb::arg("triangulation"));
+  module.def(
+      "arc_lines",
+      [](const PointsIn& starts, const PointsIn& ends) {
+        std::vector<std::array<Point, 2>> arcs(starts.shape(0));
+        for (std::size_t i = 0; i < arcs.size(); ++i) {
+          arcs[i] = {points_of(starts)[i], points_of(ends)[i]};
+        }
+        CompressedRows<LonLat> lines = unlocked([&] { return arc_lines(arcs); });
+        return std::tuple(to_array<double>(std::move(lines.values)),
+                          offsets_out(std::move(lines.offsets)));
+      },
+      nb::arg("starts").noconvert(), nb::arg("ends").noconvert());
 }
 
 }  // namespace rondel::python

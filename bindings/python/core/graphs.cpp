@@ -3,11 +3,8 @@
 
 #include "rondel/graphs.h"
 
-#include <nanobind/stl/tuple.h>
-
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,36 +17,37 @@
 namespace rondel::python {
 namespace {
 
-using GraphOut = std::tuple<ArrayOut<std::int32_t>, ArrayOut<double>>;
-using OutlineOut =
-    std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
-using CirclesOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<std::int32_t>>;
-
-GraphOut graph(const Triangulation& t, nb::handle name) {
+// Dictionaries have the members of the tuples that Python makes of them.
+nb::dict graph(const Triangulation& t, nb::handle name) {
   const auto kind = named<GraphKind>("kind", name);
   SiteGraph found = watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
     return site_graph(t, kind, execution);
   });
-  return {to_array<std::int32_t>(std::move(found.edges)),
-          to_array<double>(std::move(found.lengths))};
+  nb::dict made;
+  made["edges"] = to_array<std::int32_t>(std::move(found.edges));
+  made["lengths"] = to_array<double>(std::move(found.lengths));
+  return made;
 }
 
-OutlineOut outline_out(Outline&& outline) {
-  return {offsets_out(std::move(outline.offsets)), offsets_out(std::move(outline.rows.offsets)),
-          indices_out(std::move(outline.rows.values))};
+nb::dict outline_out(Outline&& outline) {
+  nb::dict made;
+  made["polygon_offsets"] = offsets_out(std::move(outline.offsets));
+  made["ring_offsets"] = offsets_out(std::move(outline.rows.offsets));
+  made["sites"] = indices_out(std::move(outline.rows.values));
+  return made;
 }
 
-OutlineOut hull_polygon_of(const Triangulation& t) {
+nb::dict hull_polygon_of(const Triangulation& t) {
   return outline_out(unlocked([&] { return hull_polygon(t); }));
 }
 
-OutlineOut alpha_shape_of(const Triangulation& t, double radius) {
+nb::dict alpha_shape_of(const Triangulation& t, double radius) {
   return outline_out(watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
     return alpha_shape(t, radius, execution);
   }));
 }
 
-CirclesOut empty_circles(const Triangulation& t, std::size_t count, bool anywhere) {
+nb::dict empty_circles(const Triangulation& t, std::size_t count, bool anywhere) {
   const auto centers = anywhere ? CircleCenters::anywhere : CircleCenters::inside;
   const std::vector<EmptyCircle> found =
       watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
@@ -63,8 +61,11 @@ CirclesOut empty_circles(const Triangulation& t, std::size_t count, bool anywher
     radii.push_back(circle.radius);
     sites.push_back(circle.sites);
   }
-  return {points_out(std::move(middles)), to_array<double>(std::move(radii)),
-          to_array<std::int32_t>(std::move(sites))};
+  nb::dict made;
+  made["centers"] = points_out(std::move(middles));
+  made["radii"] = to_array<double>(std::move(radii));
+  made["sites"] = to_array<std::int32_t>(std::move(sites));
+  return made;
 }
 
 }  // namespace

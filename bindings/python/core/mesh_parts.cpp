@@ -70,10 +70,9 @@ std::tuple<ArrayOut<double>, std::size_t> sites_of_lines(const std::vector<Point
   return {points_out(std::move(found.sites)), found.num_left_out};
 }
 
-// Returns cells as polygons of the plane: positions, the begin of each polygon, and its cell.
-std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mesh_polygons(
-    const VoronoiMesh& arrays, double tolerance_deg) {
-  LonLatRegions found = watched_quietly(arrays.num_cells(), 0, [&](const Execution& execution) {
+// Returns cells as polygons of the plane.
+LonLatRegions mesh_polygons(const VoronoiMesh& arrays, double tolerance_deg) {
+  return watched_quietly(arrays.num_cells(), 0, [&](const Execution& execution) {
     CellRings rings;
     rings.points = arrays.vertex_points;
     for (Point& p : rings.points) {
@@ -86,9 +85,6 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
     std::iota(rings.cells.begin(), rings.cells.end(), std::uint64_t{0});
     return region_polygons(rings, tolerance_deg, execution);
   });
-  CompressedRows<LonLat>& rings = found.polygons.rows;
-  return {to_array<double>(std::move(rings.values)), offsets_out(std::move(rings.offsets)),
-          indices_out(std::move(found.owners))};
 }
 
 // Returns the lines of a file; `read` is read_lines() or read_places().

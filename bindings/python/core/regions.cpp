@@ -25,17 +25,10 @@
 namespace rondel::python {
 namespace {
 
-// Positions, the begins of rings and polygons, and the owner of each polygon.
-using RegionsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int64_t>,
-                              ArrayOut<std::int32_t>>;
-
-RegionsOut polygons_of(const CellRings& rings, double tolerance_deg, unsigned threads) {
-  LonLatRegions found = watched_quietly(
-      rings.corners.size(), threads,
-      [&](const Execution& execution) { return region_polygons(rings, tolerance_deg, execution); });
-  auto& [polygons, positions] = found.polygons;
-  return {to_array<double>(std::move(positions.values)), offsets_out(std::move(positions.offsets)),
-          offsets_out(std::move(polygons)), indices_out(std::move(found.owners))};
+LonLatRegions polygons_of(const CellRings& rings, double tolerance_deg, unsigned threads) {
+  return watched_quietly(rings.corners.size(), threads, [&](const Execution& execution) {
+    return region_polygons(rings, tolerance_deg, execution);
+  });
 }
 
 void add_region_functions(nb::module_& module) {
@@ -89,6 +82,15 @@ void add_region_functions(nb::module_& module) {
 }  // namespace
 
 void add_regions(nb::module_& module) {
+  using Polygons = RowGroups<CompressedRows<LonLat>>;
+  using Rings = CompressedRows<LonLat>;
+  nb::class_<LonLatRegions> drawn(module, "LonLatRegions");
+  add_fixed_array<double, &LonLatRegions::polygons, &Polygons::rows, &Rings::values>(drawn,
+                                                                                     "positions");
+  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &Polygons::rows, &Rings::offsets>(
+      drawn, "rings");
+  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &Polygons::offsets>(drawn, "polygons");
+  add_fixed_array<std::int32_t, &LonLatRegions::owners>(drawn, "owners");
   nb::class_<CellRings> rings(module, "CellRings");
   add_array<std::int64_t, &CellRings::cells>(rings, "cells");
   add_array<std::int64_t, &CellRings::rings>(rings, "rings");

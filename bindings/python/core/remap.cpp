@@ -3,10 +3,8 @@
 
 #include "rondel/remap.h"
 
-#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -34,43 +32,40 @@ Remap remap_of(const CellSet& source, const CellSet& target, unsigned order, nb:
       [&](const Execution& execution) { return remap(source, target, options, execution); });
 }
 
-void write_remap(const std::string& path, const std::string& format, const Weights& weights,
-                 const CellSet& source, const CellSet& target,
-                 const std::array<NumbersIn, 4>& measures, nb::handle norm, unsigned order) {
-  Remap remap;
-  remap.source = source;
-  remap.target = target;
-  remap.order = order;
-  remap.norm = named<RemapNorm>("norm", norm);
-  remap.weights = weights;
-  remap.source_areas = vector_of<double>(measures[0]);
-  remap.target_areas = vector_of<double>(measures[1]);
-  remap.source_fractions = vector_of<double>(measures[2]);
-  remap.target_fractions = vector_of<double>(measures[3]);
-  unlocked([&] {
-    write_weights({path, format}, weight_file(std::move(remap)));
-    return 0;
-  });
-}
-
 }  // namespace
 
 void add_remap(nb::module_& module) {
   nb::class_<Remap> type(module, "Remap");
-  type.def("take_weights", [](Remap& self) { return std::move(self.weights); })
-      .def_prop_ro("source", [](const Remap& self) { return self.source; })
-      .def_prop_ro("target", [](const Remap& self) { return self.target; });
-  add_fixed_array<double, &Remap::source_areas>(type, "source_areas");
-  add_fixed_array<double, &Remap::target_areas>(type, "target_areas");
-  add_fixed_array<double, &Remap::source_fractions>(type, "source_fractions");
-  add_fixed_array<double, &Remap::target_fractions>(type, "target_fractions");
+  type.def(nb::init<>())
+      .def("take_weights", [](Remap& self) { return std::move(self.weights); })
+      .def_rw("weights", &Remap::weights)
+      .def_rw("order", &Remap::order)
+      .def_prop_rw(
+          "source", [](const Remap& self) { return self.source; },
+          [](Remap& self, const CellSet& cells) { self.source = cells; })
+      .def_prop_rw(
+          "target", [](const Remap& self) { return self.target; },
+          [](Remap& self, const CellSet& cells) { self.target = cells; })
+      .def_prop_rw(
+          "norm", [](const Remap& self) { return std::string(name_of(self.norm)); },
+          [](Remap& self, nb::handle norm) { self.norm = named<RemapNorm>("norm", norm); });
+  add_array<double, &Remap::source_areas>(type, "source_areas");
+  add_array<double, &Remap::target_areas>(type, "target_areas");
+  add_array<double, &Remap::source_fractions>(type, "source_fractions");
+  add_array<double, &Remap::target_fractions>(type, "target_fractions");
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::kw_only(),
              nb::arg("order"), nb::arg("norm").none(), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),
              nb::arg("progress").none());
-  module.def("write_remap", &write_remap, nb::arg("path"), nb::arg("format"), nb::arg("weights"),
-             nb::arg("source"), nb::arg("target"), nb::arg("measures"), nb::arg("norm").none(),
-             nb::arg("order"));
+  module.def(
+      "write_remap",
+      [](const std::string& path, const std::string& format, Remap& remap) {
+        unlocked([&] {
+          write_weights({path, format}, weight_file(std::move(remap)));
+          return 0;
+        });
+      },
+      nb::arg("path"), nb::arg("format"), nb::arg("remap"));
 }
 
 }  // namespace rondel::python

@@ -89,16 +89,12 @@ std::tuple<double, double> volume_and_area(const Triangulation& hull) {
   return {size.volume, size.area};
 }
 
-std::tuple<bool, std::string, std::size_t, std::size_t, std::size_t, std::size_t> check_faces(
-    const PointsIn& points, const TriplesIn& faces, bool is_weighted, const Center& center,
-    double squared_radius, unsigned threads) {
-  const CheckReport report =
-      watched_quietly(points.shape(0), threads, [&](const Execution& execution) {
-        return check(points_of(points), rows_of<Triple>(faces),
-                     make_options(is_weighted, center, squared_radius), execution);
-      });
-  return {report.is_valid,  report.reason,         report.num_vertices,
-          report.num_edges, report.num_duplicates, report.num_hidden};
+CheckReport check_faces(const PointsIn& points, const TriplesIn& faces, bool is_weighted,
+                        const Center& center, double squared_radius, unsigned threads) {
+  return watched_quietly(points.shape(0), threads, [&](const Execution& execution) {
+    return check(points_of(points), rows_of<Triple>(faces),
+                 make_options(is_weighted, center, squared_radius), execution);
+  });
 }
 
 void add_triangulation_class(nb::module_& module) {
@@ -145,6 +141,13 @@ void add_triangulation(nb::module_& module) {
   module.def("convex_hull", &build_hull, nb::arg("points").noconvert(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def("size_of_hull", &volume_and_area, nb::arg("hull"));
+  nb::class_<CheckReport>(module, "CheckReport")
+      .def_ro("is_valid", &CheckReport::is_valid)
+      .def_ro("reason", &CheckReport::reason)
+      .def_ro("num_vertices", &CheckReport::num_vertices)
+      .def_ro("num_edges", &CheckReport::num_edges)
+      .def_ro("num_duplicates", &CheckReport::num_duplicates)
+      .def_ro("num_hidden", &CheckReport::num_hidden);
   module.def("check", &check_faces, nb::arg("points").noconvert(), nb::arg("faces").noconvert(),
              nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
              nb::arg("threads"));

@@ -343,16 +343,10 @@ class SphericalDelaunay(
 
         """
         t = self._triangulation
-        return CheckReport(
-            *_core.check(
-                self._points,
-                t.faces,
-                t.is_weighted,
-                t.center,
-                t.squared_radius,
-                as_threads(threads),
-            )
+        found = _core.check(
+            self._points, t.faces, t.is_weighted, t.center, t.squared_radius, as_threads(threads)
         )
+        return CheckReport(*(getattr(found, name) for name in CheckReport._fields))
 
     def _facts(self) -> list[tuple[str, str]]:
         return [*super()._facts(), ("model", self.model)]

@@ -253,18 +253,22 @@ def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes |
 
 def _frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
     """The same for polygons of one ring each."""
-    positions, offsets, owners = polygons
-    return polygon_frame(columns, (positions, offsets, np.arange(len(offsets)), owners), rows)
+    return polygon_frame(columns, polygons, np.arange(len(polygons.rings)), rows)
 
 
-def polygon_frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
-    """A GeoDataFrame with a row for each owner of polygons, and for those that have none."""
+def polygon_frame(
+    columns: dict[str, Any], polygons: Any, parts: Any, rows: Any
+) -> geopandas.GeoDataFrame:
+    """A GeoDataFrame with a row for each owner of polygons, and for those that have none; `parts`
+    are the offsets of the polygons' rings.
+    """
     import geopandas
     import shapely
 
-    positions, rings, parts, owners = polygons
-    made = shapely.from_ragged_array(shapely.GeometryType.POLYGON, positions, (rings, parts))
-    row = np.searchsorted(rows, owners)
+    made = shapely.from_ragged_array(
+        shapely.GeometryType.POLYGON, polygons.positions, (polygons.rings, parts)
+    )
+    row = np.searchsorted(rows, polygons.owners)
     is_single = np.bincount(row, minlength=len(rows))[row] == 1
     geometry = np.full(len(rows), None)
     geometry[row[is_single]] = made[is_single]

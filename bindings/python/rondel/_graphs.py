@@ -106,7 +106,7 @@ class Graphs:
         [[0, 1], [1, 2], [2, 3]]
 
         """
-        return Graph(*_core.site_graph(self._triangulation, kind))
+        return Graph(**_core.site_graph(self._triangulation, kind))
 
     def edge_index(
         self, kind: GraphName = "delaunay", *, both: bool = True
@@ -153,7 +153,7 @@ class Graphs:
             all sites. There is no polygon below dimension 2.
 
         """
-        return Outline(*_core.hull_polygon(self._triangulation))
+        return Outline(**_core.hull_polygon(self._triangulation))
 
     def alpha_shape(self, radius: float) -> Outline:
         """Returns the union of the solid faces whose circle has at most a given radius.
@@ -174,7 +174,7 @@ class Graphs:
             If the radius is negative or NaN, or the sites are weighted.
 
         """
-        return Outline(*_core.alpha_shape(self._triangulation, float(radius)))
+        return Outline(**_core.alpha_shape(self._triangulation, float(radius)))
 
     def largest_empty_circles(self, k: int = 1, *, anywhere: bool = False) -> EmptyCircles:
         """Returns the largest circles of the faces, which have no site inside.
@@ -203,4 +203,4 @@ class Graphs:
         count = operator.index(k)
         if count < 0:
             raise ValueError("k must not be negative")
-        return EmptyCircles(*_core.largest_empty_circles(self._triangulation, count, anywhere))
+        return EmptyCircles(**_core.largest_empty_circles(self._triangulation, count, anywhere))

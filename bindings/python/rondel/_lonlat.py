@@ -9,17 +9,15 @@ pole inside.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _core
 from ._arrays import half_turn
 from ._types import FloatArray, IntArray
-
-LONGEST_PIECE = np.radians(2.0)  # of arcs that are drawn as straight pieces
 
 
 class LonLatTriangles(NamedTuple):
@@ -123,34 +121,5 @@ def arcs(a: FloatArray, b: FloatArray) -> list[FloatArray]:
     """Arcs of great circles between unit vectors (k, 3), as lines of longitude and latitude that
     end where the map does.
     """
-    if len(a) == 0:
-        return []
-    angle = np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b))
-    pieces = np.maximum(1, np.ceil(angle / LONGEST_PIECE)).astype(int)
-    first = np.concatenate([[0], np.cumsum(pieces + 1)])
-    row = np.repeat(np.arange(len(a)), pieces + 1)
-    part = (np.arange(first[-1]) - first[row]) / pieces[row]
-    sine = np.where(angle > 1e-9, np.sin(angle), 1.0)[row]
-    from_a = np.where(angle[row] > 1e-9, np.sin((1 - part) * angle[row]) / sine, 1 - part)
-    from_b = np.where(angle[row] > 1e-9, np.sin(part * angle[row]) / sine, part)
-    x, y, z = (from_a[:, None] * a[row] + from_b[:, None] * b[row]).T
-    line = np.degrees(np.column_stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))]))
-    return [part for points in np.split(line, first[1:-1]) for part in _cut(points)]
-
-
-def _cut(line: FloatArray) -> list[FloatArray]:
-    """A line in pieces that do not cross the antimeridian."""
-    jumps = np.flatnonzero(np.abs(np.diff(line[:, 0])) > 180)
-    if len(jumps) == 0:
-        return [line]
-    parts, begin = [], [line[0]]
-    for k, (p, q) in enumerate(itertools.pairwise(line)):
-        if k in jumps:
-            side = np.copysign(180.0, p[0])
-            to_q = half_turn(q[0] - p[0])
-            fraction = (side - p[0]) / to_q if to_q else 0.0
-            lat = p[1] + fraction * (q[1] - p[1])
-            parts.append(np.array([*begin, (side, lat)]))
-            begin = [(-side, lat)]
-        begin.append(q)
-    return [*parts, np.array(begin)]
+    positions, offsets = _core.arc_lines(np.ascontiguousarray(a), np.ascontiguousarray(b))
+    return np.split(positions, offsets[1:-1]) if len(positions) else []

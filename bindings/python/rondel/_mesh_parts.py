@@ -13,8 +13,7 @@ from . import _core
 from ._arrays import as_floats, as_points, as_threads, degrees_of, require_unmasked
 from ._geometries import Edges, features_of, is_file
 from ._lonlat import arcs
-from ._plot import draw_coast_lines, line_options, make_map
-from ._projection import LonLatMap
+from ._plot import draw_cells, draw_coast_lines, limits, line_options, make_map
 from ._regions import as_cell_set
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
@@ -134,19 +133,12 @@ def plot_mesh(
     ----------
     values : array_like, shape (n,), optional
         A number for each cell, shown as its color; by default cells are not filled.
-    ax, projection, cmap, vmin, vmax
-        As in `SphericalVoronoi.plot`.
-    sites : bool, optional
-        Whether to draw the sites; by default False.
-    coast : bool, optional
-        Whether to draw the coasts of the Earth below the edges; by default False.
-    **options
-        Options of the `matplotlib.collections.LineCollection` of the edges.
+    ax, projection, sites, coast, cmap, vmin, vmax, **options
+        As in `SphericalVoronoi.plot`; by default neither sites nor coasts are drawn.
 
     Returns
     -------
     matplotlib.axes.Axes
-        The axes.
 
     Raises
     ------
@@ -157,12 +149,15 @@ def plot_mesh(
     drawn = make_map(ax, projection)
     if values is not None:
         colors = as_floats(values, "values")
-        cells = _draw_values(self, drawn, colors, {"cmap": cmap})
-        known = colors[np.isfinite(colors)]
-        if known.size:  # also what the map does not show
-            vmin = known.min() if vmin is None else vmin
-            vmax = known.max() if vmax is None else vmax
-        cells.set_clim(vmin, vmax)
+        if colors.shape != (len(self.points),):
+            raise ValueError(f"values has the shape {colors.shape}, not ({len(self.points)},)")
+
+        def owner_at(degrees: Any) -> int:
+            return int(np.argmax(self.points @ _core.unit_vectors(np.array([degrees], float))[0]))
+
+        polygons = _core.mesh_polygons(self._arrays, 0.1)
+        cells = draw_cells(drawn, polygons, owner_at, colors, cmap)
+        cells.set_clim(*limits(colors, vmin, vmax))
     if coast:
         draw_coast_lines(drawn)
     ends = (self.vertex_points / self.radius)[self.vertices_on_edge]
@@ -170,16 +165,3 @@ def plot_mesh(
     if sites:
         drawn.draw_points(degrees_of(self.points))
     return drawn.ax
-
-
-def _draw_values(self: Drawn, drawn: LonLatMap, values: FloatArray, options: dict[str, Any]) -> Any:
-    if values.shape != (len(self.points),):
-        raise ValueError(f"values has the shape {values.shape}, not ({len(self.points)},)")
-    positions, offsets, owners = _core.mesh_polygons(self._arrays, 0.1)
-
-    def owner_at(degrees: Any) -> int:
-        return int(np.argmax(self.points @ _core.unit_vectors(np.array([degrees], float))[0]))
-
-    options = {"edgecolors": "face", "linewidths": 0.2, **options}
-    polygons = np.split(positions, offsets[1:-1])
-    return drawn.draw_polygons(polygons, owners, owner_at, options, values)

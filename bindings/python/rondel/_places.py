@@ -26,7 +26,7 @@ from ._errors import warn_caller
 from ._geometries import in_degrees
 from ._types import BoolArray, FloatArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
-from ._weight_files import MOST_APART, are_near, side_of
+from ._weight_files import MAX_APART, are_near, side_of
 from ._weights import Weights
 
 # The names of columns that tables usually have.
@@ -110,7 +110,7 @@ class Places:
                 continue
             other = there.get(name, known[name])
             away = half_turn(np.asarray(other.values, float) - np.asarray(own.values, float))
-            if not np.all((np.abs(away) <= MOST_APART) | np.isnan(away)):
+            if not np.all((np.abs(away) <= MAX_APART) | np.isnan(away)):
                 raise ValueError(
                     f"the coordinate {name!r} of the data is not that of the source, or in another "
                     "order"
@@ -159,11 +159,9 @@ class Places:
         is_array = isinstance(data, xarray.DataArray)
         if is_array and len(self.shape) > 1 and data.shape[-len(self.shape) :] == self.shape:
             return data, self
-        found = [dim for dim in data.sizes if data.sizes[dim] == n]
-        if len(found) > 1:
-            found = [dim for dim in found if not _core.is_name_of_time(str(dim))]
-        named = [dim for dim in found if _core.is_name_of_cells(str(dim))]
-        found = named if len(named) == 1 else found
+        names = list(data.sizes)
+        lengths = list(data.sizes.values())
+        found = [names[k] for k in _core.dimensions_of_cells(list(map(str, names)), lengths, n)]
         if len(found) > 1:
             raise ValueError(
                 f"{' and '.join(map(repr, found))} are dimensions of {n:,}, as many as the source "
@@ -176,11 +174,8 @@ class Places:
         return with_dimensions(data, {found[0]: places.dims[0]}), places
 
     def _are_here(self, lon: Any, lat: Any) -> bool:
-        east = half_turn(np.asarray(lon, float) - np.asarray(self.lon, float))
-        north = np.asarray(lat, np.float64) - np.asarray(self.lat, np.float64)
-        is_pole = np.abs(np.asarray(self.lat, np.float64)) >= 90 - MOST_APART
-        far = (np.abs(north) > MOST_APART) | ((np.abs(east) > MOST_APART) & ~is_pole)
-        return not bool(np.any(far))
+        there = np.stack([lon, lat], axis=-1).reshape(-1, 2)
+        return bool(are_near(there, self._pairs_with_gaps(None)).all())
 
     def is_away(self, data: xarray.Dataset, name: Hashable) -> bool:
         """Whether a variable with the dimensions of the places has others."""

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -139,8 +140,7 @@ class CellPictures:
         """
         drawn = make_map(ax, projection)
         if values is not None:
-            cells, known = _draw_cells(self, drawn, np.asarray(unmasked(values)), {"cmap": cmap})
-            cells.set_clim(*_limits(known, vmin, vmax))
+            _draw_diagram(self, drawn, np.asarray(unmasked(values)), (vmin, vmax), cmap)
         _draw_coast(self.delaunay, drawn, coast)
         ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
         drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
@@ -170,12 +170,8 @@ class RegionPictures:
         ----------
         values : array_like, shape (n,), optional
             A number for each region, shown as its color.
-        ax, projection
-            As in `SphericalDelaunay.plot`.
-        coast : bool, optional
-            Whether to draw the coasts of the Earth (Natural Earth, 1:110 million).
-        cmap, vmin, vmax
-            As in `SphericalVoronoi.plot`.
+        ax, projection, coast, cmap, vmin, vmax
+            As in `SphericalVoronoi.plot`; by default the coasts are drawn.
         **options
             For the `matplotlib.collections.PathCollection` of the regions.
 
@@ -193,21 +189,21 @@ class RegionPictures:
         if numbers is not None and len(numbers) != len(self):
             raise ValueError(f"{len(numbers)} values for {len(self)} regions")
         drawn = make_map(ax, projection)
-        positions, rings, polygons, owners = self._rings.polygons(0.1, 0)
-        lines = np.split(positions, rings[1:-1])
-        areas = [lines[a:b] for a, b in pairwise(polygons)]
+        drawings = self._rings.polygons(0.1, 0)
+        lines = np.split(drawings.positions, drawings.rings[1:-1])
+        areas = [lines[a:b] for a, b in pairwise(drawings.polygons)]
         options = {"edgecolors": "white", "linewidths": 0.4, **options}
         if numbers is None:
             drawn.draw_areas(areas, None, {"facecolors": "tab:blue", **options})
         else:
-            colored = drawn.draw_areas(areas, numbers[owners], {"cmap": cmap, **options})
-            colored.set_clim(*_limits(numbers, vmin, vmax))
+            colored = drawn.draw_areas(areas, numbers[drawings.owners], {"cmap": cmap, **options})
+            colored.set_clim(*limits(numbers, vmin, vmax))
         if coast:
             draw_coast_lines(drawn)
         return drawn.ax
 
 
-def _limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, Any]:
+def limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, Any]:
     """Those of the colors: of all values, also of what the map does not show."""
     known = values[np.isfinite(values)]
     if known.size:
@@ -257,21 +253,29 @@ def make_map(ax: Any, projection: Any) -> LonLatMap:
     return LonLatMap(ax)
 
 
-def _draw_cells(
-    self: Divided, drawn: LonLatMap, values: Any, options: dict[str, Any]
-) -> tuple[Any, Any]:
-    """The collection of polygons, and the finite values of all cells."""
+def draw_cells(
+    drawn: LonLatMap,
+    polygons: Any,
+    owner_at: Callable[[Any], int],
+    values: Any,
+    cmap: Any,
+) -> Any:
+    """The collection of polygons, in the colors of their owners' values."""
+    lines = np.split(polygons.positions, polygons.rings[1:-1])
+    options = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap}
+    return drawn.draw_polygons(lines, polygons.owners, owner_at, options, values)
+
+
+def _draw_diagram(
+    self: Divided, drawn: LonLatMap, values: Any, limits_given: tuple[Any, Any], cmap: Any
+) -> None:
     if len(values) != len(self.points):
         raise ValueError(f"{len(values)} values for {len(self.points)} sites")
-    positions, offsets, owners = _core.cell_polygons(
-        self.delaunay._triangulation, self._diagram, 0.1
-    )
+    polygons = _core.cell_polygons(self.delaunay._triangulation, self._diagram, 0.1)
 
     def owner_at(degrees: Any) -> int:
         there = _core.unit_vectors(np.array([degrees], float)) * self.radius + self.center
         return int(self.delaunay.nearest(there[0]))
 
-    options = {"edgecolors": "face", "linewidths": 0.2, **options}
-    polygons = np.split(positions, offsets[1:-1])
-    cells = drawn.draw_polygons(polygons, owners, owner_at, options, values)
-    return cells, values[owners][np.isfinite(values[owners])]
+    cells = draw_cells(drawn, polygons, owner_at, values, cmap)
+    cells.set_clim(*limits(values[polygons.owners], *limits_given))

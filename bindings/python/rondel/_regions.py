@@ -260,7 +260,7 @@ class Regions(Described, RegionPictures):
         """
         given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
-        owners = polygons[3]
+        owners = polygons.owners
         rows = owners[np.diff(owners, prepend=-1) > 0]
         columns: dict[str, Any] = {name: labels[rows] for name, labels in self._own.items()}
         columns["area"] = self.areas[rows]
@@ -268,7 +268,7 @@ class Regions(Described, RegionPictures):
             columns["area_km2"] = self.areas_km2(radius_km)[rows]
         for name, values in given.items():
             columns[name] = frame_column(values)[rows]
-        return polygon_frame(columns, polygons, rows)
+        return polygon_frame(columns, polygons, polygons.polygons, rows)
 
     @property
     def _own(self) -> dict[str, Any]:

@@ -83,12 +83,12 @@ class Remap(Described):
 
         """
         name = netcdf_name(path, format)
-        sides = self.source._placed(), self.target._placed()
-        areas = self.source_areas, self.target_areas
-        measures = *areas, self.source_fractions, self.target_fractions
-        _core.write_remap(
-            name, format, self.weights._weights, *sides, measures, self._norm, self._order
-        )
+        made = _core.Remap()
+        made.source, made.target = self.source._placed(), self.target._placed()
+        made.order, made.norm, made.weights = self._order, self._norm, self.weights._weights
+        for member in ("source_areas", "target_areas", "source_fractions", "target_fractions"):
+            setattr(made, member, getattr(self, member))
+        _core.write_remap(name, format, made)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

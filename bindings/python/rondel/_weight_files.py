@@ -19,7 +19,7 @@ from ._geo import Path
 from ._types import ArrayLike, BoolArray, FloatArray
 
 # How far a place may be from the same in a file, in degrees: float32 is off by up to 8e-6.
-MOST_APART = 1e-4
+MAX_APART = 1e-4
 _ENDINGS = (".nc", ".nc4", ".cdf", ".ncf")
 
 
@@ -94,10 +94,10 @@ def weights_to_netcdf(
 
 
 def are_near(a: FloatArray, b: FloatArray) -> BoolArray:
-    """Whether places are the same, in degrees, but for what files lose."""
-    east = np.abs(np.remainder(a[..., 0] - b[..., 0] + 180, 360) - 180)
-    north = np.abs(a[..., 1] - b[..., 1])
-    near: BoolArray = (east * np.cos(np.radians(a[..., 1])) <= MOST_APART) & (north <= MOST_APART)
+    """Whether places, shape (n, 2), are the same, in degrees, but for what files lose."""
+    near: BoolArray = _core.are_same_places(
+        np.ascontiguousarray(a, np.float64), np.ascontiguousarray(b, np.float64), MAX_APART
+    ).view(bool)
     return near
 
 
