@@ -25,6 +25,28 @@ VariableHeader variable_of(const std::string& name, const std::vector<std::strin
   return {name, true, dimensions, std::vector<std::uint64_t>(dimensions.size(), 4), texts};
 }
 
+TEST(dimensions_of_cells, are_those_of_the_name_or_the_length) {
+  using Names = std::vector<std::string>;
+  using Lengths = std::vector<std::uint64_t>;
+  using Found = std::vector<std::size_t>;
+  EXPECT_EQ(dimensions_of_cells(Names{"x", "ncol"}, Lengths{4, 4}, 4), Found{1});
+  EXPECT_EQ(dimensions_of_cells(Names{"x", "ncol"}, Lengths{4, 3}, 4), Found{0});
+  EXPECT_EQ(dimensions_of_cells(Names{"ncol", "x", "cell"}, Lengths{4, 4, 4}, 4), (Found{0, 2}));
+  EXPECT_EQ(dimensions_of_cells(Names{"time", "x", "y"}, Lengths{4, 4, 4}, 4), (Found{1, 2}));
+  EXPECT_EQ(dimensions_of_cells(Names{"time", "x"}, Lengths{4, 5}, 4), Found{0});
+  EXPECT_EQ(dimensions_of_cells(Names{"x"}, Lengths{5}, 4), Found{});
+}
+
+TEST(is_same_place, measures_along_the_parallel) {
+  EXPECT_TRUE(is_same_place({359.99995, 0}, {0, 0.00005}, 1e-4));
+  EXPECT_FALSE(is_same_place({359.9998, 0}, {0, 0}, 1e-4));
+  EXPECT_FALSE(is_same_place({0, 0.0002}, {0, 0}, 1e-4));
+  EXPECT_TRUE(is_same_place({0.00019, 60}, {0, 60}, 1e-4));
+  EXPECT_FALSE(is_same_place({0.00021, 60}, {0, 60}, 1e-4));
+  EXPECT_TRUE(is_same_place({77, -90}, {-100, -90}, 1e-9));
+  EXPECT_TRUE(is_same_place({NAN, 0}, {5, 6}, 0));
+}
+
 TEST(cf_units, have_all_their_spellings) {
   constexpr double radian = 180 / std::numbers::pi;
   const std::vector<std::pair<std::string, double>> singular = {{"degree", 1},

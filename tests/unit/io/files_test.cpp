@@ -109,6 +109,21 @@ TEST(ending, is_the_format_of_a_file) {
   EXPECT_EQ(format_of("-"), "");
 }
 
+TEST(ending, tells_a_file_from_a_variable) {
+  const TemporaryDirectory directory;
+  const auto parts = [](const std::string& path) {
+    const auto [file, variable] = file_and_variable(path);
+    return file.path + "|" + variable;
+  };
+  EXPECT_EQ(parts("a.nc:b"), "a.nc|b");
+  EXPECT_EQ(parts("a.nc:b:c"), "a.nc|b:c");
+  EXPECT_EQ(parts("a.csv:b"), "a.csv:b|");
+  EXPECT_EQ(parts("C:\\a.nc"), "C:\\a.nc|");
+  const std::string path = directory.with("a.nc:b", "");
+  EXPECT_EQ(parts(path), path + "|");
+  EXPECT_EQ(parts(path + ":c"), directory.file("a.nc") + "|b:c");
+}
+
 TEST(ending, says_which_netcdf_is_written) {
   const auto kind = [](const std::string& path, const std::string& format,
                        NetcdfKind asked = NetcdfKind::by_name) {

@@ -93,6 +93,22 @@ TEST(cells, arrays_are_empty_without_sites) {
   expect_arrays(face_polygons(none));
 }
 
+TEST(arc_lines, end_where_the_map_does) {
+  const std::vector<LonLat> places = {{170, 0}, {-170, 0}, {10, 0}, {10, 1}, {0, 0}, {180, 0}};
+  const std::vector<Point> p = unit_vectors(places);
+  const std::vector<std::array<Point, 2>> arcs = {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}};
+  const CompressedRows<LonLat> lines = arc_lines(arcs);
+  ASSERT_EQ(lines.size(), 3U);  // none between opposite ends
+  for (const std::size_t i : {0U, 1U}) {
+    for (const LonLat& place : lines[i]) EXPECT_NEAR(place.lat_deg, 0, 1e-12);
+  }
+  EXPECT_NEAR(lines[0].front().lon_deg, 170, 1e-12);
+  EXPECT_EQ(lines[0].back().lon_deg, 180);
+  EXPECT_EQ(lines[1].front().lon_deg, -180);
+  EXPECT_NEAR(lines[2].back().lat_deg, 1, 1e-12);
+  EXPECT_THROW(arc_lines(arcs, 0), InvalidInput);
+}
+
 TEST(cells, arrays_want_a_tolerance) {
   const Triangulation t =
       delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}});
