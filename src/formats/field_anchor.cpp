@@ -15,13 +15,15 @@
 namespace rondel {
 
 bool is_same_place(const LonLat& a, const LonLat& b, double max_apart_deg) {
+  const auto is_missing = [](const LonLat& place) {
+    return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
+  };
+  if (a == b || is_missing(a) || is_missing(b)) return true;
   const double east = std::abs(std::remainder(a.lon_deg - b.lon_deg, 360));
-  const double north = std::abs(a.lat_deg - b.lat_deg);
-  if (a == b || std::isnan(east) || std::isnan(north)) return true;
   const double lat = std::max(std::abs(a.lat_deg), std::abs(b.lat_deg));
-  return north <= max_apart_deg &&
+  return std::abs(a.lat_deg - b.lat_deg) <= max_apart_deg &&
          (east <= max_apart_deg ||
-          east * std::cos(lat / exact::degrees_per_radian) <= max_apart_deg);
+          east * exact::sine_cosine_of_degrees(lat).cosine <= max_apart_deg);
 }
 
 }  // namespace rondel
