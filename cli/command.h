@@ -46,6 +46,7 @@ struct Command {
 Command add_delaunay_command(CLI::App& tool);
 Command add_voronoi_command(CLI::App& tool);
 Command add_regions_command(CLI::App& tool);
+Command add_overlay_command(CLI::App& tool);
 Command add_hull_command(CLI::App& tool);
 Command add_check_command(CLI::App& tool);
 Command add_contours_command(CLI::App& tool);

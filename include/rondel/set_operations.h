@@ -17,7 +17,7 @@
 
 namespace rondel {
 
-/// A set operation on two regions A and B, by the names of GeoPandas.
+/// A set operation on two regions A and B. Names are those of GeoPandas.
 enum class SetOperation : std::uint8_t {
   unite,                 ///< "union": what is in A or in B
   intersection,          ///< "intersection": what is in both
@@ -26,7 +26,7 @@ enum class SetOperation : std::uint8_t {
   identity               ///< "identity": what is in A, divided by B
 };
 
-/// Returns the name of a set operation, as above.
+/// Returns the name of a set operation, as above; empty for other numbers.
 RONDEL_API std::string_view name_of(SetOperation operation) noexcept;
 
 /// Computes a set operation on two regions, each of which is the union of some polygons.

@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <iterator>
 
+#include "exact/ball.h"
 #include "exact/eft.h"
+#include "exact/exact_sign.h"
 #include "predicates/bounds.h"
 #include "rondel/arrangement.h"
 #include "rondel/predicates.h"
@@ -19,9 +21,9 @@ namespace {
 
 using exact::to_vector;
 
-// How far beyond an arc its box reaches: more than the radius, and what computing it may lose.
-constexpr double margin = 0x1p-49;
-static_assert(margin >= 2 * arrangement_radius + 8 * predicates::unit_roundoff);
+// How far beyond an arc its box reaches: more than the radius, and the lengths of two points on one
+// ray may differ by 2e-14.
+constexpr double margin = 0x1p-43;
 
 // Returns the least value that dot(normal, p - a) has for a point p that is farther from the great
 // circle of ab than the radius, relative to the length of the step from a to b. The normal is
@@ -123,8 +125,7 @@ constexpr std::size_t points_per_task = 1024;
 }  // namespace
 
 bool is_near(const Point& a, const Point& b, const Point& p) {
-  const Vec step = to_vector(b) - to_vector(a);
-  const Vec normal = cross(to_vector(a), step);
+  const Vec normal = normal_of(a, b);
   const Vec direction = normalized(normal);
   // These vectors are perpendicular to a and to b, so that only the part of the difference along
   // the sphere counts. The foot is within the arc if p is ahead of a and behind b.
@@ -132,10 +133,21 @@ bool is_near(const Point& a, const Point& b, const Point& p) {
       !(dot(cross(direction, to_vector(b)), to_vector(p) - to_vector(b)) < 0)) {
     return false;
   }
+  const double length = exact::length_of(normal);
   const exact::Vector3<exact::DoubleDouble> from_center = {{a.x, 0}, {a.y, 0}, {a.z, 0}};
-  const exact::DoubleDouble volume =
-      det(from_center, exact::difference(b, a), exact::difference(p, a));
-  return std::abs(volume.hi) <= arrangement_radius * exact::length_of(normal);
+  const double volume = det(from_center, exact::difference(b, a), exact::difference(p, a)).hi;
+  // The volume is off by 2^-100 of the steps. That is too much where they are nearly opposite.
+  constexpr double least_length = 0x1p-30;
+  const Vec step = to_vector(b) - to_vector(a);
+  const double height =
+      length > least_length * exact::length_of(step) ? volume / length : exact_height(a, b, p);
+  return std::abs(height) <= arrangement_radius;
+}
+
+double exact_height(const Point& a, const Point& b, const Point& p) {
+  const exact::BallStep<104> step;  // exact, see exact::sign_of_cubic()
+  const auto volume = det(step(Point{}, a), step(a, b), step(a, p));
+  return exact::leading_double(volume) / exact::length_of(normal_of(a, b));
 }
 
 bool is_on_near_arc(const Point& a, const Point& b, const Point& p) {
@@ -146,6 +158,9 @@ Box box_of(const Point& a, const Point& b) {
   // A point of the arc is a point of the chord, moved away from the center by the sagitta or less
   // along the direction to the middle.
   const Vec chord = to_vector(b) - to_vector(a);
+  // The direction to the middle of a longer arc is not known well enough.
+  constexpr double max_squared_chord = 3.5;
+  if (dot(chord, chord) > max_squared_chord) return {{-2, -2, -2}, {2, 2, 2}};
   const double sagitta = 1 - std::sqrt(std::max(0.0, 1 - dot(chord, chord) / 4));
   const Vec bulge = sagitta * normalized(to_vector(a) + to_vector(b));
   const auto range = [](double from, double to, double beyond) {

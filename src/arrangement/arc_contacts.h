@@ -42,6 +42,10 @@ struct Contacts {
 // from the point than `arrangement_radius`, up to rounding: the same result for the same bits.
 bool is_near(const Point& a, const Point& b, const Point& p);
 
+// Returns the distance of a point from the great circle of ab, positive to the left, with a small
+// relative error, however small it is.
+double exact_height(const Point& a, const Point& b, const Point& p);
+
 // True if a point is in the inside of the arc ab; exact. Precondition: is_near(a, b, p).
 bool is_on_near_arc(const Point& a, const Point& b, const Point& p);
 

@@ -351,9 +351,9 @@ std::string_view name_of(SetOperation operation) noexcept {
     case SetOperation::symmetric_difference:
       return "symmetric_difference";
     case SetOperation::identity:
-      break;
+      return "identity";
   }
-  return "identity";
+  return {};
 }
 
 CellRings combine(const CellRings& first, const CellRings& second, SetOperation operation,

@@ -14,8 +14,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/ball.h"
-#include "exact/exact_sign.h"
+#include "arrangement/arc_contacts.h"
 #include "exact/vector.h"
 #include "rondel/arrangement.h"
 #include "rondel/predicates.h"
@@ -37,9 +36,7 @@ class NodesAlong {
  public:
   NodesAlong(std::span<const Point> nodes, Arc arc)
       : nodes_(nodes), arc_(arc), a_(to_vector(nodes[arc.from])) {
-    const Vec normal = cross(a_, to_vector(nodes[arc.to]) - a_);
-    normal_ = normalized(normal);
-    length_ = exact::length_of(normal);
+    normal_ = normalized(normal_of(nodes[arc.from], nodes[arc.to]));
     forward_ = cross(normal_, a_);
   }
 
@@ -61,10 +58,7 @@ class NodesAlong {
   // Returns the distance of a node from the arc, positive to the left, with a small relative error.
   [[nodiscard]] double height(Index node) const {
     if (node == arc_.from || node == arc_.to) return 0;
-    const Point& a = nodes_[arc_.from];
-    const exact::BallStep<104> step;  // exact, see exact::sign_of_cubic()
-    const auto volume = det(step(Point{}, a), step(a, nodes_[arc_.to]), step(a, nodes_[node]));
-    return exact::leading_double(volume) / length_;
+    return exact_height(nodes_[arc_.from], nodes_[arc_.to], nodes_[node]);
   }
 
  private:
@@ -72,7 +66,6 @@ class NodesAlong {
   Arc arc_;
   Vec a_;
   Vec normal_{};
-  double length_ = 0;
   Vec forward_{};
 };
 
@@ -164,10 +157,9 @@ void append_nodes_on_arc(std::span<const Point> nodes, Arc arc, std::span<const 
                          std::vector<Index>& chain) {
   const auto begin = static_cast<std::ptrdiff_t>(chain.size());
   chain.insert(chain.end(), on.begin(), on.end());
-  const Vec from = to_vector(nodes[arc.from]);
   // The cross product of two nodes on the arc is a multiple of the exact normal, and so its product
   // with the rounded one has the sign of the multiple.
-  const Point normal = exact::to_point(normalized(cross(from, to_vector(nodes[arc.to]) - from)));
+  const Point normal = exact::to_point(normalized(normal_of(nodes[arc.from], nodes[arc.to])));
   std::sort(chain.begin() + begin, chain.end(), [&](Index p, Index q) {
     return orientation(nodes[p], nodes[q], normal) == Sign::positive;
   });

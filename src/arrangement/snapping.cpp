@@ -163,9 +163,24 @@ class Chains {
   const CompressedRows<Index>& own_;
 };
 
+// Leaves out nodes through which no arc is led: those of crossings that have nearer ones.
+void leave_out_unused(std::vector<Point>& nodes, std::vector<Index>& used) {
+  std::vector<Index> numbers(nodes.size(), no_index);
+  for (const Index node : used) numbers[node] = 0;
+  Index count = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (numbers[k] == no_index) continue;
+    nodes[count] = nodes[k];
+    numbers[k] = count++;
+  }
+  nodes.resize(count);
+  for (Index& node : used) node = numbers[node];
+}
+
 // Returns the pieces of arcs of which each row has the nodes.
-Snapped pieces_of(std::vector<Point> nodes, const CompressedRows<Index>& chains, bool is_certain,
+Snapped pieces_of(std::vector<Point> nodes, CompressedRows<Index> chains, bool is_certain,
                   unsigned threads) {
+  leave_out_unused(nodes, chains.values);
   Snapped result;
   std::vector<Arc> pieces;
   pieces.reserve(chains.values.size());
@@ -186,8 +201,11 @@ Snapped pieces_of(std::vector<Point> nodes, const CompressedRows<Index>& chains,
 
 NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, unsigned threads) {
   order::SpatialOrder order = order::spatial_order(given, Model::projected, {}, threads);
+  bool is_replaced = false;
   for (const auto& [rank, name] : order.renamed) {
-    if (name < num_fixed) order.order[rank] = name;
+    if (name >= num_fixed) continue;
+    order.order[rank] = name;
+    is_replaced = true;
   }
   NumberedPoints result;
   result.points.resize(order.order.size());
@@ -200,6 +218,11 @@ NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, uns
   for (const auto& [site, representative] : order.duplicates) {
     result.numbers[site] = result.numbers[representative];
   }
+  if (!is_replaced) return result;
+  // The order was that of points which others on their rays have replaced.
+  NumberedPoints sorted = numbered(result.points, 0, threads);
+  for (Index& number : result.numbers) number = sorted.numbers[number];
+  result.points = std::move(sorted.points);
   return result;
 }
 
@@ -291,7 +314,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
       threads, input.arcs.size(), std::move(blocks),
       [](std::size_t b, const ChainBlock& /*block*/, std::size_t k) { return b * grain + k; },
       system::JoinedColumn{&ChainBlock::nodes, rows.values});
-  return pieces_of(std::move(nodes.points), rows, is_certain, threads);
+  return pieces_of(std::move(nodes.points), std::move(rows), is_certain, threads);
 }
 
 }  // namespace rondel::arrangement

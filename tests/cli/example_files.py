@@ -140,6 +140,8 @@ def makers(root):
         "rivers.geojson": features(("LineString", [[0, 0], [5, 3], [9, 9]]), ("LineString", [[20, -5], [24, 2]])),
         "sections.geojson": features(("LineString", [[-60, 50], [-10, 40]]), ("LineString", [[-70, 10], [-20, 10]])),
         "islands.geojson": features(box(-10, -10, 5, 8), box(100, 40, 130, 60), box(-80, -60, -50, -30)),
+        "basins.geojson": features(box(-10, -20, 30, 20), box(20, 0, 60, 30), box(-70, -40, -50, 0)),
+        "lakes.geojson": features(box(31, -3, 34, 1), box(50, 37, 54, 47), box(-80, 43, -76, 44)),
         "region.geojson": features(box(-30, -20, 40, 50)),
         "land.geojson": copy(root, "data/land-110m.geojson"),
         "coast.geojson": copy(root, "data/land-110m.geojson"),

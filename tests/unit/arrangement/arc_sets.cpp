@@ -13,9 +13,9 @@
 namespace rondel::test {
 namespace {
 
-class Random {
+class RandomPlaces {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  explicit RandomPlaces(std::uint64_t seed) : engine_(seed) {}
 
   // Returns a number from -1 to 1.
   double number() { return std::uniform_real_distribution<>(-1, 1)(engine_); }
@@ -29,10 +29,10 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-using Maker = std::function<void(ArcSet&, std::size_t, Random&)>;
+using Maker = std::function<void(ArcSet&, std::size_t, RandomPlaces&)>;
 
 Maker within(double distance) {
-  return [distance](ArcSet& set, std::size_t size, Random& random) {
+  return [distance](ArcSet& set, std::size_t size, RandomPlaces& random) {
     const Point center = random.place();
     for (std::size_t i = 0; i < size; ++i) {
       set.add(random.near(center, distance), random.near(center, distance));
@@ -41,7 +41,7 @@ Maker within(double distance) {
 }
 
 Maker on_grid_at_axis(double spacing) {
-  return [spacing](ArcSet& set, std::size_t size, Random& random) {
+  return [spacing](ArcSet& set, std::size_t size, RandomPlaces& random) {
     const auto end = [&] {
       constexpr int limit = 3;
       return Point{1, spacing * random.integer(limit), spacing * random.integer(limit)};
@@ -50,11 +50,11 @@ Maker on_grid_at_axis(double spacing) {
   };
 }
 
-void make_sphere(ArcSet& set, std::size_t size, Random& random) {
+void make_sphere(ArcSet& set, std::size_t size, RandomPlaces& random) {
   for (std::size_t i = 0; i < size; ++i) set.add(random.place(), random.place());
 }
 
-void make_grid(ArcSet& set, std::size_t size, Random& random) {
+void make_grid(ArcSet& set, std::size_t size, RandomPlaces& random) {
   const auto direction = [&] {
     for (;;) {
       const Point p = {1.0 * random.integer(2), 1.0 * random.integer(2), 1.0 * random.integer(2)};
@@ -71,7 +71,7 @@ void make_grid(ArcSet& set, std::size_t size, Random& random) {
 
 constexpr double ulp = 2e-16;
 
-void make_same_circle(ArcSet& set, std::size_t size, Random& random) {
+void make_same_circle(ArcSet& set, std::size_t size, RandomPlaces& random) {
   const Point from = random.place();
   const Point to = random.place();
   const auto end = [&] {
@@ -80,7 +80,7 @@ void make_same_circle(ArcSet& set, std::size_t size, Random& random) {
   for (std::size_t i = 0; i < size; ++i) set.add(end(), end());
 }
 
-void make_pencil(ArcSet& set, std::size_t size, Random& random) {
+void make_pencil(ArcSet& set, std::size_t size, RandomPlaces& random) {
   const Point middle = random.place();
   for (std::size_t i = 0; i < size; ++i) {
     const Point direction = random.place();
@@ -91,7 +91,7 @@ void make_pencil(ArcSet& set, std::size_t size, Random& random) {
   }
 }
 
-void make_needles(ArcSet& set, std::size_t size, Random& random) {
+void make_needles(ArcSet& set, std::size_t size, RandomPlaces& random) {
   const Point place = random.place();
   while (set.arcs.size() < size) {
     const Point start = random.near(place, 2 * ulp);
@@ -101,7 +101,7 @@ void make_needles(ArcSet& set, std::size_t size, Random& random) {
   }
 }
 
-void make_nearly_half(ArcSet& set, std::size_t size, Random& random) {
+void make_nearly_half(ArcSet& set, std::size_t size, RandomPlaces& random) {
   const Point place = random.place();
   const Point beyond = random.near(-1.0 * place, 1e-3);
   while (set.arcs.size() < size) {
@@ -141,7 +141,7 @@ std::vector<std::string> kinds_of_arc_sets() {
 
 ArcSet arc_set(const std::string& kind, std::size_t size, std::uint64_t seed) {
   ArcSet set;
-  Random random(seed);
+  RandomPlaces random(seed);
   makers().at(kind)(set, size, random);
   return set;
 }

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel/arrangement.h and rondel/set_operations.h: what they promise of any arcs and rings.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "exact/vector.h"
+#include "fuzz/fuzz_input.h"
+#include "rondel/arrangement.h"
+#include "rondel/predicates.h"
+#include "rondel/set_operations.h"
+
+namespace rondel::fuzz {
+namespace {
+
+using Ends = std::array<Index, 2>;
+
+// Sites as unit vectors, without coordinates so small that they are refused.
+std::vector<Point> unit_vectors_of(std::vector<Point> sites) {
+  constexpr double least = 1e-40;
+  const auto flushed = [](double x) { return std::abs(x) < least ? 0 : x; };
+  for (Point& p : sites) {
+    p = normalized(p);
+    p = {flushed(p.x), flushed(p.y), flushed(p.z)};
+  }
+  std::erase_if(sites, [](const Point& p) { return !(std::abs(norm(p) - 1) < 1e-14); });
+  return sites;
+}
+
+bool are_opposite(const Point& p, const Point& q) {
+  return dot(p, q) < 0 && is_same_site(p, -1.0 * q);
+}
+
+void test_arrangement(const std::vector<Point>& points, const std::vector<Ends>& arcs) {
+  const Arrangement result = arrange(points, arcs, {1});
+  require(result.chains.size() == arcs.size(), "a chain for each arc");
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    Index at = no_index;
+    for (const Index h : result.chains[i]) {
+      require(at == no_index || result.edges[h / 2][h % 2] == at, "chains are connected");
+      at = result.edges[h / 2][1 - h % 2];
+    }
+    require(at != no_index || is_same_site(points[arcs[i][0]], points[arcs[i][1]]), "arcs stay");
+  }
+  std::vector<Ends> again = result.edges;
+  for (Index node = 0; node < result.nodes.size(); ++node) again.push_back({node, node});
+  std::ranges::reverse(again);
+  const Arrangement same = arrange(result.nodes, again, {1});
+  require(same.nodes == result.nodes && same.edges == result.edges, "an arrangement is its own");
+}
+
+bool is_equal(const CellRings& a, const CellRings& b) {
+  return a.cells == b.cells && a.rings == b.rings && a.corners == b.corners &&
+         a.points == b.points && a.whole == b.whole;
+}
+
+// Each polygon has a ring of three to six of the points in a row.
+CellRings polygons_of(ByteSource& source, const std::vector<Point>& points) {
+  CellRings cells;
+  cells.points = points;
+  std::size_t next = 0;
+  while (next + 3 <= points.size()) {
+    const std::size_t end = std::min(points.size(), next + 3 + source.below(4));
+    std::vector<Index> ring;
+    for (; next < end; ++next) ring.push_back(static_cast<Index>(next));
+    bool is_usable = true;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      is_usable = is_usable && !are_opposite(points[ring[k]], points[ring[(k + 1) % ring.size()]]);
+    }
+    if (is_usable) cells.append_ring(ring);
+    cells.end_cell();
+  }
+  return cells;
+}
+
+void test_set_operations(const CellRings& a, const CellRings& b) {
+  const CellRings either = combine(a, b, SetOperation::unite, {1});
+  require(is_equal(either, combine(b, a, SetOperation::unite, {1})), "the union is symmetric");
+  require(is_equal(unite(either, {1}), either), "a union is its own");
+  const CellRings both = combine(a, b, SetOperation::intersection, {1});
+  require(is_equal(repaired(both, {1}), both), "an intersection is valid");
+  const CellRings first = combine(a, b, SetOperation::difference, {1});
+  const CellRings none = combine(first, first, SetOperation::difference, {1});
+  require(none.rings.size() == 1 && none.whole.empty(), "a region without itself is empty");
+  const RegionPieces pieces = overlay_pieces(a, b, SetOperation::identity, {1});
+  for (std::size_t k = 0; k < pieces.num_pieces(); ++k) {
+    require(pieces.cells[k] < a.num_cells(), "pieces are of the first operand");
+    require(pieces.regions[k] == no_index || pieces.regions[k] < b.num_cells(), "and the second");
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel::fuzz;
+  using namespace rondel;
+  ByteSource source(data, size);
+  require(name_of(static_cast<SetOperation>(source.below(5))).size() > 4, "operations have names");
+  const bool are_polygons = source.below(2) == 0;
+  const std::size_t limit = next_limit(source, 60);
+  const std::vector<Point> points =
+      unit_vectors_of(all_sites(source, limit, Scales::near, {.model = Model::projected}));
+  if (are_polygons) {
+    const std::size_t half = points.size() / 2;
+    const auto middle = points.begin() + static_cast<std::ptrdiff_t>(half);
+    test_set_operations(polygons_of(source, {points.begin(), middle}),
+                        polygons_of(source, {middle, points.end()}));
+    return 0;
+  }
+  std::vector<std::array<Index, 2>> arcs;
+  for (Index i = 0; i + 1 < points.size(); i += 2) {
+    if (!are_opposite(points[i], points[i + 1])) arcs.push_back({i, i + 1});
+  }
+  test_arrangement(points, arcs);
+  return 0;
+}
