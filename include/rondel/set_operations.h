@@ -46,7 +46,7 @@ RONDEL_API std::string_view name_of(SetOperation operation) noexcept;
 ///    corners, nor on the number of threads.
 /// \param first, second  the polygons of A and of B; corners as arrange() wants them
 /// \throws InvalidInput if offsets do not fit; (the position of the side among the corners) if a
-///         side leads to the opposite point; or (the position) if a point is no unit vector
+///         side leads to the opposite point, up to 2^-45; or (the position) if a point is no unit vector
 RONDEL_API CellRings combine(const CellRings& first, const CellRings& second,
                              SetOperation operation, const Execution& execution = {});
 

@@ -125,23 +125,19 @@ constexpr std::size_t points_per_task = 1024;
 }  // namespace
 
 bool is_near(const Point& a, const Point& b, const Point& p) {
+  // The conditions below do not tell the antipodes of an end. All points of an arc are less than
+  // 90 degrees from one of its ends.
+  if (!(dot(a, p) > 0) && !(dot(b, p) > 0)) return false;
+  // The foot is within the arc if p is ahead of a and behind b. Cross products show that for points
+  // that differ far less than their lengths do.
   const Vec normal = normal_of(a, b);
   const Vec direction = normalized(normal);
-  // These vectors are perpendicular to a and to b, so that only the part of the difference along
-  // the sphere counts. The foot is within the arc if p is ahead of a and behind b.
-  if (!(dot(cross(direction, to_vector(a)), to_vector(p) - to_vector(a)) > 0) ||
-      !(dot(cross(direction, to_vector(b)), to_vector(p) - to_vector(b)) < 0)) {
+  if (!(dot(direction, normal_of(a, p)) > 0) || !(dot(direction, normal_of(p, b)) > 0))
     return false;
-  }
-  const double length = exact::length_of(normal);
   const exact::Vector3<exact::DoubleDouble> from_center = {{a.x, 0}, {a.y, 0}, {a.z, 0}};
   const double volume = det(from_center, exact::difference(b, a), exact::difference(p, a)).hi;
-  // The volume is off by 2^-100 of the steps. That is too much where they are nearly opposite.
-  constexpr double least_length = 0x1p-30;
-  const Vec step = to_vector(b) - to_vector(a);
-  const double height =
-      length > least_length * exact::length_of(step) ? volume / length : exact_height(a, b, p);
-  return std::abs(height) <= arrangement_radius;
+  // The volume is off by 2^-101 or less, and the normal is longer than 2^-46.
+  return std::abs(volume) <= arrangement_radius * exact::length_of(normal);
 }
 
 double exact_height(const Point& a, const Point& b, const Point& p) {

@@ -15,7 +15,6 @@
 #include "exact/vector.h"
 #include "rondel/arrangement.h"
 #include "rondel/error.h"
-#include "rondel/predicates.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -28,8 +27,10 @@ using Ends = std::array<Index, 2>;
 // Where coordinates are smaller, products of differences lose bits to underflow.
 constexpr double least_coordinate = 0x1p-150;
 
+// True if rounding may decide the direction of the arc between two points.
 bool are_opposite(const Point& p, const Point& q) {
-  return dot(p, q) < 0 && is_same_site(p, -1.0 * q);
+  constexpr double least_distance = 0x1p-45;
+  return norm(p + q) < least_distance;
 }
 
 void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
@@ -48,7 +49,7 @@ void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
       throw InvalidInput("an end of an arc does not exist", i);
     }
     if (are_opposite(points[a], points[b])) {
-      throw InvalidInput("the ends of an arc are opposite to each other", i);
+      throw InvalidInput("the ends of an arc are opposite to each other up to rounding", i);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "arrangement/noded_arcs.h"
 #include "exact/ball.h"
 #include "exact/eft.h"
 #include "exact/exact_sign.h"
@@ -26,11 +27,7 @@ using Quads = exact::Vector3<DoubleDouble>;
 // as sums of two. So normals are off by 2^-102 of the steps, and the line by 2^-100 of the product
 // of both steps. A coordinate is known if that is less than a 2^20th of its unit in the last place.
 std::optional<Point> quick_place(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const auto normal = [](const Point& p, const Point& q) -> Quads {
-    const Quads step = exact::difference(q, p);
-    return {step.z * p.y - step.y * p.z, step.x * p.z - step.z * p.x, step.y * p.x - step.x * p.y};
-  };
-  const Quads line = cross(normal(a, b), normal(c, d));
+  const Quads line = cross(precise_normal_of(a, b), precise_normal_of(c, d));
   constexpr double least = 0x1p-26;
   const double bound = least * largest_coordinate(b - a) * largest_coordinate(d - c);
   if (!(bound > 0x1p-150) || !(std::abs(line.x.hi) > bound) || !(std::abs(line.y.hi) > bound) ||

@@ -31,14 +31,14 @@ struct NodedArcs {
   [[nodiscard]] const Point& to(Index arc) const { return nodes[arcs[arc].to]; }
 };
 
-// Returns a x (b - a) with a small relative error, also if b is nearly opposite to a, where the
-// product is much shorter than the step.
+// Returns the cross product of two points with a small relative error, however near to each other
+// or to opposite points they are: as a x (b - a) in double-double, which is off by 2^-104 |b - a|.
+inline exact::Vector3<exact::DoubleDouble> precise_normal_of(const Point& a, const Point& b) {
+  const exact::Vector3<exact::DoubleDouble> step = exact::difference(b, a);
+  return {step.z * a.y - step.y * a.z, step.x * a.z - step.z * a.x, step.y * a.x - step.x * a.y};
+}
 inline Vec normal_of(const Point& a, const Point& b) {
-  constexpr double least_cosine = -0.9;
-  const Vec from = exact::to_vector(a);
-  if (dot(a, b) > least_cosine) return cross(from, exact::to_vector(b) - from);
-  const exact::Vector3<exact::DoubleDouble> p = {{a.x, 0}, {a.y, 0}, {a.z, 0}};
-  const exact::Vector3<exact::DoubleDouble> normal = cross(p, exact::difference(b, a));
+  const auto normal = precise_normal_of(a, b);
   return {normal.x.hi, normal.y.hi, normal.z.hi};
 }
 

@@ -51,9 +51,9 @@ class NodesAlong {
   }
   // Returns the place of a node relative to another one near to it.
   [[nodiscard]] Place place(Index node, Index first) const {
-    const Vec origin = to_vector(nodes_[first]);
-    const Vec step = to_vector(nodes_[node]) - origin;
-    return {dot(cross(normal_, origin), step), dot(normal_, step), node};
+    // The cross product is as long as the step along the sphere, and perpendicular to it.
+    const Vec across = normal_of(nodes_[first], nodes_[node]);
+    return {dot(normal_, across), dot(cross(to_vector(nodes_[first]), normal_), across), node};
   }
   // Returns the distance of a node from the arc, positive to the left, with a small relative error.
   [[nodiscard]] double height(Index node) const {

@@ -31,9 +31,7 @@ std::vector<Point> unit_vectors_of(std::vector<Point> sites) {
   return sites;
 }
 
-bool are_opposite(const Point& p, const Point& q) {
-  return dot(p, q) < 0 && is_same_site(p, -1.0 * q);
-}
+bool are_opposite(const Point& p, const Point& q) { return norm(p + q) < 0x1p-40; }
 
 void test_arrangement(const std::vector<Point>& points, const std::vector<Ends>& arcs) {
   const Arrangement result = arrange(points, arcs, {1});
