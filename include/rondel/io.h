@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -47,6 +48,25 @@ struct FileName {
   std::string path;              ///< "-" is standard input or output
   std::string format;            ///< "ply", "npy" ...; if empty, the ending of the path decides
   std::string* bytes = nullptr;  ///< the string that is read or written; null for a file
+};
+
+/// Files that appear together. What this thread writes while an object of this class exists appears
+/// by commit(), and not at all without it, so that a failure leaves all files as they were. What is
+/// not a regular file (standard output, a device) is written at once.
+class RONDEL_API FilesTogether {
+ public:
+  FilesTogether();
+  ~FilesTogether();
+  FilesTogether(const FilesTogether&) = delete;
+  FilesTogether& operator=(const FilesTogether&) = delete;
+
+  /// Gives the files their names, in the order in which they were completed. Files that are written
+  /// later appear at once. \throws FileError if the system refuses a name; the files before have it
+  void commit();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Returns the format of a file in lower case, "ply": the one that is named, or the ending of the

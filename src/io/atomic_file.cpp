@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <list>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +17,9 @@ namespace {
 
 // Bytes are gathered to pieces of this size, so that few calls of the system write them.
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+// The complete files of this thread that will appear together; null: files appear at once.
+thread_local std::list<AtomicFile>* kept_files = nullptr;
 
 }  // namespace
 
@@ -36,6 +41,11 @@ AtomicFile::AtomicFile(const FileName& file) : path_(file.path), string_(file.by
   } else {
     open();
   }
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) : AtomicFile(std::as_const(other)) {
+  other.descriptor_ = -1;
+  other.temporary_.clear();
 }
 
 AtomicFile::~AtomicFile() { discard(); }
@@ -86,7 +96,11 @@ void AtomicFile::commit() {
   }
   flush();
   if (is_reserved_ && system::resize(descriptor_, num_drained_) != 0) fail(errno);
-  rename();
+  if (kept_files != nullptr && !is_direct()) {
+    kept_files->push_back(std::move(*this));
+  } else {
+    rename();
+  }
 }
 
 // Closes the file, but not standard output, which others may use.
@@ -102,3 +116,22 @@ void AtomicFile::fail(int error) {
 }
 
 }  // namespace rondel::io
+
+namespace rondel {
+
+struct FilesTogether::Impl {
+  std::list<io::AtomicFile> files;
+  std::list<io::AtomicFile>* outer = io::kept_files;
+};
+
+FilesTogether::FilesTogether() : impl_(std::make_unique<Impl>()) { io::kept_files = &impl_->files; }
+
+FilesTogether::~FilesTogether() { io::kept_files = impl_->outer; }
+
+void FilesTogether::commit() {
+  io::kept_files = impl_->outer;
+  for (io::AtomicFile& file : impl_->files) file.commit();
+  impl_->files.clear();
+}
+
+}  // namespace rondel

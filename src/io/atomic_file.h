@@ -48,7 +48,8 @@ class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const FileName& file);
   ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
+  // Takes over what the other one has written.
+  AtomicFile(AtomicFile&& other);
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   // Appends bytes, by way of a buffer.
@@ -62,7 +63,8 @@ class RONDEL_API AtomicFile {
   // report that there is none. The file may become longer or shorter.
   void expect(std::uint64_t size);
 
-  // Flushes, closes and renames the file.
+  // Flushes, closes and renames the file; or leaves the last two to FilesTogether::commit() if this
+  // thread has such an object.
   void commit();
 
   // Returns the path as it was given, or "<stdout>" for standard output.
@@ -75,6 +77,8 @@ class RONDEL_API AtomicFile {
   [[nodiscard]] const std::string& directory() const { return directory_; }
 
  private:
+  AtomicFile(const AtomicFile&) = default;
+
   // Writes what is in the buffer.
   void flush();
   // Writes bytes to the descriptor, whose system may take them in parts.

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where, SiteTable::selection, Column::cell, Column::add,
-// Column::empty_copy, Column::has_wide_integers, free_names on files of
-// any bytes and any ending: what a file holds, and messages of one line that begin with its name.
+// write_file, FilesTogether::commit, write_indices, write_numbers, read_sites, read_triangles,
+// SiteTable::where, SiteTable::selection, Column::cell, Column::add, Column::empty_copy,
+// Column::has_wide_integers, free_names on files of any bytes and any ending: what a file holds,
+// and messages of one line that begin with its name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -127,7 +128,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string ending = fuzz::endings[data[0] % fuzz::endings.size()];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   const std::string path = folder.file("bytes" + ending);
+  FilesTogether files;
   write_file(path, bytes);
+  files.commit();
   fuzz::require(fuzz::content(path) == bytes, "a file holds what was written");
   fuzz::test_sites(path);
   fuzz::test_columns(path);

@@ -32,6 +32,36 @@ TEST(atomic_file, appears_complete) {
   EXPECT_EQ(directory.num_files(), 1U);
 }
 
+TEST(atomic_file, appears_together_with_others_or_not_at_all) {
+  const TemporaryDirectory directory;
+  const auto write = [&](const char* name) { write_file(directory.file(name), name); };
+  write("a.txt");
+  {
+    const FilesTogether files;
+    write_file(directory.file("a.txt"), "other");
+    write("b.txt");
+    EXPECT_THROW(write_file(directory.file("none/c.txt"), "c"), FileError);
+  }
+  EXPECT_EQ(read_all(directory.file("a.txt")), "a.txt");
+  EXPECT_EQ(directory.num_files(), 1U);
+  {
+    FilesTogether files;
+    write_file(directory.file("a.txt"), "other");
+    {
+      FilesTogether inner;
+      write("b.txt");
+      inner.commit();
+    }
+    EXPECT_EQ(directory.num_files(), 1U);
+    files.commit();
+    EXPECT_EQ(read_all(directory.file("a.txt")), "other");
+    EXPECT_EQ(read_all(directory.file("b.txt")), "b.txt");
+    write("c.txt");
+    EXPECT_EQ(directory.num_files(), 3U);
+  }
+  EXPECT_EQ(directory.num_files(), 3U);
+}
+
 TEST(atomic_file, a_string_gets_the_bytes_of_the_file_at_the_end) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("a.npy");
