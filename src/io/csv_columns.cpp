@@ -38,6 +38,18 @@ std::string hint(const Header& header) {
   return {};
 }
 
+// Returns the name of a column that has none.
+std::string name_of_position(std::size_t column) { return "column_" + std::to_string(column + 1); }
+
+// Ends a message that may name a column of the header which has no name.
+std::string about_positions(const Header& header) {
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (header[i] == name_of_position(i))
+      return "; a column without a name is called by its position";
+  }
+  return {};
+}
+
 // Returns the names of the first columns, for messages.
 std::string found(const Header& header) {
   constexpr std::size_t most = 30;
@@ -46,7 +58,8 @@ std::string found(const Header& header) {
     const std::string name = in_quotes(header[i]);
     text += (i == 0 ? "" : ", ") + name.substr(1, name.size() - 2);
   }
-  return (header.size() > most ? text + ", ..." : text) + hint(header);
+  if (header.size() > most) text += ", ...";
+  return text + about_positions(header) + hint(header);
 }
 
 // A coordinate and the names by which columns may hold it.
@@ -77,7 +90,8 @@ std::string with_positions(const Header& header, std::span<const std::size_t> co
 
 // Throws BadValue with the positions of columns that have one name.
 [[noreturn]] void refuse_equal(const Header& header, std::span<const std::size_t> columns) {
-  throw BadValue("two columns have the same name: " + with_positions(header, columns.first(2)));
+  throw BadValue("two columns have the same name: " + with_positions(header, columns.first(2)) +
+                 about_positions(header));
 }
 
 // Returns the column of a coordinate. An exact match is preferred to one that differs in case.
@@ -172,8 +186,7 @@ std::vector<std::string> column_names(const std::vector<std::string_view>& heade
   std::vector<std::string> names;
   for (const std::string_view field : header) {
     const std::string_view name = trim(field);
-    names.push_back(name.empty() ? "column_" + std::to_string(names.size() + 1)
-                                 : std::string(name));
+    names.push_back(name.empty() ? name_of_position(names.size()) : std::string(name));
   }
   return names;
 }

@@ -68,6 +68,9 @@ TEST(csv_columns, are_found_by_usual_names) {
   EXPECT_EQ(columns_of({"lon", "b"}), "no column for the latitude (lat, latitude); found: lon, b");
   EXPECT_EQ(columns_of({"a", "lat"}),
             "no column for the longitude (lon, lng, long, longitude); found: a, lat");
+  EXPECT_EQ(columns_of({"column_1", "lat"}),
+            "no column for the longitude (lon, lng, long, longitude); found: column_1, lat; "
+            "a column without a name is called by its position");
   EXPECT_EQ(columns_of({"x", "z"}), "no column for the y coordinate (y); found: x, z");
   EXPECT_EQ(columns_of({"x", "lon"}), "no column for the latitude (lat, latitude); found: x, lon");
 }
