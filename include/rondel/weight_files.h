@@ -61,7 +61,7 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
                               const NetcdfOptions& netcdf = {});
 
 /// Reads weights that write_weights() or another program wrote; the variables of netCDF tell which
-/// format it is. Entries may have any order: they are sorted into rows, and keep the order of the
+/// format it is. A file that has another format than the one named is refused. Entries may have any order: they are sorted into rows, and keep the order of the
 /// file within a row. Areas and fractions that are all 0, masks that are all 1, and cells of one
 /// corner are read as empty arrays.
 ///

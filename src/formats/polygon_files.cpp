@@ -26,6 +26,9 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
+// The remark on a file.
+constexpr const char* no_features = "there are no features";
+
 // Reads the features of a file, and removes the geometry of those that options.is_taken() rejects.
 map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
                                  const PolygonOptions& options) {
@@ -84,6 +87,7 @@ CellTable read_polygons(const FileName& file, const PolygonOptions& options,
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
   CellTable table;
+  if (features.rings.empty()) table.facts.remarks.push_back(no_features);
   table.cells = overlay::cells_of_features(features, options, table.facts.remarks, execution);
   table.facts.name = std::move(features.name);
   table.facts.columns = std::move(features.columns);
@@ -100,6 +104,7 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
     table.is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
   }
   table.lines = lines_of_features(features, options);
+  if (features.rings.empty()) table.facts.remarks.push_back(no_features);
   table.polygons = overlay::cells_of_features(features, options, table.facts.remarks, execution);
   table.ids = std::move(features.ids);
   table.facts.name = std::move(features.name);

@@ -90,12 +90,15 @@ WeightFile read_weights(const FileName& file) {
   }
   io::FileBytes bytes(file, true);
   return io::in_file(bytes.name(), [&] {
-    if (io::is_netcdf(bytes.head())) {
-      return formats::read_weights_netcdf(io::NetcdfReader(bytes));
+    const bool is_netcdf = io::is_netcdf(bytes.head());
+    if (is_netcdf && file.format.empty()) {
+      return formats::read_weights_netcdf(io::NetcdfReader(bytes), {});
     }
     if (!is_known) io::throw_unknown_ending(file, "weights are read from", weight_endings);
+    if (ending == ".npz" && is_netcdf) throw io::BadValue("the file is netCDF, not npz");
     if (ending == ".npz") return formats::read_weights_npz(bytes.text());
-    return formats::read_weights_netcdf(io::NetcdfReader(bytes));  // throws with the reason
+    // Where the file is no netCDF, this throws with the reason.
+    return formats::read_weights_netcdf(io::NetcdfReader(bytes), format_of({"", file.format}));
   });
 }
 

@@ -33,7 +33,8 @@ void write_scrip(io::AtomicFile& file, const WeightsToWrite& job);
 void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job);
 
 // Each of these reads the content of a file. They throw BadValue if it is not as the format says.
-WeightFile read_weights_netcdf(const io::NetcdfReader& file);
+// `format` is "esmf" or "scrip" if the file must have that one of the netCDF formats.
+WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format);
 WeightFile read_weights_npz(std::string_view bytes);
 
 // Each of these reads one of the netCDF formats; read_weights_netcdf() calls the one whose

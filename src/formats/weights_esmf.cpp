@@ -50,7 +50,7 @@ void write_esmf(io::AtomicFile& file, const WeightsToWrite& job) {
       out.add_dimension("src_grid_rank", shape_or(content.source, num_sources).size());
   const std::size_t dst_rank =
       out.add_dimension("dst_grid_rank", shape_or(content.target, num_targets).size());
-  out.add_attribute("title", "Weights that carry values from points to points");
+  out.add_attribute("title", "Weights that carry values from sources to targets");
   out.add_attribute("normalization",
                     content.normalization.empty() ? "none" : content.normalization);
   out.add_attribute("map_method", content.method.empty() ? "unknown" : content.method);

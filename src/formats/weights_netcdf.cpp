@@ -287,9 +287,17 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
 }
 
 // Picks the format by the variable that holds the weights.
-WeightFile read_weights_netcdf(const io::NetcdfReader& file) {
-  if (file.find("S") != nullptr) return read_esmf(file);
-  if (file.find("remap_matrix") != nullptr) return read_scrip(file);
+WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format) {
+  const bool is_esmf = file.find("S") != nullptr;
+  const bool is_scrip = !is_esmf && file.find("remap_matrix") != nullptr;
+  if (is_esmf && format == "scrip") {
+    throw io::BadValue(R"(the weights are those of ESMF (variable "S"), not scrip)");
+  }
+  if (is_scrip && format == "esmf") {
+    throw io::BadValue(R"(the weights are those of SCRIP (variable "remap_matrix"), not esmf)");
+  }
+  if (is_esmf) return read_esmf(file);
+  if (is_scrip) return read_scrip(file);
   throw io::BadValue(
       R"(no file of weights: neither variable "S" (ESMF) nor "remap_matrix" (SCRIP))");
 }

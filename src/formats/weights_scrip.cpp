@@ -101,7 +101,7 @@ void write_scrip(io::AtomicFile& file, const WeightsToWrite& job) {
       out.add_dimension("dst_grid_rank", shape_or(content.target, num_targets).size());
   const std::size_t links = out.add_dimension("num_links", weights.columns.size());
   const std::size_t wgts = out.add_dimension("num_wgts", 1);
-  out.add_attribute("title", "Weights that carry values from points to points");
+  out.add_attribute("title", "Weights that carry values from sources to targets");
   out.add_attribute("normalization",
                     content.normalization.empty() ? "none" : content.normalization);
   out.add_attribute("map_method", known_method(content.method));

@@ -348,8 +348,16 @@ std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file, const Variabl
     if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
     shape.push_back(static_cast<std::uint64_t>(length));
   }
+  // Some programs write 0 or 1 for points that are on no grid.
+  const bool is_unknown = shape.empty() || (shape.size() == 1 && product < 2);
+  if (product != size && !is_unknown) {
+    std::string text;
+    for (const std::int64_t length : file.integers(lengths)) {
+      text += (text.empty() ? "" : " x ") + std::to_string(length);
+    }
+    refuse(lengths, "is " + text + ", which does not multiply to " + std::to_string(size));
+  }
   if (shape.size() < 2) return {};
-  if (product != size) refuse(lengths, "does not multiply to " + std::to_string(size));
   std::ranges::reverse(shape);
   return shape;
 }

@@ -140,7 +140,7 @@ const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attribute
 
 // Returns the lengths of a grid of `size` cells, which SCRIP lists from the fastest dimension on,
 // with the slowest dimension first. Returns an empty vector if there are fewer than two. Throws
-// BadValue if their product is not the size.
+// BadValue if their product is not the size, but for a single one of 0 or 1.
 std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file, const VariableInFile& lengths,
                                          std::uint64_t size);
 

@@ -271,6 +271,43 @@ TEST(weight_files, rows_and_columns_are_as_many_as_weights) {
   EXPECT_NE(message_with(2, 1).find("2 rows and 1 columns for 2 weights"), std::string::npos);
 }
 
+TEST(weight_files, have_the_format_that_is_named_or_are_refused) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> formats = {"esmf", "scrip", "npz"};
+  for (const std::string& written : formats) {
+    const std::string path = directory.file("w");
+    write_weights(FileName(path, written), example());
+    for (const std::string& named : formats) {
+      const std::string message = message_of([&] { (void)read_weights(FileName(path, named)); });
+      EXPECT_EQ(message.empty(), written == named) << written << ' ' << named << ' ' << message;
+      if (written == "npz" || written == named) continue;
+      EXPECT_TRUE(message.ends_with("not " + named)) << message;
+    }
+  }
+}
+
+TEST(weight_files, have_as_many_points_as_the_lengths_of_their_grids_say) {
+  const TemporaryDirectory directory;
+  const auto message_with = [&](const std::vector<double>& lengths) {
+    MeshWriter file;
+    file.add_whole("src_grid_dims", {{"src_grid_rank", lengths.size()}}, lengths);
+    file.add("frac_a", {{"n_a", 6}}, std::vector<double>(6, 1.0));
+    file.add("frac_b", {{"n_b", 3}}, std::vector<double>(3, 1.0));
+    file.add("S", {{"n_s", 2}}, {0.5, 0.5});
+    file.add_whole("row", {{"n_s", 2}}, {1, 3});
+    file.add_whole("col", {{"n_s", 2}}, {1, 6});
+    file.write(directory.file("w.nc"));
+    return message_of([&] { (void)read_weights(directory.file("w.nc")); });
+  };
+  for (const std::vector<double>& lengths : {std::vector<double>{6}, {3, 2}, {0}, {1}}) {
+    EXPECT_EQ(message_with(lengths), "");
+  }
+  EXPECT_TRUE(message_with({4, 2}).ends_with(
+      "variable \"src_grid_dims\" is 4 x 2, which does not multiply to 6"));
+  EXPECT_TRUE(
+      message_with({5}).ends_with("variable \"src_grid_dims\" is 5, which does not multiply to 6"));
+}
+
 TEST(weight_files, of_scrip_with_gradients_are_refused) {
   const TemporaryDirectory directory;
   const auto message_with = [&](std::uint64_t num_weights) {

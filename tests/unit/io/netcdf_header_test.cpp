@@ -325,7 +325,9 @@ TEST(netcdf_reader, has_the_lengths_of_grids_from_the_slowest_on) {
   EXPECT_EQ(shape({4, 3}, 12), (Shape{3, 4}));
   EXPECT_EQ(shape({1, 5, 2}, 10), (Shape{2, 5, 1}));
   EXPECT_EQ(shape({12}, 12), Shape{});
-  EXPECT_EQ(shape({11}, 12), Shape{});
+  EXPECT_EQ(shape({0}, 12), Shape{});
+  EXPECT_EQ(shape({1}, 12), Shape{});
+  EXPECT_THROW((void)shape({11}, 12), io::BadValue);
   EXPECT_THROW((void)shape({4, 3}, 11), io::BadValue);
   EXPECT_THROW((void)shape({0, 3}, 3), io::BadValue);
   EXPECT_THROW((void)shape({-4, -3}, 12), io::BadValue);
