@@ -55,7 +55,7 @@ struct EqualArea {
   /// doubles represent these: rounding alone would change the areas of a million cells by 1e-10.
   /// Within a few spacings of the ends of the three axes, coordinates cannot represent all lengths.
   std::vector<Point> poles;
-  std::vector<double> radii_deg;  ///< the radii of the circles
+  std::vector<double> radii_deg;  ///< the radii of the circles, less than 90
   std::vector<double> areas;
   double largest_error = 0;
   Index worst = no_index;  ///< the site with the largest error

@@ -263,7 +263,9 @@ void finish(EqualArea& result, const FineWeights& weights, Weighted&& now) {
     result.weights.push_back(weight.hi);
     // The cosine of the radius is 1 / weight.
     const double tangent = std::sqrt(std::max(0.0, (weight.hi - 1) + weight.lo) * (weight.hi + 1));
-    result.radii_deg.push_back(180 / std::numbers::pi * exact::argument(tangent, 1));
+    // A radius below 90 degrees is that of a circle, which polar_point() takes.
+    result.radii_deg.push_back(
+        std::min(180 / std::numbers::pi * exact::argument(tangent, 1), std::nextafter(90.0, 0.0)));
   }
   result.poles = std::move(now.poles);
   result.areas = std::move(now.areas);

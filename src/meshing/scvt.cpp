@@ -222,6 +222,13 @@ void require_fixed(std::span<const Point> fixed, std::size_t count) {
                      count);
 }
 
+// Throws InvalidInput for a number of steps that is negative.
+void require_steps(const ScvtOptions& options) {
+  if (options.max_iterations >= 0) return;
+  throw InvalidInput("the largest number of steps is negative: " +
+                     std::to_string(options.max_iterations));
+}
+
 }  // namespace
 
 std::string_view name_of(ScvtMethod method) noexcept {
@@ -234,6 +241,7 @@ std::string_view name_of(ScvtEnd end) noexcept {
 
 Scvt scvt(const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
+  require_steps(options);
   std::size_t count = options.count;
   if (count == 0 && options.size) {
     count = static_cast<std::size_t>(
@@ -250,6 +258,7 @@ Scvt scvt(const ScvtOptions& options, const Execution& execution) {
 
 Scvt relax(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
+  require_steps(options);
   Scvt result;
   require_places(sites, "a site");
   result.sites = unit_places(sites);

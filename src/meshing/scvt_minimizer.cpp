@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
 
 namespace rondel::mesh {
@@ -37,7 +39,14 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
       springs_(threads) {
   std::ranges::transform(sites_, axes_.begin(), far_axis);
   if (!surface_.update(sites_)) {
-    throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere");
+    const Triangulation projected =
+        delaunay(Sites::view(sites_), {}, Execution{.threads = threads});
+    if (projected.duplicates().empty()) {
+      throw InvalidInput("the sites do not surround the center of the sphere");
+    }
+    const auto [site, first] = projected.duplicates().front();
+    throw InvalidInput(
+        "site " + std::to_string(site) + " is in the place of site " + std::to_string(first), site);
   }
   report_ = energy_(surface_, sites_, axes_, sums_, is_fixed_);
 }

@@ -219,6 +219,9 @@ TEST(equal_area, equal_lunes_exist_or_not) {
   const EqualArea opposite = equal_area(equator({0, 50, 180}));
   EXPECT_EQ(opposite.end, EqualAreaEnd::infeasible);
   EXPECT_NE(opposite.reason.find("are lunes"), std::string::npos);
+  for (const EqualArea* const end : {&five, &opposite}) {
+    EXPECT_LT(std::ranges::max(end->radii_deg), 90);
+  }
   const std::vector<double> targets = {whole * 140 / 360, whole * 80 / 360, whole * 140 / 360};
   const EqualArea made = equal_area(equator({0, 50, 180}), targets);
   EXPECT_EQ(made.end, EqualAreaEnd::converged);

@@ -251,7 +251,15 @@ TEST(scvt, what_is_no_start_is_refused) {
   sites[5] = {0, 0, 0};
   EXPECT_THROW((void)relax(sites), InvalidInput);
   sites[5] = sites[6];
-  EXPECT_THROW((void)relax(sites), InvalidInput);
+  try {
+    (void)relax(sites);
+    ADD_FAILURE();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.index(), 6U);
+    EXPECT_STREQ(error.what(), "site 6 is in the place of site 5");
+  }
+  EXPECT_THROW((void)scvt({.count = 42, .max_iterations = -1}), InvalidInput);
+  EXPECT_THROW((void)relax(icosahedron(), {.max_iterations = -1}), InvalidInput);
 }
 
 TEST(scvt, names_of_ends) {
