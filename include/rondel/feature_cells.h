@@ -43,8 +43,9 @@ struct FeatureSites {
 /// 3. All points of the lines are sites.
 /// \param tolerance  radians, positive
 /// \throws InvalidInput if offsets do not fit, a point is no unit vector, neighbors in a line are
-///         antipodes, the tolerance is not positive, or there would be more sites than an Index
-///         counts.
+///         antipodes, the tolerance is not positive, or so small that an arc between two points
+///         could have more than 524,288 sites (longer than 1,048,576 tolerances; index of the
+///         feature), or if there would be more sites than an Index counts.
 RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
                                       const Execution& execution = {});
 

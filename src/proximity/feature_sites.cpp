@@ -34,6 +34,7 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/row_assembly.h"
 
 namespace rondel {
@@ -95,9 +96,23 @@ void require_lines(const FeatureLines& lines) {
   }
 }
 
+// Where another feature touches an arc, its sites are up to two tolerances apart. A tolerance that
+// might put more sites than this on an arc is refused, as the work would take minutes.
+constexpr double max_sites_of_arc = 1U << 19U;
+
+// Throws InvalidInput for an arc that is too long for the tolerance.
+void require_length(double length, double tolerance, std::size_t feature) {
+  if (length <= 2 * tolerance * max_sites_of_arc) return;
+  throw InvalidInput("with the tolerance of " + system::shortest_text(tolerance) +
+                         " radians an arc of feature " + std::to_string(feature) +
+                         " could have more than " + system::shortest_text(max_sites_of_arc) +
+                         " sites",
+                     feature);
+}
+
 // Returns the corners of all lines without repeated neighbors. Throws InvalidInput if neighbors are
-// antipodes, between which no shorter arc exists.
-LinePoints points_of_lines(const FeatureLines& lines) {
+// antipodes, between which no shorter arc exists, or too far apart for the tolerance.
+LinePoints points_of_lines(const FeatureLines& lines, double tolerance) {
   LinePoints all;
   const auto& [ends, points] = lines.rows;
   for (std::size_t f = 0; f < lines.size(); ++f) {
@@ -110,6 +125,7 @@ LinePoints points_of_lines(const FeatureLines& lines) {
                                  " of a line are antipodes",
                              k);
         }
+        if (!is_last) require_length(angle_of(points[k], points[k + 1]), tolerance, f);
         all.add(points[k], static_cast<Index>(f), !is_last);
       }
     }
@@ -156,7 +172,7 @@ FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
   const system::Call call(execution);
   require_lines(lines);
   if (!(tolerance > 0)) throw InvalidInput("the tolerance is not positive");
-  LinePoints all = points_of_lines(lines);
+  LinePoints all = points_of_lines(lines, tolerance);
   while (true) {
     if (all.points.size() >= std::numeric_limits<Index>::max() / 2) {
       throw InvalidInput("with this tolerance there are too many sites", all.points.size());

@@ -118,6 +118,24 @@ double largest_excess(const FeatureLines& lines, const FeatureSites& found, int 
   return largest;
 }
 
+TEST(feature_sites, of_an_arc_are_not_too_many) {
+  FeatureLines lines;
+  for (const Point& end : {Point{0, 1, 0}, Point{0, 0, 1}}) {
+    lines.rows.append(std::vector<Point>{{1, 0, 0}, end});
+    lines.end_group();
+  }
+  EXPECT_LT(feature_sites(lines, 2e-6).sites.size(), 5'000U);
+  try {
+    (void)feature_sites(lines, 1.4e-6);
+    ADD_FAILURE();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.index(), 0U);
+    EXPECT_STREQ(error.what(),
+                 "with the tolerance of 1.4e-06 radians an arc of feature 0 could have more than "
+                 "524288 sites");
+  }
+}
+
 TEST(feature_sites, no_feature_is_farther_than_the_nearest_by_more_than_the_tolerance) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const FeatureLines lines = random_lines(seed, 40, 6, 0.15);
