@@ -35,6 +35,7 @@ struct Job::State {
 
   CommonOptions options;
   ProgressLine line;
+  FilesTogether files;  // what the command writes
   // Returns the sum of the seconds of a stage.
   double& clock(Stage stage) {
     switch (stage) {
@@ -53,7 +54,8 @@ struct Job::State {
   Seconds seconds{};
   std::uint64_t num_unlocated = 0;  // number of features read without a geometry
   std::optional<std::size_t> num_without_value;
-  std::vector<std::string> remarks;  // on the input, told with the report
+  // What is told with the report: a file and a remark on it.
+  std::vector<std::pair<std::string, std::string>> remarks;
   Clock::time_point start = Clock::now();
 };
 
@@ -108,6 +110,7 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   const SiteTable& table = sites.table;
   state_->seconds.read += seconds_since(start);
   state_->num_unlocated += table.num_unlocated;
+  if (table.sites.empty()) remark(table.name, no_points);
   if (table.num_unlocated > 0 && !state_->options.quiet) {
     state_->line.clear();
     std::fprintf(stderr, "rondel: %s: left out %s without a place\n", table.name.c_str(),
@@ -144,17 +147,16 @@ std::vector<double> Job::shown_values(const Triangulation& triangulation,
     if (is_vertex[i] && std::isnan(shown[i])) ++num_without;
   }
   state_->num_without_value = num_without;
+  const std::string input = state_->options.input == "-" ? "<stdin>" : state_->options.input;
   const std::string of_all = " of " + count(triangulation.num_sites(), "site", "sites");
   if (num_without > 0) {
-    state_->remarks.push_back(std::to_string(num_without) + of_all +
-                              (num_without == 1 ? " has" : " have") + " no value of '" + name +
-                              "': " + consequence);
+    remark(input, std::to_string(num_without) + of_all + (num_without == 1 ? " has" : " have") +
+                      " no value of '" + name + "': " + consequence);
   }
   if (num_other > 0) {
-    state_->remarks.push_back(std::to_string(num_other) + of_all +
-                              (num_other == 1 ? " is" : " are") +
-                              " at the place of another one with another value of '" + name +
-                              "': of each place the first value counts");
+    remark(input, std::to_string(num_other) + of_all + (num_other == 1 ? " is" : " are") +
+                      " at the place of another one with another value of '" + name +
+                      "': of each place the first value counts");
   }
   return shown;
 }
@@ -164,6 +166,10 @@ std::vector<bool> are_vertices(const Triangulation& triangulation) {
   for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
   for (const Hidden& hidden : triangulation.hidden()) is_vertex[hidden.site] = false;
   return is_vertex;
+}
+
+void Job::remark(const std::string& file, const std::string& text) {
+  state_->remarks.emplace_back(file, text);
 }
 
 void Job::time(Stage stage, const std::function<void()>& work) {
@@ -192,8 +198,8 @@ void Job::report(const Triangulation& triangulation, const std::string& what) {
 
 void Job::report(const std::string& json, const std::string& summary) {
   state_->line.clear();
-  const std::string& input = state_->options.input;
-  tell(input == "-" ? "<stdin>" : input, state_->remarks);
+  state_->files.commit();
+  for (const auto& [file, text] : state_->remarks) tell(file, {text});
   if (state_->options.output == "-") return;
   if (state_->options.json) {
     print(json);

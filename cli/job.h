@@ -37,8 +37,9 @@ struct Seconds {
   double total = 0;
 };
 
-/// One run of a command: reads, triangulates, times each stage, shows
-/// progress on a terminal, and reports in the end.
+/// One run of a command: reads, triangulates, times each stage, shows progress on a terminal, and
+/// reports in the end. The files that the command writes appear together when it reports; if it
+/// fails before, none of them does.
 class Job {
  public:
   explicit Job(const CommonOptions& options);
@@ -72,6 +73,8 @@ class Job {
   std::vector<double> shown_values(const Triangulation& triangulation,
                                    const std::vector<double>& values, const std::string& name,
                                    const std::string& consequence);
+  /// Adds a remark on a file, which is told with the report.
+  void remark(const std::string& file, const std::string& text);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
   /// Returns the wanted number of threads, and a progress, which is empty if none is shown.

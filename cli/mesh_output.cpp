@@ -99,14 +99,18 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
                          const std::vector<NamedFile>& outputs) {
   const CommonOptions& common = output.common;
   const bool may_be_sites = kind == MeshOutputKind::mesh_or_sites;
-  const std::string of_meshes = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)";
+  const bool is_stream = common.output == "-";
+  if (is_stream && (!may_be_sites || is_mesh_file(common))) {
+    throw UsageError("--output: a mesh is written to a file, not to standard output");
+  }
+  std::string endings = may_be_sites ? ".csv .tsv .xyz .txt .npy" : "";
+  if (!is_stream) {
+    endings = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)" + (may_be_sites ? ' ' + endings : "");
+  }
   std::vector<NamedFile> written = {{"--report", output.report}, {"--graph", output.graph}};
   written.insert(written.end(), outputs.begin(), outputs.end());
   require_output(common, is_mesh_file(common) || (may_be_sites && can_write_sites(common.target())),
-                 of_meshes + (may_be_sites ? " .csv .tsv .xyz .txt .npy" : ""), inputs, written);
-  if (is_mesh_file(common) && common.output == "-") {
-    throw UsageError("--output: a mesh is written to a file");
-  }
+                 endings, inputs, written);
 }
 
 void write_mesh_report(const std::string& path, const mesh::VoronoiMesh& arrays,

@@ -72,16 +72,44 @@ mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_sta
   return n == 0 ? *scvt.size : scvt.size->for_count(n);
 }
 
+// The lines that mesh::read_lines() or mesh::read_places() has found in files.
+struct LinesOfFiles {
+  std::vector<std::vector<Point>> lines;
+  std::vector<std::string> files;
+  std::vector<std::size_t> ends;  // by file: the end of its lines
+
+  // Returns where a line comes from: "points.csv:5", or "lines.geojson: line 5" where lines are no
+  // points of a table. The table is read again for that.
+  [[nodiscard]] std::string where(std::size_t line) const {
+    const auto end = std::ranges::upper_bound(ends, line);
+    const std::string& file = files[static_cast<std::size_t>(end - ends.begin())];
+    const std::size_t begin = end == ends.begin() ? 0 : *std::prev(end);
+    try {
+      const SiteTable table = read_sites({file, {}}, {});
+      if (table.sites.size() == *end - begin) return table.where(line - begin);
+    } catch (const FileError&) {
+    }
+    return file + ": line " + std::to_string(line - begin);
+  }
+};
+
 // Throws if two points of --fixed are in one place; places on lines and beside them are apart.
-void require_apart(const std::vector<Point>& sites, const std::string& file,
+void require_apart(const std::vector<Point>& sites, const LinesOfFiles& from,
                    const Execution& execution) {
   if (sites.size() < 2) return;
   const Triangulation triangulation =
       delaunay(Sites::view(sites), {}, Execution{.threads = execution.threads});
   if (triangulation.duplicates().empty()) return;
   const auto [second, first] = triangulation.duplicates().front();
-  throw FileError(file + ": places " + std::to_string(first) + " and " + std::to_string(second) +
-                  " are one place, which cannot be two sites");
+  const bool are_points = std::ranges::all_of(
+      from.lines, [](const std::vector<Point>& line) { return line.size() == 1; });
+  // Lines have more sites than one, so that the number of a site is not that of its line.
+  throw FileError(are_points
+                      ? from.where(second) + ": the place of " + from.where(first) +
+                            ", which cannot be two sites"
+                      : (from.files.size() == 1 ? from.files.front() : "--fixed") + ": places " +
+                            std::to_string(first) + " and " + std::to_string(second) +
+                            " are one place, which cannot be two sites");
 }
 
 }  // namespace
@@ -155,32 +183,31 @@ FixedSites fixed_sites(const ScvtFiles& options, const mesh::ScvtOptions& scvt,
   const auto add = [&](const std::vector<std::string>& files, auto read, auto sites_of) {
     // The library takes the lines of all files at once, so that sites of one file keep their
     // distance from those of another.
-    std::vector<std::vector<Point>> lines;
-    std::vector<std::size_t> ends;  // by file: the end of its lines
+    LinesOfFiles from{{}, files, {}};
     for (const std::string& file : files) {
       std::vector<std::vector<Point>> more = read({file, {}}, {.edges = options.edges}, execution);
-      std::ranges::move(more, std::back_inserter(lines));
-      ends.push_back(lines.size());
+      std::ranges::move(more, std::back_inserter(from.lines));
+      from.ends.push_back(from.lines.size());
     }
     try {
-      const mesh::LineSites found = sites_of(lines, size, execution);
+      const mesh::LineSites found = sites_of(from.lines, size, execution);
       fixed.sites.insert(fixed.sites.end(), found.sites.begin(), found.sites.end());
       fixed.num_left_out += found.num_left_out;
     } catch (const InvalidInput& error) {
-      const auto end = std::ranges::upper_bound(ends, error.index());
-      if (end == ends.end()) throw;
-      // The library numbers the lines of all files together.
-      const std::size_t begin = end == ends.begin() ? 0 : *std::prev(end);
+      if (error.index() >= from.lines.size()) throw;
       std::string what = error.what();
-      const std::string number = "line " + std::to_string(error.index());
+      // "a point of line 3 is ..." and "neighbors in line 3 are ..." without the number, which is
+      // that of a line of all files.
+      const std::string number = "line " + std::to_string(error.index()) + ' ';
       if (const std::size_t at = what.find(number); at != std::string::npos) {
-        what.replace(at, number.size(), "line " + std::to_string(error.index() - begin));
+        what.erase(at - 3, number.size() + 3);
       }
-      throw FileError(files[static_cast<std::size_t>(end - ends.begin())] + ": " + what);
+      throw FileError(from.where(error.index()) + ": " + what);
     }
+    return from;
   };
-  add(options.fixed, mesh::read_places, mesh::sites_on);
-  if (!options.fixed.empty()) require_apart(fixed.sites, options.fixed.back(), execution);
+  const LinesOfFiles from = add(options.fixed, mesh::read_places, mesh::sites_on);
+  if (!options.fixed.empty()) require_apart(fixed.sites, from, execution);
   add(options.along, mesh::read_lines, mesh::sites_along);
   return fixed;
 }

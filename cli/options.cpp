@@ -44,6 +44,12 @@ bool may_be_table(const FileName& file) {
          !is_netcdf_file(file_and_variable(file).first);
 }
 
+// True if a file has fields with a delimiter between them; standard input is .csv by default.
+bool has_delimiter(const FileName& file) {
+  const std::string format = file.path == "-" && file.format.empty() ? "csv" : format_of(file);
+  return may_be_table(file) && (format == "csv" || format == "tsv");
+}
+
 // True if at least one of the files is a table, whose columns the options may name.
 bool has_table(const TablesRead& tables) { return std::ranges::any_of(tables(), may_be_table); }
 
@@ -142,6 +148,10 @@ void add_table_options(CLI::App& command, CommonOptions& options, const TablesRe
     require_effect(
         options, command.get_option(name), [tables] { return has_table(tables); }, otherwise);
   }
+  require_effect(
+      options, command.get_option("--delimiter"),
+      [tables] { return std::ranges::any_of(tables(), has_delimiter); },
+      "on files other than .csv and .tsv");
   require_effect(
       options, command.get_option("--lon"), [tables] { return has_table(tables); },
       otherwise + "; INPUT.nc:NAME chooses one of several coordinates of netCDF");
@@ -312,7 +322,18 @@ void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& 
           ->check(CLI::Range(0, 9).description(""))
           ->type_name("N");
   require_effect(
-      common, kind, [written] { return !written().empty(); }, "on files other than netCDF");
+      common, kind,
+      [written, &options] {
+        const std::vector<FileName> files = written();
+        for (const FileName& file : files) {
+          const bool is_netcdf4 = format_of(file) == "nc4" || format_of(file.path) == "nc4";
+          if (!is_netcdf4 || options.kind == NetcdfKind::netcdf4) continue;
+          throw UsageError("--kind: " + std::string(name_of(options.kind)) + " contradicts '" +
+                           (file.format.empty() ? file.path : file.format) + "', netCDF-4");
+        }
+        return !files.empty();
+      },
+      "on files other than netCDF");
   require_effect(
       common, deflate,
       [written, &options] {

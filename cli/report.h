@@ -24,6 +24,9 @@ std::string count(std::size_t number, const std::string& one, const std::string&
 /// Returns a time in seconds with three decimals: "0.125 s".
 std::string text_of_seconds(double seconds);
 
+/// The remark on a file, or the error where something has to be in it.
+inline constexpr const char* no_points = "there are no points";
+
 /// Writes a reader's remarks on a file to standard error, one a line: "rondel: mesh.nc: 3 of 162
 /// cells are ...".
 void tell(const std::string& file, const std::vector<std::string>& remarks);

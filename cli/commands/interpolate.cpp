@@ -50,6 +50,7 @@ struct InterpolateOptions {
 
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
+  [[nodiscard]] FileName weights_file() const { return {weights, weight_format}; }
 };
 
 // How far the coordinates of a field may be from the sites. Both are read from one file, so they
@@ -197,9 +198,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
     if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
   }
-  job.time(Stage::write, [&] {
-    write_weights({options.weights, options.weight_format}, file, options.netcdf);
-  });
+  job.time(Stage::write, [&] { write_weights(options.weights_file(), file, options.netcdf); });
 }
 
 // Checks the options, reads both files, then interpolates values, makes weights, or does both.
@@ -220,6 +219,13 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }
+  if (!options.weights.empty() &&
+      if_of_format(options.weights_file(), {"nc", "nc4", "npz", "esmf", "scrip"}).empty()) {
+    throw UsageError((options.weight_format.empty()
+                          ? "--weights: the ending of '" + options.weights
+                          : "--weight-format: '" + options.weight_format) +
+                     "' is not one of .nc .nc4 .npz esmf scrip");
+  }
   const bool is_nearest = !options.regrid && options.interpolation.method == Method::nearest;
   if (common.build.model == Model::weighted && !is_nearest) {
     throw UsageError("--method: weighted sites have no method but nearest");
@@ -232,6 +238,13 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Targets targets = read_targets(options.target_file(), common.read);
   const SiteTable* const tables[] = {&table, &targets.table};
   require_angles(common.read, tables);
+  for (const SiteTable* const side : tables) {
+    // Files of weights have dimensions for both sides, which netCDF does not allow to be 0.
+    if (!options.weights.empty() && side->sites.empty()) {
+      throw FileError(side->name + ": " + no_points);
+    }
+  }
+  if (targets.table.sites.empty()) job.remark(targets.table.name, no_points);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
   std::optional<Weights> weights;
   if (options.regrid) weights = regrid_weights(job, *options.regrid, grid, targets);
@@ -290,8 +303,7 @@ void add_methods(CLI::App& parser, InterpolateOptions& options) {
 // Returns the outputs that are netCDF: values, weights.
 std::vector<FileName> netcdf_outputs(const InterpolateOptions& options) {
   std::vector<FileName> written = if_of_format(options.common.target(), {"nc", "nc4"});
-  for (FileName& file :
-       if_of_format({options.weights, options.weight_format}, {"nc", "nc4", "esmf", "scrip"})) {
+  for (FileName& file : if_of_format(options.weights_file(), {"nc", "nc4", "esmf", "scrip"})) {
     written.push_back(std::move(file));
   }
   return written;

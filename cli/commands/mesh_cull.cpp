@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,7 +78,8 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
   const FieldSet fields = read_fields({file, {}}, wanted, num_cells);
   const FieldArray* const array = fields.arrays.size() == 1 ? &fields.arrays.front() : nullptr;
   if (array == nullptr || (array->num_fields() != 1 && !are_regions(*array))) {
-    throw FileError(file + ": it has not one number for each cell" +
+    throw FileError(file + ": " + (name.empty() ? "it" : "'" + name + "'") +
+                    " has not one number for each cell" +
                     (name.empty() ? ": name it, " + file + ":NAME" : ""));
   }
   std::vector<std::uint8_t> mask(num_cells);
@@ -88,8 +90,12 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
     if (value != 0 && value != 1) {
       const std::string place =
           fields.lines.empty() ? file : file + ':' + std::to_string(fields.lines[cell]);
-      const char* const what = std::isnan(value) ? " is missing" : " is neither 0 nor 1";
-      throw FileError(place + ": the number of cell " + std::to_string(cell) + what);
+      std::array<char, 60> what{" is missing"};
+      if (!std::isnan(value)) {
+        std::snprintf(what.data(), what.size(), " is %g, neither 0 nor 1", value);
+      }
+      throw FileError(place + ": " + (name.empty() ? "the number" : "'" + name + "'") +
+                      " of cell " + std::to_string(cell) + what.data());
     }
     if (value == 1) mask[cell] = 1;
   }

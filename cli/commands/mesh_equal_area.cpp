@@ -113,6 +113,13 @@ ExitStatus run_equal_area(const EqualAreaCommandOptions& options) {
   }
   job.report(json.dump(2) + '\n', summary + "wrote " + count(made.poles.size(), "site", "sites") +
                                       " to " + common.output + '\n');
+  if (made.end == mesh::EqualAreaEnd::rounded && made.largest_error > options.tolerance) {
+    text = {};
+    std::snprintf(text.data(), text.size(),
+                  "areas are within %.2g, not within --tolerance %.2g: doubles allow no more",
+                  made.largest_error, options.tolerance);
+    tell(common.output, {text.data()});
+  }
   if (is_whole) return done;
   if (common.json) return failed;
   throw FileError(common.input +

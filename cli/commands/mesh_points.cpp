@@ -37,7 +37,11 @@ ExitStatus run_mesh_points(const MeshPointsOptions& options) {
   require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   const bool is_poisson = options.kind == "poisson";
   if (is_poisson != (options.radius_km > 0) || is_poisson == (options.size > 0)) {
-    throw UsageError(options.kind + (is_poisson ? " takes --radius" : " takes --size"));
+    const bool has_other = is_poisson ? options.size > 0 : options.radius_km > 0;
+    throw UsageError(options.kind + (is_poisson ? " takes --radius" : " takes --size") +
+                     (!has_other   ? ""
+                      : is_poisson ? ", not --size"
+                                   : ", not --radius"));
   }
   Job job(options.output.common);
   std::vector<Point> sites;

@@ -85,9 +85,26 @@ mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
   return with_places(task.start, [&] { return mesh::relax(task.start.sites, scvt, execution); });
 }
 
+// Returns how a relaxation ended that has not met its tolerances; empty if it has.
+std::string shortfall(const mesh::Scvt& made, const mesh::ScvtOptions& scvt) {
+  if (made.end == mesh::ScvtEnd::converged ||
+      (made.last.mean_offset <= scvt.mean_tolerance &&
+       made.last.largest_offset <= scvt.largest_tolerance)) {
+    return {};
+  }
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "not converged (%s after %d %s): the mean offset is %.2g (--tolerance %.2g), the "
+                "largest %.2g (--max-tolerance %.2g)",
+                std::string(mesh::name_of(made.end)).c_str(), made.last.iteration,
+                made.last.iteration == 1 ? "step" : "steps", made.last.mean_offset,
+                scvt.mean_tolerance, made.last.largest_offset, scvt.largest_tolerance);
+  return text.data();
+}
+
 // Makes the mesh and writes it with a report. After Ctrl-C the mesh of the last step is written and
 // the exit status is `failed`; before there is a mesh, nothing is written, which is an error. A run
-// that ends at --max-steps is a success, but its summary says so.
+// that ends at --max-steps is a success, but a remark says so.
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
   require_mesh_output(output, MeshOutputKind::mesh_or_sites, files_read(options.files));
@@ -124,14 +141,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     json["fixed"] = made.fixed.size();
     json["left_out"] = task.fixed.num_left_out;
   }
-  // The summary begins with how the relaxation ended, if not by itself, and with the fixed sites.
-  std::string how;
-  if (made.end == mesh::ScvtEnd::iterations) {
-    how = "not converged after " +
-          count(static_cast<std::size_t>(made.last.iteration), "step", "steps") + "; ";
-  } else if (!is_whole) {
-    how = std::string(mesh::name_of(made.end)) + "; ";
-  }
+  std::string how;  // begins the summary
   if (!made.fixed.empty()) {
     how += count(made.fixed.size(), "site", "sites") + " fixed";
     if (task.fixed.num_left_out > 0) {
@@ -140,9 +150,8 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     how += "; ";
   }
   write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, how, std::move(json), job);
-  // --quiet silences the report, but not the remark that the mesh is not converged.
-  if (!is_whole && output.common.quiet) {
-    tell(output.common.output, {how.substr(0, how.find(';'))});
+  if (const std::string text = shortfall(made, scvt); !text.empty()) {
+    tell(output.common.output, {text});
   }
   return made.end == mesh::ScvtEnd::stopped ? failed : done;
 }

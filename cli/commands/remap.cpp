@@ -68,6 +68,7 @@ CellSet cells_of_file(const FileName& file, const RemapCommandOptions& options, 
   // Polygons that overlap are found when they are read, where the message can name both.
   if (options.remap.overlap == CellOverlap::error) read.overlap = PolygonOverlap::error;
   CellSet cells = CellSet::read(file, read, job.execution());
+  if (cells.num_cells() == 0) throw FileError(cells.facts().name + ": there are no cells");
   tell(cells.facts().name, cells.facts().remarks);
   return cells;
 }
@@ -83,6 +84,7 @@ CellSet cells_of_sites(const FileName& file, const RemapCommandOptions& options,
   const CellSet cells = CellSet::voronoi(triangulation, job.execution());
   CellFacts facts = cells.facts();
   facts.name = table.name;
+  if (table.sites.empty()) throw FileError(table.name + ": " + no_points);
   const Point& center = triangulation.sphere().center;
   if (table.is_lonlat() && center == Point{}) {
     // Given longitudes and latitudes are kept to the digit.
@@ -215,11 +217,21 @@ Command add_remap_command(CLI::App& tool) {
       *parser, "--norm", options->remap.norm, named_values<RemapNorm>(),
       "What sums are divided by: destarea (default: the target's area, so integrals are\n"
       "kept) or fracarea (the part that sources cover, so constants are)");
-  add_word<CellOverlap>(
+  const CLI::Option* const overlap = add_word<CellOverlap>(
       *parser, "--overlap", options->remap.overlap, named_values<CellOverlap>(),
       "What becomes of a place that several cells of one side have: error (default: two of\n"
       "them are named), first (the cell with the lowest number has it) or share (each has its\n"
       "part)");
+  require_effect(
+      options->common, overlap,
+      [given = options.get()] {
+        const auto may_overlap = [](const FileName& side) {
+          const CellForm form = form_of(side);
+          return form == CellForm::netcdf || form == CellForm::polygons;
+        };
+        return may_overlap(given->source_file()) || may_overlap(given->target_file());
+      },
+      "on grids and cells of sites, which do not overlap");
   add_kinds_of_sides(*parser, *options);
   add_report_options(*parser, options->common);
   parser->footer(

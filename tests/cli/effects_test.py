@@ -29,6 +29,9 @@ WITHOUT_EFFECT = [
     ("voronoi mesh.nc --delimiter ; -o x.geojson", "delimiter", ON_NETCDF),
     ("apply weights.nc mesh.nc --delimiter ; -o x.csv", "delimiter", ON_NETCDF),
     ("remap grid:90 mesh.nc --radians -o x.nc", "radians", ON_NETCDF),
+    ("delaunay points.npy --delimiter ; -o x.npy", "delimiter", "on files other than .csv and"),
+    ("apply weights.nc points.npy --delimiter ; -o x.csv", "delimiter", "on files other than"),
+    ("remap grid:90 sites.csv --overlap first -o x.nc", "overlap", "on grids and cells of sites"),
     ("info space.csv --radians", "radians", "has no effect on x, y, z"),
     ("nearest space.csv space.csv --radians", "radians", "has no effect on x, y, z"),
     (
@@ -94,6 +97,8 @@ WITH_EFFECT = [
     "interpolate sites.csv --to grid:90 --weights x --weight-format scrip --kind cdf2",
     "remap grid:90 grid:60 --sides great-circles --kind cdf2 --format scrip -o x.nc",
     "remap grid:90 square.geojson --edges geodesic -o x.nc",
+    "remap grid:90 square.geojson --overlap first -o x.nc",
+    "remap mesh.nc grid:90 --overlap share -o x.nc",
     "remap grid:90 space.csv --model projected --center 0 0 0 -o x.nc",
     "mesh scvt --spacing 4000 --refine square.geojson:2000 --gradient 0.2 --edges lonlat -o x.csv",
     "mesh scvt -n 42 --sphere-radius 6371229 --report x.json -o x.csv",
@@ -121,6 +126,7 @@ class Effects(unittest.TestCase):
             (self.folder / name).write_text(text)
         for words in (
             "mesh icosahedral 1 -o mesh.nc",
+            "generate uniform -n 6 -o points.npy",
             "interpolate sites.csv --to grid:90 --weights weights.nc",
         ):
             done = self.run_tool(*words.split())

@@ -56,7 +56,7 @@ COMMANDS = {
     ),
     "mesh icosahedral": ("1", [], {"--output": ".nc", "--graph": "", "--report": ""}),
     "mesh points": (
-        "healpix --size 2",
+        "poisson --radius 3000",
         [],
         {"--output": ".nc", "--graph": "", "--report": ""},
     ),
@@ -205,6 +205,35 @@ class SeparateFiles(unittest.TestCase):
                 name = f"file/out{ending}"
                 words = self.arguments(command, {option: name})
                 self.assert_refused(words, f"{name}: Not a directory", status=1)
+
+    def test_all_outputs_appear_or_none_does(self):
+        """Whichever of them cannot be written: it is a folder."""
+        sites = "lon,lat,v\n0,0,1\n90,5,2\n180,0,3\n-90,0,4\n0,80,5\n3,-70,6\n"
+        (self.folder / "s.csv").write_text(sites)
+        (self.folder / "m.csv").write_text("m\n" + "0\n" * 6)
+        read = {"INPUT": "s.csv", "--to": "grid:90", "--mask": "m.csv:m", "--spacing": "6000"}
+        for command, (template, _, written) in COMMANDS.items():
+            if len(written) < 2:
+                continue
+            given = {name: file for name, file in read.items() if f"{{{name}}}" in template}
+            given |= {option: f"{option.strip('-')}{end}" for option, end in written.items()}
+            for option, ending in written.items():
+                (self.folder / f"folder{ending}").mkdir(exist_ok=True)
+                words = self.arguments(command, {**given, option: f"folder{ending}"})
+                self.assert_refused(words, f"folder{ending}: Is a directory", status=1)
+            self.assertEqual(self.run_tool(*self.arguments(command, given)).returncode, 0, command)
+            for option, name in given.items():
+                if option in written:
+                    (self.folder / name).unlink()
+
+    def test_formats_are_checked_before_anything_is_written(self):
+        for option, value, said in (
+            ("--weights", "w.csv", "--weights: the ending of 'w.csv' is not one of .nc .nc4 .npz"),
+            ("--weights", "w.npz --weight-format x", "--weight-format: 'x' is not one of"),
+            ("--kind", "cdf5 --weights w.nc4", "--kind: cdf5 contradicts 'w.nc4', netCDF-4"),
+        ):
+            words = f"interpolate s.csv --value v --to grid:90 -o x.csv {option} {value}"
+            self.assert_refused(words.split(), said)
 
     def test_different_files_are_none(self):
         """A second name of nothing, names that begin as others do, a device for several outputs."""

@@ -208,6 +208,79 @@ class Remarks(WithSites):
         (self.folder / "h.csv").write_text(text)
         self.succeed("mesh", "scvt", "--spacing", "h.csv:h", "-o", "m.nc")
 
+    def test_of_files_without_anything(self):
+        self.write("e.geojson")
+        (self.folder / "e.csv").write_text("lon,lat\n")
+        self.succeed("mesh", "icosahedral", "1", "-o", "m.nc")
+        points, features = "there are no points", "there are no features"
+        for words, said in (
+            ("delaunay e.geojson -o t.npy", points),
+            ("delaunay e.csv -o t.npy", points),
+            ("nearest s.csv e.csv -o o.csv", points),
+            ("interpolate s.csv --value v --to e.geojson -o o.csv", points),
+            ("voronoi s.csv --clip e.geojson -o o.geojson", features),
+            ("regions e.geojson --densify 1 -o o.geojson", features),
+            ("mesh cull m.nc --inside e.geojson -o o.nc", features),
+        ):
+            name = "e.csv" if "e.csv" in words else "e.geojson"
+            self.succeed(*words.split(), told=f"rondel: {name}: {said}\n")
+        for words in (
+            "remap e.csv grid:90 -o o.nc",
+            "remap grid:90 e.csv -o o.npz",
+            "interpolate s.csv --to e.csv --weights o.npz",
+        ):
+            self.refuse(1, f"e.csv: {points}", *words.split())
+        self.refuse(1, "e.geojson: there are no cells", *"remap e.geojson grid:90 -o o.nc".split())
+
+    def test_of_sites_in_one_place(self):
+        (self.folder / "two.csv").write_text(SITES + "90,5,7\n")
+        (self.folder / "zero.csv").write_text("x,y,z\n1,0,0\n0,0,0\n")
+        scvt = ("mesh", "scvt", "-o", "o.csv")
+        cells = ("-n", "42", "--fixed", "s.csv")
+        self.refuse(1, "two.csv:8: site 6 is in the place of site 1", *scvt, "--start", "two.csv")
+        same = "two.csv:8: the place of two.csv:3, which cannot be two sites"
+        self.refuse(1, same, *scvt, *cells[:3], "two.csv")
+        same = "two.csv:2: the place of s.csv:2, which cannot be two sites"
+        self.refuse(1, same, *scvt, *cells, "--fixed", "two.csv")
+        zero = "zero.csv:3: a point is not finite or the center"
+        self.refuse(1, zero, *scvt, *cells, "--fixed", "zero.csv")
+
+    def test_of_masks_name_variable_and_value(self):
+        self.succeed("mesh", "convert", "s.csv", "-o", "m.nc")
+        done = self.run_tool("mesh", "cull", "m.nc", "--mask", "m.nc:nEdgesOnCell", "-o", "o.nc")
+        self.assertRegex(
+            done.stderr, r"\Arondel: m\.nc: 'nEdgesOnCell' of cell 0 is \d+, neither 0 nor 1\n\Z"
+        )
+
+    def test_of_tolerances_that_are_not_met(self):
+        done = self.run_tool("mesh", "scvt", "-n", "300", "--max-steps", "1", "-o", "o.csv")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(
+            done.stderr,
+            r"\Arondel: o\.csv: not converged \(iterations after 1 step\): the mean offset is \S+"
+            r" \(--tolerance 0.0001\), the largest \S+ \(--max-tolerance 0.01\)\n\Z",
+        )
+        done = self.run_tool("mesh", "equal-area", "o.csv", "--tolerance", "1e-18", "-o", "o.npy")
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"\Arondel: o\.npy: areas are within \S+, not within --tol")
+
+    def test_of_formats_that_are_named(self):
+        self.succeed("interpolate", "s.csv", "--to", "grid:90", "--weights", "w.nc")
+        for name, said in (
+            ("npz", "the file is netCDF, not npz"),
+            ("scrip", 'the weights are those of ESMF (variable "S"), not scrip'),
+        ):
+            words = ("check-weights", "w.nc", "--input-format", name)
+            self.refuse(1, f"w.nc: {said}", *words)
+
+    def test_of_standard_output_and_sizes(self):
+        stream = "--output: a mesh is written to a file, not to standard output"
+        self.refuse(2, stream, "mesh", "convert", "s.csv", "-o", "-")
+        self.refuse(2, stream, "mesh", "scvt", "-n", "42", "-o", "-", "--format", "ugrid")
+        points = ("mesh", "points", "-o", "o.csv")
+        self.refuse(2, "healpix takes --size, not --radius", *points, "healpix", "--radius", "9")
+        self.refuse(2, "poisson takes --radius, not --size", *points, "poisson", "--size", "9")
+
     def test_of_opposite_sites(self):
         for lon, lat in ((0, 0), (30, 90), (10, 20)):
             (self.folder / "o.csv").write_text(f"lon,lat\n{lon},{lat}\n{lon - 180},{-lat}\n")
