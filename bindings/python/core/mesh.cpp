@@ -3,12 +3,14 @@
 
 #include "rondel/mesh.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -50,13 +52,16 @@ std::tuple<VoronoiMesh, std::vector<std::string>> mesh_of_file(const std::string
   return {std::move(arrays), std::move(remarks)};
 }
 
-void write_mesh(const VoronoiMesh& arrays, const std::string& path, nb::handle format, bool is_cdf2,
-                unsigned threads) {
+// Writes the mesh and, if a path for it is given, the graph: both files appear, or none does.
+void write_mesh(const VoronoiMesh& arrays, const std::string& path, nb::handle format,
+                nb::handle kind, const std::optional<std::string>& graph, unsigned threads) {
   const auto named_format = named<mesh::MeshFormat>("format", format);
+  const auto named_kind = named<NetcdfKind>("kind", kind);
   run_watched(arrays.num_cells(), threads, nb::none(), [&](const Execution& execution) {
-    mesh::write(path, arrays,
-                {named_format, is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::by_name},
-                execution);
+    FilesTogether files;
+    mesh::write(path, arrays, {named_format, named_kind}, execution);
+    if (graph) mesh::write_graph(*graph, arrays, execution);
+    files.commit();
   });
 }
 
@@ -118,14 +123,8 @@ void add_mesh(nb::module_& module) {
   add_array<double, &VoronoiMesh::triangle_areas>(type, "triangle_areas");
   type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
   type.def("mpas_content", &mpas_content_of);
-  type.def("write", &write_mesh, nb::arg("path"), nb::arg("format").none(), nb::arg("is_cdf2"),
-           nb::arg("threads"));
-  type.def(
-      "write_graph",
-      [](const VoronoiMesh& self, const std::string& path) {
-        unlocked([&] { mesh::write_graph(path, self); });
-      },
-      nb::arg("path"));
+  type.def("write", &write_mesh, nb::arg("path"), nb::arg("format").none(), nb::arg("kind"),
+           nb::arg("graph").none(), nb::arg("threads"));
   type.def(
       "quality_json",
       [](const VoronoiMesh& self, unsigned threads) {

@@ -25,10 +25,12 @@ void raise_invalid_input(const rondel::InvalidInput& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
-// Raises OSError(errno, reason, file), which Python turns into FileNotFoundError and the like.
+// Raises OSError(errno, reason, file), which Python turns into FileNotFoundError and the like; or
+// rondel.FileError, which is a ValueError, too, where not the system has refused the file.
 void raise_os_error(const rondel::FileError& error) {
   if (error.code().category() != std::generic_category() || !error.code()) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    const nb::object type = nb::module_::import_("rondel._errors").attr("FileError");
+    PyErr_SetString(type.ptr(), error.what());
     return;
   }
   const std::string reason = error.code().message();

@@ -64,11 +64,12 @@ void add_region_functions(nb::module_& module) {
                                      .overlap = named<PolygonOverlap>("overlap", overlap)};
         return read_from(path, [&](const FileName& file) {
           return watched(0, threads, listener, [&](const Execution& execution) {
-            const FeatureTable table = read_features(file, options, execution);
-            return within == nullptr
-                       ? feature_cells(table.lines, table.polygons, tolerance, execution)
-                       : clipped_feature_cells(table.lines, table.polygons, tolerance, *within,
-                                               execution);
+            FeatureTable table = read_features(file, options, execution);
+            CellRings made = within == nullptr
+                                 ? feature_cells(table.lines, table.polygons, tolerance, execution)
+                                 : clipped_feature_cells(table.lines, table.polygons, tolerance,
+                                                         *within, execution);
+            return std::tuple(std::move(made), std::move(table.facts.remarks));
           });
         });
       },

@@ -72,7 +72,7 @@ from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
-from ._errors import InvalidInput
+from ._errors import FileError, InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
@@ -102,6 +102,7 @@ __all__ = [
     "CheckReport",
     "ConvexHull",
     "DynamicTriangulation",
+    "FileError",
     "InvalidInput",
     "Isolines",
     "Lists",

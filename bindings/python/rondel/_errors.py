@@ -7,7 +7,7 @@ from __future__ import annotations
 import inspect
 import warnings
 
-__all__ = ["DistributedError", "InvalidInput"]
+__all__ = ["DistributedError", "FileError", "InvalidInput"]
 
 
 class InvalidInput(ValueError):
@@ -27,6 +27,14 @@ class InvalidInput(ValueError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+class FileError(OSError, ValueError):
+    """A file is there, but not right: its content, its format or its name.
+
+    Where the system refuses a file, it is another `OSError`, such as `FileNotFoundError`, with
+    the number of the system in `errno`.
+    """
 
 
 class DistributedError(RuntimeError):

@@ -168,6 +168,9 @@ def scvt_points(
     if n is None and spacing is None:
         raise TypeError("scvt() needs n or spacing")
     count = 0 if n is None else _whole(n, "n")
+    most_steps = _whole(max_steps, "max_steps")
+    if most_steps < 0:
+        raise ValueError(f"max_steps must not be negative, like {max_steps}")
     _require_positive(tolerance, "tolerance")
     _require_positive(largest_tolerance, "largest_tolerance")
     steps = _whole(raster_steps, "raster_steps") if callable(spacing) else 1
@@ -181,12 +184,19 @@ def scvt_points(
         gradient=slope,
         mean_tolerance=float(tolerance),
         largest_tolerance=float(largest_tolerance),
-        max_steps=_whole(max_steps, "max_steps"),
+        max_steps=most_steps,
         repair=bool(repair),
         fixed=places,
         threads=as_threads(threads),
         listener=progress,
     )
+    is_met = made.mean_offset <= tolerance and made.largest_offset <= largest_tolerance
+    if made.end != "converged" and not is_met:
+        warn_caller(
+            f"scvt() is not converged ({made.end} after {made.steps} steps): the mean offset is "
+            f"{made.mean_offset:.2g} (tolerance {tolerance:.2g}), the largest "
+            f"{made.largest_offset:.2g} (largest_tolerance {largest_tolerance:.2g})"
+        )
     said = {name: getattr(made, name) for name in ScvtReport._fields[:-1]}
     for name in ("defects_before", "defects_after"):
         said[name] = Defects(*(getattr(said[name], field) for field in Defects._fields))
@@ -230,8 +240,9 @@ def equal_area(
     Warns
     -----
     UserWarning
-        If the cells have other areas, because there are none of these areas ('infeasible') or the
-        steps did not suffice ('iterations').
+        If the cells have other areas, because there are none of these areas ('infeasible'), the
+        steps did not suffice ('iterations'), or doubles allow none that are within the tolerance
+        ('rounded').
 
     Examples
     --------
@@ -257,10 +268,11 @@ def equal_area(
             targets = targets / targets.max()
             targets *= 4 * np.pi / targets.sum()
     found = _core.make_equal_area(sites, targets, float(tolerance), as_threads(threads))
-    if found.end not in ("converged", "rounded"):
+    is_met = found.end == "rounded" and found.largest_error <= tolerance
+    if found.end != "converged" and not is_met:
         warn_caller(
-            f"equal_area() ended as {found.end!r}, "
-            f"with areas off by up to {found.largest_error:.3g}"
+            f"equal_area() ended as {found.end!r}, with areas off by up to "
+            f"{found.largest_error:.3g} (tolerance {tolerance:.3g})"
             + (f": {found.reason}" if found.reason else "")
         )
     return EqualArea(*(getattr(found, name) for name in EqualArea._fields))

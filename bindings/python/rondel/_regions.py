@@ -14,6 +14,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
+from ._errors import warn_caller
 from ._geo import Path, polygon_frame, written
 from ._geometries import (
     Edges,
@@ -456,10 +457,15 @@ def feature_cells(
     Raises
     ------
     ValueError
-        If an object is not a geometry, polygons are not valid or overlap, or the tolerance is not
-        positive.
+        If an object is not a geometry, polygons are not valid or overlap, the tolerance is not
+        positive, or so small that an arc could be replaced by more than 524,288 points.
     OSError
         If the file cannot be read.
+
+    Warns
+    -----
+    UserWarning
+        If the file has no features, or polygons of it are not quite as they should be.
 
     Notes
     -----
@@ -481,7 +487,7 @@ def feature_cells(
     _require_rules(edges, overlap)
     tolerance = float(tolerance_km) / float(radius_km)
     area = None if within is None else as_cell_set(within, edges, "keep", threads)._cells
-    found = features_of(
+    found, remarks = features_of(
         features,
         edges,
         overlap,
@@ -489,6 +495,8 @@ def feature_cells(
             name, tolerance, edges, rule, area, as_threads(threads), progress
         ),
     )
+    for remark in remarks:
+        warn_caller(f"{os.fspath(features)}: {remark}" if is_file(features) else remark)
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 

@@ -24,7 +24,7 @@ from ._types import ArrayLike, FloatArray, IntArray, Path
 if TYPE_CHECKING:
     import xarray
 
-Kind: TypeAlias = Literal["cdf5", "cdf2"]
+Kind: TypeAlias = Literal["nc4", "cdf5", "cdf2"]
 
 
 class EdgeWeights(NamedTuple):
@@ -286,17 +286,27 @@ class Mesh:
         arrays, *maps = _core.cull_mesh(self._arrays, removed, as_threads(threads))
         return Culled(Mesh(arrays), *(frozen(numbers) for numbers in maps))
 
-    def _write(self, path: Path, form: str, kind: Kind, threads: int | None) -> None:
-        if kind not in ("cdf5", "cdf2"):
-            raise ValueError(f"kind is {kind!r}, which is neither 'cdf5' nor 'cdf2'")
-        self._arrays.write(as_name(path), form, kind == "cdf2", as_threads(threads))
+    def _write(
+        self,
+        path: Path,
+        form: str,
+        kind: Kind | None,
+        threads: int | None,
+        graph: str | None = None,
+    ) -> None:
+        name = as_name(path)
+        if kind not in (None, "nc4", "cdf5", "cdf2"):
+            raise ValueError(f"kind is {kind!r}, which is none of 'nc4', 'cdf5' and 'cdf2'")
+        if kind in ("cdf5", "cdf2") and name.lower().endswith(".nc4"):
+            raise ValueError(f"kind {kind!r} contradicts the name {name!r}, that of netCDF-4")
+        self._arrays.write(name, form, kind or "by_name", graph, as_threads(threads))
 
     def to_mpas(
         self,
         path: Path,
         *,
         graph: Path | None = None,
-        kind: Kind = "cdf5",
+        kind: Kind | None = None,
         threads: int | None = None,
     ) -> None:
         """Writes a mesh file of MPAS (MPAS Mesh Specification 1.0, 2015).
@@ -304,41 +314,44 @@ class Mesh:
         Parameters
         ----------
         path : path_like
-            The file to write. A name that ends in ``.nc4`` means compressed netCDF-4.
+            The file to write.
         graph : path_like, optional
             Where to write ``graph.info`` for METIS; by default it is not written.
-        kind : {'cdf5', 'cdf2'}, optional
-            The classic format of netCDF; by default 'cdf5'. CDF-2 is limited to 4 GiB a variable.
+        kind : {'nc4', 'cdf5', 'cdf2'}, optional
+            The format of netCDF; by default 'nc4', compressed netCDF-4, where the name of the file
+            ends in ``.nc4``, and otherwise the classic format 'cdf5'. 'cdf2' is limited to 4 GiB a
+            variable.
         threads : int, optional
             The largest number of threads; by default one for each core.
 
         Raises
         ------
         OSError
-            If the file cannot be written; then nothing is left of it.
+            If a file cannot be written; then none of them is.
         ValueError
-            If `graph` and `path` are one file.
+            If `graph` and `path` are one file, or `kind` is a classic format and the name ends in
+            ``.nc4``.
 
         """
         if graph is not None and os.path.realpath(graph) == os.path.realpath(path):
             raise ValueError("graph is the file of path")
-        self._write(path, "mpas", kind, threads)
-        if graph is not None:
-            self._arrays.write_graph(as_name(graph))
+        self._write(path, "mpas", kind, threads, None if graph is None else as_name(graph))
 
-    def to_ugrid(self, path: Path, *, kind: Kind = "cdf5", threads: int | None = None) -> None:
+    def to_ugrid(self, path: Path, *, kind: Kind | None = None, threads: int | None = None) -> None:
         """Writes a UGRID file, with the parameters of `to_mpas`."""
         self._write(path, "ugrid", kind, threads)
 
-    def to_scrip(self, path: Path, *, kind: Kind = "cdf5", threads: int | None = None) -> None:
+    def to_scrip(self, path: Path, *, kind: Kind | None = None, threads: int | None = None) -> None:
         """Writes a SCRIP grid file, with the parameters of `to_mpas`."""
         self._write(path, "scrip", kind, threads)
 
-    def to_esmf(self, path: Path, *, kind: Kind = "cdf5", threads: int | None = None) -> None:
+    def to_esmf(self, path: Path, *, kind: Kind | None = None, threads: int | None = None) -> None:
         """Writes an unstructured mesh file of ESMF, with the parameters of `to_mpas`."""
         self._write(path, "esmf", kind, threads)
 
-    def to_exodus(self, path: Path, *, kind: Kind = "cdf5", threads: int | None = None) -> None:
+    def to_exodus(
+        self, path: Path, *, kind: Kind | None = None, threads: int | None = None
+    ) -> None:
         """Writes an Exodus II file, with the parameters of `to_mpas`."""
         self._write(path, "exodus", kind, threads)
 

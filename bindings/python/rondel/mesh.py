@@ -250,8 +250,15 @@ def scvt(
         sites into a part of the sphere.
     TypeError
         If neither `n` nor `spacing` is given, or `density` without `n`.
+    ValueError
+        If a tolerance is not positive and finite, or `max_steps` is negative.
     OSError
         If a file cannot be read.
+
+    Warns
+    -----
+    UserWarning
+        If the work ended before the tolerances were met.
 
     Notes
     -----

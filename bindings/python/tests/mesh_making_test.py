@@ -87,11 +87,23 @@ def test_what_is_no_request_is_refused():
         ({"tolerance": -1}, "tolerance must be positive and finite, not -1"),
         ({"largest_tolerance": 0}, "largest_tolerance must be positive"),
         ({"max_steps": 1.5}, "max_steps must be a whole number"),
+        ({"max_steps": -1}, "max_steps must not be negative, like -1"),
     ],
 )
 def test_numbers_that_are_none_are_named(options, message):
     with pytest.raises(ValueError, match=message):
         rondel.mesh.scvt(**{"n": 100, **options})
+
+
+def test_tolerances_that_are_not_met_are_told():
+    told = r"scvt\(\) is not converged \(iterations after 1 steps\): .* \(tolerance 0.0001\), the"
+    with pytest.warns(UserWarning, match=told):
+        mesh = rondel.mesh.scvt(300, max_steps=1)
+    assert mesh.report.end == "iterations"
+    points = np.random.default_rng(1).normal(size=(100, 3))
+    with pytest.warns(UserWarning, match=r"ended as 'rounded', .* \(tolerance 1e-18\)"):
+        found = rondel.mesh.equal_area(points, tolerance=1e-18)
+    assert found.end == "rounded"
 
 
 def test_whole_numbers_of_every_kind_are_taken():

@@ -10,6 +10,7 @@ import pytest
 import rondel
 import rondel.mesh
 
+pytestmark = pytest.mark.filterwarnings("ignore:.* is not converged")
 SQUARE = {
     "type": "Polygon",
     "coordinates": [[[-30, -40], [110, -40], [110, 50], [-30, 50], [-30, -40]]],

@@ -52,13 +52,37 @@ def test_files_come_back(tmp_path):
         getattr(mesh, f"to_{name}")(tmp_path / f"{name}.nc")
     for name in ("ugrid", "scrip", "esmf"):
         assert np.allclose(rondel.mesh.read(tmp_path / f"{name}.nc").cell_areas, mesh.cell_areas)
-    with pytest.raises(ValueError, match="kind is 'hdf5'"):
-        mesh.to_mpas(tmp_path / "m.nc", kind="hdf5")
+    with pytest.raises(FileNotFoundError):
+        mesh.to_mpas(tmp_path / "none.nc", graph=tmp_path / "nowhere" / "graph.info")
+    assert not (tmp_path / "none.nc").exists()
     with pytest.raises(OSError, match=r"exodus\.nc: Exodus: the file has no centers of cells"):
         rondel.mesh.read(tmp_path / "exodus.nc")
     # Its blocks have the cells in another order.
     areas = rondel.CellSet.read(tmp_path / "exodus.nc").areas
     assert np.allclose(np.sort(areas), np.sort(mesh.cell_areas))
+
+
+@pytest.mark.parametrize("form", ["mpas", "ugrid", "scrip", "esmf", "exodus"])
+def test_files_have_the_kind_that_is_named(tmp_path, form):
+    mesh = rondel.mesh.from_points(sites())
+    write = getattr(mesh, f"to_{form}")
+    for kind, magic in (("cdf2", b"CDF\2"), ("cdf5", b"CDF\5"), (None, b"CDF\5")):
+        write(tmp_path / "m.nc", kind=kind)
+        assert (tmp_path / "m.nc").read_bytes()[:4] == magic
+    for kind in ("cdf5", "cdf2"):
+        with pytest.raises(ValueError, match=rf"kind '{kind}' contradicts the name '.*\.nc4'"):
+            write(tmp_path / "classic.nc4", kind=kind)
+    for kind in ("hdf5", "by_name", "netcdf4"):
+        with pytest.raises(ValueError, match=f"kind is '{kind}', which is none of 'nc4', "):
+            write(tmp_path / "m.nc", kind=kind)
+    assert not (tmp_path / "classic.nc4").exists()
+
+
+@pytest.mark.parametrize(("name", "kind"), [("m.nc", "nc4"), ("m.nc4", "nc4"), ("m.nc4", None)])
+def test_netcdf_4_is_a_kind(tmp_path, name, kind):
+    pytest.importorskip("netCDF4")
+    rondel.mesh.from_points(sites()).to_mpas(tmp_path / name, kind=kind)
+    assert (tmp_path / name).read_bytes()[:4] == b"\x89HDF"
 
 
 def test_ugrid_is_what_its_checker_wants(tmp_path):

@@ -276,6 +276,7 @@ def test_positions_may_be_arrays():
         rondel.polygons([{"type": "Polygon", "coordinates": [corners * np.nan]}])
 
 
+@pytest.mark.filterwarnings("ignore:there are no features")
 @pytest.mark.parametrize("crs", [4326, 3857])
 def test_frames_without_geometries_have_no_cells(crs):
     geopandas = pytest.importorskip("geopandas")

@@ -4,6 +4,7 @@
 
 import itertools
 import json
+import re
 
 import clouds
 import numpy as np
@@ -281,6 +282,45 @@ def test_what_is_no_polygon_is_refused(tmp_path):
         CELLS.clip(tmp_path / "nowhere.geojson")
     with pytest.raises(ValueError, match="edges must be"):
         CELLS.clip(ISLANDS, edges="straight")
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        CELLS.clip,
+        lambda path: rondel.feature_cells(path, 10),
+        rondel.polygons,
+        rondel.CellSet.read,
+        rondel.mesh.read,
+        rondel.read_weights,
+        lambda path: rondel.mesh.scvt(42, fixed=path),
+        lambda path: rondel.mesh.scvt(42, along=path),
+    ],
+)
+def test_a_file_that_is_not_right_is_another_error_than_one_that_is_not_there(tmp_path, read):
+    for name in ("wrong.geojson", "wrong.nc"):
+        (tmp_path / name).write_text("wrong")
+        with pytest.raises(rondel.FileError, match=re.escape(name)) as caught:
+            read(tmp_path / name)
+        assert isinstance(caught.value, ValueError)
+        assert isinstance(caught.value, OSError)
+        with pytest.raises(FileNotFoundError) as caught:
+            read(tmp_path / "nowhere" / name)
+        assert not isinstance(caught.value, ValueError)
+
+
+def test_files_without_features_are_told(tmp_path):
+    path = tmp_path / "e.geojson"
+    path.write_text('{"type": "FeatureCollection", "features": []}')
+    for read in (CELLS.clip, rondel.polygons, lambda path: rondel.feature_cells(path, 10)):
+        with pytest.warns(UserWarning, match=r"e\.geojson: there are no features"):
+            read(path)
+
+
+def test_a_tolerance_that_is_too_small_is_refused_at_once():
+    lines = [{"type": "LineString", "coordinates": [[0, 0], [x, 9]]} for x in (5, 10)]
+    with pytest.raises(rondel.InvalidInput, match="arc of feature 0 could have more than 524288"):
+        rondel.feature_cells(lines, 1e-9)
 
 
 def test_cells_of_corners():
