@@ -137,7 +137,7 @@ class RegionRule {
       keys.push_back({0, 0});
       return;
     }
-    const std::vector<Index> none = {no_index};
+    static const std::vector<Index> none = {no_index};
     for (const Index i : first.empty() ? none : first) {
       for (const Index k : second.empty() ? none : second) keys.push_back({i, k});
     }
