@@ -121,6 +121,7 @@ void sort_and_join(std::vector<std::vector<T>>& parts, std::vector<T>& all) {
 
 constexpr std::size_t blocks_per_task = 128;
 constexpr std::size_t points_per_task = 1024;
+constexpr std::size_t points_per_query = 16;
 
 }  // namespace
 
@@ -208,21 +209,34 @@ Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned th
   return result;
 }
 
+// Points that follow each other along the spatial order are close to each other, so that the tree is
+// asked for the arcs near to some of them at once.
 std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
                                 std::span<const Point> points, unsigned threads) {
   std::vector<std::vector<NearNode>> parts(system::num_pieces(points.size(), points_per_task));
-  system::parallel_for(threads, points.size(), points_per_task,
-                       [&](std::size_t begin, std::size_t end) {
-                         std::vector<NearNode>& part = parts[begin / points_per_task];
-                         for (std::size_t k = begin; k < end; ++k) {
-                           const Point& p = points[k];
-                           boxes.visit({{p.x, p.y, p.z}, {p.x, p.y, p.z}}, [&](Index arc) {
-                             if (is_near(input.from(arc), input.to(arc), p)) {
-                               part.push_back({arc, static_cast<Index>(k)});
-                             }
-                           });
-                         }
-                       });
+  system::parallel_for(
+      threads, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
+        std::vector<NearNode>& part = parts[begin / points_per_task];
+        std::vector<Box> places;
+        for (std::size_t first = begin; first < end; first += points_per_query) {
+          places.clear();
+          for (std::size_t k = first; k < std::min(end, first + points_per_query); ++k) {
+            const std::array<double, 3> place = {points[k].x, points[k].y, points[k].z};
+            places.push_back({place, place});
+          }
+          Box all = places[0];
+          for (const Box& place : places) all.include(place);
+          boxes.visit(all, [&](Index arc) {
+            for (std::size_t k = 0; k < places.size(); ++k) {
+              if (places[k].overlaps(boxes.box(arc)) &&
+                  SidedArc(input.from(arc), input.to(arc)).side(points[first + k]) == 0 &&
+                  is_near(input.from(arc), input.to(arc), points[first + k])) {
+                part.push_back({arc, static_cast<Index>(first + k)});
+              }
+            }
+          });
+        }
+      });
   std::vector<NearNode> result;
   sort_and_join(parts, result);
   return result;
