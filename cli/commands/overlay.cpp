@@ -6,6 +6,7 @@
 // out   pieces with the columns of both files; or one polygon
 // index features of A, of B; pieces
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -97,14 +98,16 @@ ExitStatus run_overlay(const OverlayOptions& options) {
   require_output(common, can_write_regions(common.target()), ".geojson .gpkg .fgb .parquet",
                  {{"B", options.second}});
   if (options.second.empty() && options.how != SetOperation::unite) {
-    throw UsageError("--how " + std::string(name_of(options.how)) + " needs a second file, B");
+    std::string word(name_of(options.how));
+    std::ranges::replace(word, '_', '-');
+    throw UsageError("--how " + word + " needs a second file, B");
   }
   require_region_writer(common.target());
   Job job(common);
   CellTable first;
   CellTable second;
   Pieces pieces;
-  job.time(Stage::read, [&] {
+  job.time(Stage::dual, [&] {
     first = read_polygons(common.source_beside(options.second), options.read, job.execution());
     tell(first.facts.name, first.facts.remarks);
     if (options.second.empty()) return;

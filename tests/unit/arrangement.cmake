@@ -4,6 +4,7 @@ rondel_add_test(arrangement_test
   arrangement/arc_sets.cpp
   arrangement/arrange_test.cpp
   arrangement/exact_places_test.cpp
+  arrangement/halfedges_test.cpp
   arrangement/set_operations_test.cpp
   arrangement/steps_test.cpp
   LIBS rondel_geo rondel_test_support)
