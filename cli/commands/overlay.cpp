@@ -59,6 +59,7 @@ std::vector<Column> rows_of(const std::vector<Column>& columns, const std::vecto
 // the same.
 std::vector<Column> joined(std::vector<Column> first, std::vector<Column> second) {
   std::vector<std::string> names;
+  names.reserve(first.size() + second.size());
   for (const Column& column : first) names.push_back(column.name);
   for (const Column& column : second) names.push_back(column.name);
   names = free_names(std::move(names));

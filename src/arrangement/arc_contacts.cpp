@@ -110,13 +110,18 @@ class ContactFinder {
 };
 
 template <class T>
+void sort_and_unite(std::vector<T>& all) {
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+template <class T>
 void sort_and_join(std::vector<std::vector<T>>& parts, std::vector<T>& all) {
   std::size_t size = 0;
   for (const auto& part : parts) size += part.size();
   all.reserve(size);
   for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_and_unite(all);
 }
 
 constexpr std::size_t blocks_per_task = 128;
@@ -193,9 +198,7 @@ Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned th
                          for (std::size_t block = begin; block < end; ++block) {
                            boxes.visit_pairs(block, [&](Index i, Index j) { finder.add(i, j); });
                          }
-                         std::ranges::sort(found.near);
-                         const auto repeated = std::ranges::unique(found.near);
-                         found.near.erase(repeated.begin(), repeated.end());
+                         sort_and_unite(found.near);
                          std::ranges::sort(found.crossings);
                          crossings[begin / blocks_per_task] = std::move(found.crossings);
                          near[begin / blocks_per_task] = std::move(found.near);

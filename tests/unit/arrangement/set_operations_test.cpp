@@ -217,7 +217,7 @@ TEST(combine, can_be_chained) {
     is_in = any_has(region, p, make.outside());
     for (int step = 0; step < 8; ++step) {
       const CellRings other = make.some(seed % 3 == 0);
-      const SetOperation operation = operations[(seed + static_cast<unsigned>(step) * 3) % 4];
+      const SetOperation operation = operations[(seed + 3 * static_cast<std::size_t>(step)) % 4];
       region = combine(region, other, operation, {1});
       is_in = result_of(operation, is_in, any_has(other, p, make.outside()));
       ASSERT_NO_FATAL_FAILURE(expect_valid(region));
