@@ -97,11 +97,11 @@ std::size_t num_not_empty(const CellRings& cells) {
 ExitStatus run_overlay(const OverlayOptions& options) {
   const CommonOptions& common = options.common;
   require_output(common, can_write_regions(common.target()), ".geojson .gpkg .fgb .parquet",
-                 {{"B", options.second}});
+                 {{"SECOND", options.second}});
   if (options.second.empty() && options.how != SetOperation::unite) {
     std::string word(name_of(options.how));
     std::ranges::replace(word, '_', '-');
-    throw UsageError("--how " + word + " needs a second file, B");
+    throw UsageError("--how " + word + " needs SECOND, a second file");
   }
   require_region_writer(common.target());
   Job job(common);
@@ -136,17 +136,18 @@ Command add_overlay_command(CLI::App& tool) {
       tool.add_subcommand("overlay", "Compute unions, intersections and differences of polygons");
   parser
       ->add_option_function<std::string>(
-          "A",
+          "INPUT",
           [given = options.get()](const std::string& file) {
             given->common.input = standard(file, "/dev/stdin");
           },
-          "The polygons: .geojson, or - for standard input")
+          "The polygons A: .geojson, or - for standard input")
       ->required();
-  add_second_input(*parser, "B", options->second, "The second polygons; none: --how union of A")
+  add_second_input(*parser, "SECOND", options->second,
+                   "The polygons B; without them the union of A is written")
       ->required(false);
   parser
       ->add_option("--input-format", options->common.input_format,
-                   "Format of standard input, or of A: geojson")
+                   "Format of standard input, or of INPUT: geojson")
       ->type_name("FORMAT");
   add_output_option(*parser, options->common,
                     "Where to write the polygons: .geojson; with GDAL installed .gpkg .fgb\n"
@@ -172,7 +173,7 @@ Command add_overlay_command(CLI::App& tool) {
   require_effect(
       options->common, parser->get_option("--dissolve"),
       [given = options.get()] { return !given->second.empty(); },
-      "without B, as the union of A is one polygon");
+      "without SECOND, as the union of INPUT is one polygon");
   parser->footer(
       "Each polygon of A is divided into its intersections with the polygons of B and what is\n"
       "in none of them, and the same for B; --how says which of these pieces are written. A\n"

@@ -71,8 +71,8 @@ class ContactFinder {
   ContactFinder(const NodedArcs& input, Contacts& found) : input_(input), found_(found) {}
 
   void add(Index i, Index j) {
-    const Arc s = input_.arcs[i];
-    const Arc t = input_.arcs[j];
+    const NodedArc s = input_.arcs[i];
+    const NodedArc t = input_.arcs[j];
     const SidedArc first(point(s.from), point(s.to));
     const SidedArc second(point(t.from), point(t.to));
     const bool is_from_shared = t.from == s.from || t.from == s.to;
@@ -100,7 +100,7 @@ class ContactFinder {
  private:
   [[nodiscard]] const Point& point(Index node) const { return input_.nodes[node]; }
   void add_if_near(Index arc, Index node) {
-    const Arc ends = input_.arcs[arc];
+    const NodedArc ends = input_.arcs[arc];
     if (node == ends.from || node == ends.to) return;
     if (is_near(point(ends.from), point(ends.to), point(node))) found_.near.push_back({arc, node});
   }
@@ -156,7 +156,7 @@ bool is_on_near_arc(const Point& a, const Point& b, const Point& p) {
   return orientation(a, b, p) == Sign::zero;
 }
 
-Box box_of(const Point& a, const Point& b) {
+SpaceBox box_of(const Point& a, const Point& b) {
   // A point of the arc is a point of the chord, moved away from the center by the sagitta or less
   // along the direction to the middle.
   const Vec chord = to_vector(b) - to_vector(a);
@@ -176,7 +176,7 @@ Box box_of(const Point& a, const Point& b) {
 }
 
 BoxTree boxes_of(const NodedArcs& input, unsigned threads) {
-  std::vector<Box> boxes(input.arcs.size());
+  std::vector<SpaceBox> boxes(input.arcs.size());
   constexpr std::size_t grain = 4096;
   system::parallel_for(threads, boxes.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -189,7 +189,7 @@ BoxTree boxes_of(const NodedArcs& input, unsigned threads) {
 Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned threads) {
   const std::size_t num_blocks = boxes.num_blocks();
   const std::size_t num_tasks = system::num_pieces(num_blocks, blocks_per_task);
-  std::vector<std::vector<Crossing>> crossings(num_tasks);
+  std::vector<std::vector<ArcCrossing>> crossings(num_tasks);
   std::vector<std::vector<NearNode>> near(num_tasks);
   system::parallel_for(threads, num_blocks, blocks_per_task,
                        [&](std::size_t begin, std::size_t end) {
@@ -220,15 +220,15 @@ std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
   system::parallel_for(
       threads, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
         std::vector<NearNode>& part = parts[begin / points_per_task];
-        std::vector<Box> places;
+        std::vector<SpaceBox> places;
         for (std::size_t first = begin; first < end; first += points_per_query) {
           places.clear();
           for (std::size_t k = first; k < std::min(end, first + points_per_query); ++k) {
             const std::array<double, 3> place = {points[k].x, points[k].y, points[k].z};
             places.push_back({place, place});
           }
-          Box all = places[0];
-          for (const Box& place : places) all.include(place);
+          SpaceBox all = places[0];
+          for (const SpaceBox& place : places) all.include(place);
           boxes.visit(all, [&](Index arc) {
             for (std::size_t k = 0; k < places.size(); ++k) {
               if (places[k].overlaps(boxes.box(arc)) &&

@@ -19,10 +19,10 @@
 namespace rondel::arrangement {
 
 // Two arcs that cross in the inside of both; exact.
-struct Crossing {
+struct ArcCrossing {
   Index first;
   Index second;  // above first
-  friend auto operator<=>(const Crossing&, const Crossing&) = default;
+  friend auto operator<=>(const ArcCrossing&, const ArcCrossing&) = default;
 };
 
 // A node within `arrangement_radius` of the inside of an arc: the node that is nearest to some place
@@ -34,8 +34,8 @@ struct NearNode {
 };
 
 struct Contacts {
-  std::vector<Crossing> crossings;  // ascending
-  std::vector<NearNode> near;       // ascending; of ends of arcs alone
+  std::vector<ArcCrossing> crossings;  // ascending
+  std::vector<NearNode> near;          // ascending; of ends of arcs alone
 };
 
 // True if the foot of the perpendicular from a point to the arc ab is within the arc and not farther
@@ -50,7 +50,7 @@ double exact_height(const Point& a, const Point& b, const Point& p);
 bool is_on_near_arc(const Point& a, const Point& b, const Point& p);
 
 // Returns a box that contains the arc ab and what is near to it.
-Box box_of(const Point& a, const Point& b);
+SpaceBox box_of(const Point& a, const Point& b);
 
 // Returns the boxes of all arcs, which contain what is near to the arcs.
 BoxTree boxes_of(const NodedArcs& input, unsigned threads);

@@ -20,7 +20,7 @@
 namespace rondel {
 namespace {
 
-using arrangement::Arc;
+using arrangement::NodedArc;
 
 using Ends = std::array<Index, 2>;
 
@@ -55,12 +55,13 @@ void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
 }
 
 // Arcs between nodes, and how each given arc runs along them.
-struct State {
+struct ArrangementState {
   arrangement::NodedArcs arcs;
   CompressedRows<Index> chains;
 };
 
-State first_state(std::span<const Point> points, std::span<const Ends> arcs, unsigned threads) {
+ArrangementState first_state(std::span<const Point> points, std::span<const Ends> arcs,
+                             unsigned threads) {
   // Only points that are ends of arcs become nodes.
   std::vector<Index> places(points.size(), no_index);
   std::vector<Point> used;
@@ -72,13 +73,13 @@ State first_state(std::span<const Point> points, std::span<const Ends> arcs, uns
     }
   }
   arrangement::NumberedPoints nodes = arrangement::numbered(used, 0, threads);
-  std::vector<Arc> given;
+  std::vector<NodedArc> given;
   given.reserve(arcs.size());
   for (const auto [a, b] : arcs) {
     given.push_back({nodes.numbers[places[a]], nodes.numbers[places[b]]});
   }
   arrangement::NumberedArcs numbered = arrangement::numbered_arcs(given, threads);
-  State state{{std::move(nodes.points), std::move(numbered.arcs)}, {}};
+  ArrangementState state{{std::move(nodes.points), std::move(numbered.arcs)}, {}};
   state.chains.values.reserve(arcs.size());
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     if (given[i].from != given[i].to) state.chains.values.push_back(numbered.halfedges[i]);
@@ -108,12 +109,12 @@ CompressedRows<Index> refined(const CompressedRows<Index>& chains,
 }
 
 // Leaves out arcs that are points.
-Arrangement arrangement_of(State state) {
+Arrangement arrangement_of(ArrangementState state) {
   Arrangement result;
   std::vector<Index> numbers(state.arcs.arcs.size(), no_index);
   result.edges.reserve(state.arcs.arcs.size());
   for (std::size_t i = 0; i < state.arcs.arcs.size(); ++i) {
-    const Arc& arc = state.arcs.arcs[i];
+    const NodedArc& arc = state.arcs.arcs[i];
     if (arc.from == arc.to) continue;
     numbers[i] = static_cast<Index>(result.edges.size());
     result.edges.push_back({arc.from, arc.to});
@@ -130,7 +131,7 @@ Arrangement arrange(std::span<const Point> points, std::span<const Ends> arcs,
                     const Execution& execution) {
   const system::Call call(execution);
   validate_arcs(points, arcs);
-  State state = first_state(points, arcs, execution.threads);
+  ArrangementState state = first_state(points, arcs, execution.threads);
   constexpr int max_steps = 64;
   for (int step = 0;; ++step) {
     std::optional<arrangement::Snapped> snapped = arrangement::snap(state.arcs, execution.threads);

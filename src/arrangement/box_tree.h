@@ -20,15 +20,15 @@
 
 namespace rondel::arrangement {
 
-struct Box {
+struct SpaceBox {
   std::array<double, 3> low;
   std::array<double, 3> high;
 
-  [[nodiscard]] bool overlaps(const Box& other) const {
+  [[nodiscard]] bool overlaps(const SpaceBox& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
            other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
   }
-  void include(const Box& other) {
+  void include(const SpaceBox& other) {
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], other.low[i]);
       high[i] = std::max(high[i], other.high[i]);
@@ -40,11 +40,11 @@ class BoxTree {
  public:
   static constexpr std::size_t fan_out = 8;
 
-  BoxTree(std::vector<Box> boxes, unsigned threads) {
+  BoxTree(std::vector<SpaceBox> boxes, unsigned threads) {
     levels_.push_back(std::move(boxes));
     while (levels_.back().size() > 1) {
-      const std::vector<Box>& below = levels_.back();
-      std::vector<Box> level((below.size() + fan_out - 1) / fan_out);
+      const std::vector<SpaceBox>& below = levels_.back();
+      std::vector<SpaceBox> level((below.size() + fan_out - 1) / fan_out);
       constexpr std::size_t grain = 4096;
       system::parallel_for(threads, level.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -62,12 +62,12 @@ class BoxTree {
   [[nodiscard]] std::size_t num_blocks() const {
     return levels_.size() > 1 ? levels_[1].size() : 0;
   }
-  [[nodiscard]] const Box& box(Index i) const { return levels_[0][i]; }
+  [[nodiscard]] const SpaceBox& box(Index i) const { return levels_[0][i]; }
 
   // Calls visit(i, j) for each pair i < j of boxes that overlap, of which i is in the block.
   template <class Visit>
   void visit_pairs(std::size_t block, const Visit& visit) const {
-    const std::vector<Box>& boxes = levels_[0];
+    const std::vector<SpaceBox>& boxes = levels_[0];
     const auto visit_block = [&](std::size_t other) {
       const std::size_t end = other * fan_out + size_of(boxes, other);
       for (std::size_t i = block * fan_out; i < block * fan_out + size_of(boxes, block); ++i) {
@@ -82,7 +82,7 @@ class BoxTree {
 
   // Calls visit(i) for each box that overlaps the given one.
   template <class Visit>
-  void visit(const Box& box, const Visit& visit) const {
+  void visit(const SpaceBox& box, const Visit& visit) const {
     if (levels_[0].empty()) return;
     const auto visit_one = [&](std::size_t i) { visit(static_cast<Index>(i)); };
     descend(levels_.size() - 1, 0, 0, 0, box, visit_one);
@@ -90,14 +90,14 @@ class BoxTree {
 
  private:
   // Returns the number of nodes below node k.
-  static std::size_t size_of(const std::vector<Box>& below, std::size_t k) {
+  static std::size_t size_of(const std::vector<SpaceBox>& below, std::size_t k) {
     return std::min(fan_out, below.size() - k * fan_out);
   }
 
   // Calls visit(k) for each node k >= first of level `last` below a node that overlaps a box.
   template <class Visit>
   void descend(std::size_t level, std::size_t node, std::size_t last, std::size_t first,
-               const Box& box, const Visit& visit) const {
+               const SpaceBox& box, const Visit& visit) const {
     if (!levels_[level][node].overlaps(box)) return;
     if (level == last) {
       if (node >= first) visit(node);
@@ -107,13 +107,13 @@ class BoxTree {
     std::size_t end = node + 1;
     for (std::size_t l = last; l < level; ++l) end *= fan_out;
     if (end <= first) return;
-    const std::vector<Box>& below = levels_[level - 1];
+    const std::vector<SpaceBox>& below = levels_[level - 1];
     for (std::size_t i = 0; i < size_of(below, node); ++i) {
       descend(level - 1, node * fan_out + i, last, first, box, visit);
     }
   }
 
-  std::vector<std::vector<Box>> levels_;
+  std::vector<std::vector<SpaceBox>> levels_;
 };
 
 }  // namespace rondel::arrangement

@@ -48,7 +48,7 @@ void Coverage::link_components(unsigned threads) {
     links_.push_back({start, halfedges_.around(start)[0], no_index, {}});
   }
   if (links_.size() < 2) return;
-  std::vector<Box> boxes;
+  std::vector<SpaceBox> boxes;
   boxes.reserve(halfedges_.size() / 2);
   for (Index h = 0; h < halfedges_.size(); h += 2) {
     boxes.push_back(
@@ -58,7 +58,7 @@ void Coverage::link_components(unsigned threads) {
   constexpr std::size_t grain = 64;
   system::parallel_for(threads, links_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      Link& link = links_[k];
+      ComponentLink& link = links_[k];
       const Index from = link.node;
       const Index to = links_[k + 1].node;
       const Point& p = halfedges_.point(from);
@@ -115,7 +115,7 @@ void Coverage::turn(Index node, Index from, Index to) {
 template <class Visit>
 void Coverage::traverse(const Visit& visit) {
   std::ranges::fill(is_visited_, std::uint8_t{0});
-  for (const Link& link : links_) {
+  for (const ComponentLink& link : links_) {
     traverse_component(link.start, visit);
     if (link.first == no_index) continue;
     turn(link.node, link.start, link.first);
@@ -127,11 +127,11 @@ void Coverage::traverse(const Visit& visit) {
 template <class Visit>
 void Coverage::traverse_component(Index start, const Visit& visit) {
   // A face under way: the halfedge through which it was entered, and the next one to look at.
-  struct Frame {
+  struct FaceUnderWay {
     Index entry;
     Index next;
   };
-  std::vector<Frame> frames;
+  std::vector<FaceUnderWay> frames;
   const auto enter = [&](Index entry) {
     Index h = entry;
     do {

@@ -46,7 +46,7 @@ class Coverage {
 
  private:
   // A path from a component of the edges to the next one.
-  struct Link {
+  struct ComponentLink {
     Index node;                    // a node of this component
     Index start;                   // the sector of this node at which the path before ends
     Index first;                   // the sector of this node at which the path to the next begins
@@ -71,7 +71,7 @@ class Coverage {
   const CompressedRows<EdgeOfPolygon>& sides_;
   const std::vector<std::uint8_t>& operands_;
   Owners whole_;
-  std::vector<Link> links_;
+  std::vector<ComponentLink> links_;
   std::vector<std::uint8_t> is_visited_;  // each halfedge, in a traversal
   std::vector<Index> places_;  // of each polygon among the owners; no_index if it is none of them
   std::vector<std::uint8_t> is_inside_first_;  // each polygon: the same where a traversal begins

@@ -17,15 +17,15 @@ namespace rondel::arrangement {
 using Vec = exact::Vector3<double>;
 
 // The shorter arc between two nodes, `from` <= `to`. It is a point if they are equal.
-struct Arc {
+struct NodedArc {
   Index from;
   Index to;
-  friend auto operator<=>(const Arc&, const Arc&) = default;
+  friend auto operator<=>(const NodedArc&, const NodedArc&) = default;
 };
 
 struct NodedArcs {
-  std::vector<Point> nodes;  // on different rays
-  std::vector<Arc> arcs;     // different ones, ascending
+  std::vector<Point> nodes;    // on different rays
+  std::vector<NodedArc> arcs;  // different ones, ascending
 
   [[nodiscard]] const Point& from(Index arc) const { return nodes[arcs[arc].from]; }
   [[nodiscard]] const Point& to(Index arc) const { return nodes[arcs[arc].to]; }

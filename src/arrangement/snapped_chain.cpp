@@ -25,7 +25,7 @@ namespace {
 using exact::to_vector;
 
 // A node in coordinates along the arc (x) and across (y), relative to the first node of its group.
-struct Place {
+struct PlaceAlong {
   double x;
   double y;
   Index node;
@@ -34,7 +34,7 @@ struct Place {
 // The nodes of an arc in groups: nodes of different groups are farther apart than both radii.
 class NodesAlong {
  public:
-  NodesAlong(std::span<const Point> nodes, Arc arc)
+  NodesAlong(std::span<const Point> nodes, NodedArc arc)
       : nodes_(nodes), arc_(arc), a_(to_vector(nodes[arc.from])) {
     normal_ = normalized(normal_of(nodes[arc.from], nodes[arc.to]));
     forward_ = cross(normal_, a_);
@@ -50,7 +50,7 @@ class NodesAlong {
     return cosine > 0 ? quarter : 2 - quarter;
   }
   // Returns the place of a node relative to another one near to it.
-  [[nodiscard]] Place place(Index node, Index first) const {
+  [[nodiscard]] PlaceAlong place(Index node, Index first) const {
     // The cross product is as long as the step along the sphere, and perpendicular to it.
     const Vec across = normal_of(nodes_[first], nodes_[node]);
     return {dot(normal_, across), dot(cross(to_vector(nodes_[first]), normal_), across), node};
@@ -63,7 +63,7 @@ class NodesAlong {
 
  private:
   std::span<const Point> nodes_;
-  Arc arc_;
+  NodedArc arc_;
   Vec a_;
   Vec normal_{};
   Vec forward_{};
@@ -78,11 +78,11 @@ struct RoughPlace {
 class Envelope {
  public:
   // `height` is the distance of the group's first node from the arc.
-  Envelope(std::vector<Place>& places, double height) : height_(height) {
-    std::ranges::sort(places, {}, [&](const Place& p) {
+  Envelope(std::vector<PlaceAlong>& places, double height) : height_(height) {
+    std::ranges::sort(places, {}, [&](const PlaceAlong& p) {
       return std::tuple(p.x, std::abs(height + p.y), p.node);
     });
-    for (const Place& place : places) add(place);
+    for (const PlaceAlong& place : places) add(place);
   }
 
   // Calls visit(node) for each node of which a place is within the radius, in order.
@@ -90,7 +90,7 @@ class Envelope {
   void visit(const Visit& visit) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
-      const Place& place = nearest_[i];
+      const PlaceAlong& place = nearest_[i];
       const double begin = i == 0 ? -infinity : middle_of(nearest_[i - 1], place);
       const double end = i + 1 == nearest_.size() ? infinity : middle_of(place, nearest_[i + 1]);
       const double x = std::clamp(place.x, begin, end) - place.x;
@@ -102,11 +102,11 @@ class Envelope {
  private:
   // Returns the place along the arc that is equally far from two nodes. Precondition: first.x <
   // second.x
-  [[nodiscard]] double middle_of(const Place& first, const Place& second) const {
+  [[nodiscard]] double middle_of(const PlaceAlong& first, const PlaceAlong& second) const {
     const double slope = (second.y - first.y) / (second.x - first.x);
     return (first.x + second.x + slope * (2 * height_ + first.y + second.y)) / 2;
   }
-  void add(const Place& place) {
+  void add(const PlaceAlong& place) {
     if (!nearest_.empty() && nearest_.back().x == place.x) return;  // it is not nearer
     while (nearest_.size() > 1 && middle_of(nearest_.back(), place) <=
                                       middle_of(nearest_[nearest_.size() - 2], nearest_.back())) {
@@ -116,12 +116,12 @@ class Envelope {
   }
 
   double height_;
-  std::vector<Place> nearest_;
+  std::vector<PlaceAlong> nearest_;
 };
 
 }  // namespace
 
-bool append_nearest_nodes(std::span<const Point> nodes, Arc arc, std::span<const Index> near,
+bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<const Index> near,
                           std::vector<Index>& chain) {
   const NodesAlong along(nodes, arc);
   std::vector<RoughPlace> order;
@@ -132,7 +132,7 @@ bool append_nearest_nodes(std::span<const Point> nodes, Arc arc, std::span<const
   // Rough places of nodes whose disks may meet differ by less: both radii, and errors.
   constexpr double group_width = 16 * arrangement_radius;
   bool is_crowded = false;
-  std::vector<Place> places;
+  std::vector<PlaceAlong> places;
   for (std::size_t i = 0; i < order.size();) {
     std::size_t k = i + 1;
     while (k < order.size() && order[k].at - order[k - 1].at <= group_width) ++k;
@@ -153,7 +153,7 @@ bool append_nearest_nodes(std::span<const Point> nodes, Arc arc, std::span<const
   return is_crowded;
 }
 
-void append_nodes_on_arc(std::span<const Point> nodes, Arc arc, std::span<const Index> on,
+void append_nodes_on_arc(std::span<const Point> nodes, NodedArc arc, std::span<const Index> on,
                          std::vector<Index>& chain) {
   const auto begin = static_cast<std::ptrdiff_t>(chain.size());
   chain.insert(chain.end(), on.begin(), on.end());

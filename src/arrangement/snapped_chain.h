@@ -21,11 +21,11 @@ namespace rondel::arrangement {
 // arc passes through their cells in the Voronoi diagram of the nodes.) `near` lists the nodes that
 // are near to the arc, in any order. Returns true if two of the nodes, or a node and an end, are so
 // close to each other that their cells may touch near the arc.
-bool append_nearest_nodes(std::span<const Point> nodes, Arc arc, std::span<const Index> near,
+bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<const Index> near,
                           std::vector<Index>& chain);
 
 // Appends nodes that lie exactly on the arc, in their order along it.
-void append_nodes_on_arc(std::span<const Point> nodes, Arc arc, std::span<const Index> on,
+void append_nodes_on_arc(std::span<const Point> nodes, NodedArc arc, std::span<const Index> on,
                          std::vector<Index>& chain);
 
 }  // namespace rondel::arrangement

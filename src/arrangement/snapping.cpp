@@ -69,12 +69,13 @@ class BentArcs {
 };
 
 // The places of crossings, each once, and which of them each arc has.
-struct Places {
+struct CrossingPlaces {
   std::vector<Point> points;
   std::vector<Index> numbers;  // the place of each crossing
 };
 
-Places places_of(const NodedArcs& input, std::span<const Crossing> crossings, unsigned threads) {
+CrossingPlaces places_of(const NodedArcs& input, std::span<const ArcCrossing> crossings,
+                         unsigned threads) {
   std::vector<Point> points(crossings.size());
   system::parallel_for(threads, crossings.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -87,10 +88,10 @@ Places places_of(const NodedArcs& input, std::span<const Crossing> crossings, un
 }
 
 // Returns the nodes of the crossings of each arc, ascending.
-CompressedRows<Index> crossing_nodes(std::size_t num_arcs, std::span<const Crossing> crossings,
+CompressedRows<Index> crossing_nodes(std::size_t num_arcs, std::span<const ArcCrossing> crossings,
                                      std::span<const Index> nodes) {
   system::RowPlaces<std::uint64_t> places(num_arcs);
-  for (const Crossing& crossing : crossings) {
+  for (const ArcCrossing& crossing : crossings) {
     places.count(crossing.first);
     places.count(crossing.second);
   }
@@ -120,7 +121,7 @@ class Chains {
       : input_(input), numbers_(numbers), nodes_(nodes), bent_(bent), own_(crossing_nodes) {}
 
   void append(Index arc, ChainBlock& block) const {
-    const Arc ends = {numbers_[input_.arcs[arc].from], numbers_[input_.arcs[arc].to]};
+    const NodedArc ends = {numbers_[input_.arcs[arc].from], numbers_[input_.arcs[arc].to]};
     const std::size_t begin = block.nodes.size();
     block.nodes.push_back(ends.from);
     const std::span<const NearNode> near = bent_.near_of(arc);
@@ -144,7 +145,7 @@ class Chains {
  private:
   // True if the arc is at most 120 degrees long: if its ends move, its middle does by at most twice
   // as much.
-  [[nodiscard]] bool is_short(Arc ends) const {
+  [[nodiscard]] bool is_short(NodedArc ends) const {
     constexpr double cosine = -0.49;
     return dot(nodes_[ends.from], nodes_[ends.to]) > cosine;
   }
@@ -182,13 +183,13 @@ Snapped pieces_of(std::vector<Point> nodes, CompressedRows<Index> chains, bool i
                   unsigned threads) {
   leave_out_unused(nodes, chains.values);
   Snapped result;
-  std::vector<Arc> pieces;
+  std::vector<NodedArc> pieces;
   pieces.reserve(chains.values.size());
-  result.chains.offsets.reserve(chains.size() + 1);
+  result.chains.offsets =
+      system::offsets_of(chains.size(), [&](std::size_t i) { return chains[i].size() - 1; });
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const std::span<const Index> chain = chains[i];
     for (std::size_t k = 1; k < chain.size(); ++k) pieces.push_back({chain[k - 1], chain[k]});
-    result.chains.offsets.push_back(pieces.size());
   }
   NumberedArcs numbered = numbered_arcs(pieces, threads);
   result.pieces = {std::move(nodes), std::move(numbered.arcs)};
@@ -226,18 +227,18 @@ NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, uns
   return result;
 }
 
-NumberedArcs numbered_arcs(std::span<const Arc> given, unsigned threads) {
+NumberedArcs numbered_arcs(std::span<const NodedArc> given, unsigned threads) {
   // Arcs by their lower node, each with its place in the input.
-  struct Entry {
+  struct ArcEntry {
     Index to;
     Index place;
-    auto operator<=>(const Entry&) const = default;
+    auto operator<=>(const ArcEntry&) const = default;
   };
   Index num_nodes = 0;
-  for (const Arc& arc : given) num_nodes = std::max({num_nodes, arc.from + 1, arc.to + 1});
+  for (const NodedArc& arc : given) num_nodes = std::max({num_nodes, arc.from + 1, arc.to + 1});
   system::RowPlaces<std::uint64_t> places(num_nodes);
-  for (const Arc& arc : given) places.count(std::min(arc.from, arc.to));
-  std::vector<Entry> entries(places.sum());
+  for (const NodedArc& arc : given) places.count(std::min(arc.from, arc.to));
+  std::vector<ArcEntry> entries(places.sum());
   for (std::size_t i = 0; i < given.size(); ++i) {
     const auto [low, high] = std::minmax(given[i].from, given[i].to);
     entries[places.place(low)] = {high, static_cast<Index>(i)};
@@ -253,7 +254,7 @@ NumberedArcs numbered_arcs(std::span<const Arc> given, unsigned threads) {
   result.halfedges.resize(given.size());
   for (Index node = 0; node < num_nodes; ++node) {
     for (std::uint64_t k = offsets[node]; k < offsets[node + 1]; ++k) {
-      const Arc arc = {node, entries[k].to};
+      const NodedArc arc = {node, entries[k].to};
       if (result.arcs.empty() || result.arcs.back() != arc) result.arcs.push_back(arc);
       const auto number = static_cast<Index>(result.arcs.size() - 1);
       const bool is_backward = given[entries[k].place].from != node;
@@ -272,7 +273,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
   if (contacts.crossings.empty() && std::ranges::none_of(contacts.near, is_on)) return std::nullopt;
 
   // The nodes after this step are those before it and the places of crossings.
-  Places places = places_of(input, contacts.crossings, threads);
+  CrossingPlaces places = places_of(input, contacts.crossings, threads);
   std::vector<Point> all = input.nodes;
   all.insert(all.end(), places.points.begin(), places.points.end());
   NumberedPoints nodes = numbered(all, input.nodes.size(), threads);
@@ -286,7 +287,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
   std::vector<NearNode> added = arcs_near(input, boxes, places.points, threads);
   for (NearNode& pair : added) pair.node = number_of_place(pair.node);
   std::erase_if(added, [&](const NearNode& pair) {
-    const Arc& arc = input.arcs[pair.arc];
+    const NodedArc& arc = input.arcs[pair.arc];
     return pair.node == nodes.numbers[arc.from] || pair.node == nodes.numbers[arc.to];
   });
   std::vector<NearNode> near;
@@ -294,7 +295,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
   std::ranges::set_union(known, added, std::back_inserter(near));
 
   BentArcs bent(nodes.points.size(), input.arcs.size(), near);
-  for (const Crossing& crossing : contacts.crossings) {
+  for (const ArcCrossing& crossing : contacts.crossings) {
     bent.bend(crossing.first);
     bent.bend(crossing.second);
   }

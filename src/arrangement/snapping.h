@@ -42,9 +42,9 @@ NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, uns
 
 // Returns the arcs between the nodes with these numbers, each once, and the halfedge of each.
 struct NumberedArcs {
-  std::vector<Arc> arcs;
+  std::vector<NodedArc> arcs;
   std::vector<Index> halfedges;
 };
-NumberedArcs numbered_arcs(std::span<const Arc> given, unsigned threads);
+NumberedArcs numbered_arcs(std::span<const NodedArc> given, unsigned threads);
 
 }  // namespace rondel::arrangement

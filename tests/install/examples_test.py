@@ -16,7 +16,7 @@ import tempfile
 from commands import run
 
 ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "contours": [], "hull": [], "nearest": [], "out_of_core": [], "regions": [], "remap": [],
-             "editing": [], "stop": [], "c_interface": []}
+             "set_operations": [], "editing": [], "stop": [], "c_interface": []}
 
 
 def build_examples(cmake, build, source, compiler, work):

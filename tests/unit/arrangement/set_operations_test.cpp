@@ -345,8 +345,8 @@ TEST(repaired, reads_rings_even_odd) {
   EXPECT_TRUE(places(0, 0.2, 1));
   EXPECT_TRUE(places(0, 1.8, 1));
   EXPECT_FALSE(places(0, 1, 0.2));
-  EXPECT_TRUE(places(2, 0.5, 0.5));
-  EXPECT_FALSE(places(2, 2, 1));
+  EXPECT_TRUE(places(2, 0.4, 0.5));
+  EXPECT_FALSE(places(2, 2, 1.1));
   EXPECT_EQ(result.corners_of(3).size(), 4U);
   // Where rings contradict each other, what is opposite to the polygon is outside.
   EXPECT_LT(areas(result)[0], 0.1);

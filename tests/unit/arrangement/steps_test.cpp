@@ -22,15 +22,15 @@
 namespace rondel::test::of_steps {
 namespace {
 
-using arrangement::Box;
 using arrangement::BoxTree;
+using arrangement::SpaceBox;
 
 TEST(box_tree, finds_all_pairs_that_overlap) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<> coordinate(0, 1);
   for (const std::size_t count : {0U, 1U, 2U, 8U, 9U, 65U, 300U}) {
-    std::vector<Box> boxes(count);
-    for (Box& box : boxes) {
+    std::vector<SpaceBox> boxes(count);
+    for (SpaceBox& box : boxes) {
       for (std::size_t i = 0; i < 3; ++i) {
         box.low[i] = coordinate(random);
         box.high[i] = box.low[i] + 0.2 * coordinate(random);
