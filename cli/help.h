@@ -29,7 +29,10 @@ class HelpFormatter : public CLI::Formatter {
     std::string usage = "\nUsage: " + name;
     if (!app->get_subcommands({}).empty()) return usage + " COMMAND [OPTIONS]\n";
     for (const CLI::Option* option : app->get_options()) {
-      if (!option->get_required()) continue;
+      if (!option->get_required()) {
+        if (option->get_positional()) usage += " [" + option->get_name() + ']';
+        continue;
+      }
       usage += ' ' + shortest_name(*option);
       if (!option->get_positional()) usage += make_option_opts(option);
     }

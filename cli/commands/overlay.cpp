@@ -141,10 +141,12 @@ Command add_overlay_command(CLI::App& tool) {
             given->common.input = standard(file, "/dev/stdin");
           },
           "The polygons A: .geojson, or - for standard input")
-      ->required();
+      ->required()
+      ->type_name("");
   add_second_input(*parser, "SECOND", options->second,
                    "The polygons B; without them the union of A is written")
-      ->required(false);
+      ->required(false)
+      ->type_name("");
   parser
       ->add_option("--input-format", options->common.input_format,
                    "Format of standard input, or of INPUT: geojson")

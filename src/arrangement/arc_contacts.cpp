@@ -189,7 +189,7 @@ BoxTree boxes_of(const NodedArcs& input, unsigned threads) {
 Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned threads) {
   const std::size_t num_blocks = boxes.num_blocks();
   const std::size_t num_tasks = system::num_pieces(num_blocks, blocks_per_task);
-  std::vector<std::vector<ArcCrossing>> crossings(num_tasks);
+  std::vector<std::vector<CrossingArcs>> crossings(num_tasks);
   std::vector<std::vector<NearNode>> near(num_tasks);
   system::parallel_for(threads, num_blocks, blocks_per_task,
                        [&](std::size_t begin, std::size_t end) {

@@ -19,10 +19,10 @@
 namespace rondel::arrangement {
 
 // Two arcs that cross in the inside of both; exact.
-struct ArcCrossing {
+struct CrossingArcs {
   Index first;
   Index second;  // above first
-  friend auto operator<=>(const ArcCrossing&, const ArcCrossing&) = default;
+  friend auto operator<=>(const CrossingArcs&, const CrossingArcs&) = default;
 };
 
 // A node within `arrangement_radius` of the inside of an arc: the node that is nearest to some place
@@ -34,8 +34,8 @@ struct NearNode {
 };
 
 struct Contacts {
-  std::vector<ArcCrossing> crossings;  // ascending
-  std::vector<NearNode> near;          // ascending; of ends of arcs alone
+  std::vector<CrossingArcs> crossings;  // ascending
+  std::vector<NearNode> near;           // ascending; of ends of arcs alone
 };
 
 // True if the foot of the perpendicular from a point to the arc ab is within the arc and not farther

@@ -74,7 +74,7 @@ struct CrossingPlaces {
   std::vector<Index> numbers;  // the place of each crossing
 };
 
-CrossingPlaces places_of(const NodedArcs& input, std::span<const ArcCrossing> crossings,
+CrossingPlaces places_of(const NodedArcs& input, std::span<const CrossingArcs> crossings,
                          unsigned threads) {
   std::vector<Point> points(crossings.size());
   system::parallel_for(threads, crossings.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -88,10 +88,10 @@ CrossingPlaces places_of(const NodedArcs& input, std::span<const ArcCrossing> cr
 }
 
 // Returns the nodes of the crossings of each arc, ascending.
-CompressedRows<Index> crossing_nodes(std::size_t num_arcs, std::span<const ArcCrossing> crossings,
+CompressedRows<Index> crossing_nodes(std::size_t num_arcs, std::span<const CrossingArcs> crossings,
                                      std::span<const Index> nodes) {
   system::RowPlaces<std::uint64_t> places(num_arcs);
-  for (const ArcCrossing& crossing : crossings) {
+  for (const CrossingArcs& crossing : crossings) {
     places.count(crossing.first);
     places.count(crossing.second);
   }
@@ -295,7 +295,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
   std::ranges::set_union(known, added, std::back_inserter(near));
 
   BentArcs bent(nodes.points.size(), input.arcs.size(), near);
-  for (const ArcCrossing& crossing : contacts.crossings) {
+  for (const CrossingArcs& crossing : contacts.crossings) {
     bent.bend(crossing.first);
     bent.bend(crossing.second);
   }

@@ -82,7 +82,7 @@ INSTEAD = {"--density": "-n 12", "--start": ""}
 # Files that are told apart elsewhere: a folder of the command's own.
 APART = {"delaunay": {"--scratch"}}
 FILE = re.compile(r"^  (?:-\w,)?(--[\w-]+)(?:,--[\w-]+)? (FILE|TARGET|KM\|FILE|FILE:KM|DIR)\b")
-ARGUMENT = re.compile(r"^  (INPUT|TRIANGLES|QUERIES|TARGET|WEIGHTS|VALUES)\b")
+ARGUMENT = re.compile(r"^  (INPUT|SECOND|TRIANGLES|QUERIES|TARGET|WEIGHTS|VALUES)\b")
 
 
 class SeparateFiles(unittest.TestCase):
