@@ -273,9 +273,10 @@ std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, unsig
     while (end < border.size() && border[end].key == border[begin].key) ++end;
     Region& region = regions.emplace_back(Region{border[begin].key, {}});
     for (const auto& nodes : walk.rings(std::span(border).subspan(begin, end - begin))) {
-      std::vector<Point>& ring = region.rings.emplace_back();
+      std::vector<Point> ring;
       ring.reserve(nodes.size());
       for (const Index node : nodes) ring.push_back(arranged.nodes[node]);
+      region.rings.push_back(std::move(ring));
     }
     begin = end;
   }
@@ -310,10 +311,11 @@ CellRings cells_of(std::span<const Region> regions) {
     std::vector<std::vector<Index>> rings;
     rings.reserve(region.rings.size());
     for (const auto& points : region.rings) {
-      std::vector<Index>& ring = rings.emplace_back();
+      std::vector<Index> ring;
       ring.reserve(points.size());
       for (const Point& p : points) ring.push_back(number_of(p));
       std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
+      rings.push_back(std::move(ring));
     }
     std::ranges::sort(rings);
     if (region.is_whole) result.whole.push_back(static_cast<Index>(result.num_cells()));

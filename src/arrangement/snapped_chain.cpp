@@ -35,10 +35,11 @@ struct PlaceAlong {
 class NodesAlong {
  public:
   NodesAlong(std::span<const Point> nodes, NodedArc arc)
-      : nodes_(nodes), arc_(arc), a_(to_vector(nodes[arc.from])) {
-    normal_ = normalized(normal_of(nodes[arc.from], nodes[arc.to]));
-    forward_ = cross(normal_, a_);
-  }
+      : nodes_(nodes),
+        arc_(arc),
+        a_(to_vector(nodes[arc.from])),
+        normal_(normalized(normal_of(nodes[arc.from], nodes[arc.to]))),
+        forward_(cross(normal_, a_)) {}
 
   // Returns a number from 0 to 2 that grows along the arc, at least half as fast as the angle. It is
   // off by a few units in the last place of 1.
@@ -65,8 +66,8 @@ class NodesAlong {
   std::span<const Point> nodes_;
   NodedArc arc_;
   Vec a_;
-  Vec normal_{};
-  Vec forward_{};
+  Vec normal_;
+  Vec forward_;
 };
 
 struct RoughPlace {
