@@ -87,7 +87,7 @@ CellTable read_polygons(const FileName& file, const PolygonOptions& options,
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
   CellTable table;
-  if (features.rings.empty()) table.facts.remarks.push_back(no_features);
+  if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
   table.cells = overlay::cells_of_features(features, options, table.facts.remarks, execution);
   table.facts.name = std::move(features.name);
   table.facts.columns = std::move(features.columns);
@@ -104,7 +104,7 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
     table.is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
   }
   table.lines = lines_of_features(features, options);
-  if (features.rings.empty()) table.facts.remarks.push_back(no_features);
+  if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
   table.polygons = overlay::cells_of_features(features, options, table.facts.remarks, execution);
   table.ids = std::move(features.ids);
   table.facts.name = std::move(features.name);

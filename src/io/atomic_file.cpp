@@ -43,10 +43,18 @@ AtomicFile::AtomicFile(const FileName& file) : path_(file.path), string_(file.by
   }
 }
 
-AtomicFile::AtomicFile(AtomicFile&& other) : AtomicFile(std::as_const(other)) {
-  other.descriptor_ = -1;
-  other.temporary_.clear();
-}
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      string_(other.string_),
+      target_(std::move(other.target_)),
+      directory_(std::move(other.directory_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      is_nameless_(other.is_nameless_),
+      buffer_(std::move(other.buffer_)),
+      num_drained_(other.num_drained_),
+      is_reserved_(other.is_reserved_),
+      slot_(other.slot_),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 AtomicFile::~AtomicFile() { discard(); }
 

@@ -49,7 +49,7 @@ class RONDEL_API AtomicFile {
   explicit AtomicFile(const FileName& file);
   ~AtomicFile();
   // Takes over what the other one has written.
-  AtomicFile(AtomicFile&& other);
+  AtomicFile(AtomicFile&& other) noexcept;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   // Appends bytes, by way of a buffer.
@@ -77,8 +77,6 @@ class RONDEL_API AtomicFile {
   [[nodiscard]] const std::string& directory() const { return directory_; }
 
  private:
-  AtomicFile(const AtomicFile&) = default;
-
   // Writes what is in the buffer.
   void flush();
   // Writes bytes to the descriptor, whose system may take them in parts.

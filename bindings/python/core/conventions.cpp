@@ -75,6 +75,41 @@ void mark_missing_of(const NumbersInOut& values, const std::string& type,
   mark_missing({values.data(), values.size()}, type, attributes);
 }
 
+// Adds what says of values where they are and which are missing.
+void add_value_functions(nb::module_& module) {
+  module.def(
+      "are_same_places",
+      [](const PairsIn& a, const PairsIn& b, double max_apart_deg) {
+        std::vector<std::uint8_t> are_same(a.shape(0));
+        std::ranges::transform(rows_of<LonLat>(a), rows_of<LonLat>(b), are_same.begin(),
+                               [&](const LonLat& p, const LonLat& q) {
+                                 return is_same_place(p, q, max_apart_deg) ? 1 : 0;
+                               });
+        return to_array<std::uint8_t>(std::move(are_same));
+      },
+      nb::arg("a").noconvert(), nb::arg("b").noconvert(), nb::arg("max_apart_deg"));
+  module.def(
+      "is_name_of_time", [](const std::string& dimension) { return is_name_of_time(dimension); },
+      nb::arg("dimension"));
+  module.def(
+      "repeated_dimensions",
+      [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
+         const NumbersIn& lon, const NumbersIn& lat) {
+        return repeated_dimensions(names, shape, {lon.data(), lon.size()},
+                                   {lat.data(), lat.size()});
+      },
+      nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
+  module.def("mark_missing", &mark_missing_of, nb::arg("values").noconvert(), nb::arg("type"),
+             nb::arg("attributes"));
+  module.def(
+      "axis_lines",
+      [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {
+        return to_array<double>(
+            axis_lines(rows_of<double>(values), rows_of<double>(bounds), is_longitude));
+      },
+      nb::arg("values").noconvert(), nb::arg("bounds").noconvert(), nb::arg("is_longitude"));
+}
+
 }  // namespace
 
 void add_conventions(nb::module_& module) {
@@ -118,37 +153,7 @@ void add_conventions(nb::module_& module) {
       [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& lengths,
          std::uint64_t num_cells) { return dimensions_of_cells(names, lengths, num_cells); },
       nb::arg("names"), nb::arg("lengths"), nb::arg("num_cells"));
-  module.def(
-      "are_same_places",
-      [](const PairsIn& a, const PairsIn& b, double max_apart_deg) {
-        std::vector<std::uint8_t> are_same(a.shape(0));
-        std::ranges::transform(rows_of<LonLat>(a), rows_of<LonLat>(b), are_same.begin(),
-                               [&](const LonLat& p, const LonLat& q) {
-                                 return is_same_place(p, q, max_apart_deg) ? 1 : 0;
-                               });
-        return to_array<std::uint8_t>(std::move(are_same));
-      },
-      nb::arg("a").noconvert(), nb::arg("b").noconvert(), nb::arg("max_apart_deg"));
-  module.def(
-      "is_name_of_time", [](const std::string& dimension) { return is_name_of_time(dimension); },
-      nb::arg("dimension"));
-  module.def(
-      "repeated_dimensions",
-      [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
-         const NumbersIn& lon, const NumbersIn& lat) {
-        return repeated_dimensions(names, shape, {lon.data(), lon.size()},
-                                   {lat.data(), lat.size()});
-      },
-      nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
-  module.def("mark_missing", &mark_missing_of, nb::arg("values").noconvert(), nb::arg("type"),
-             nb::arg("attributes"));
-  module.def(
-      "axis_lines",
-      [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {
-        return to_array<double>(
-            axis_lines(rows_of<double>(values), rows_of<double>(bounds), is_longitude));
-      },
-      nb::arg("values").noconvert(), nb::arg("bounds").noconvert(), nb::arg("is_longitude"));
+  add_value_functions(module);
 }
 
 }  // namespace rondel::python
