@@ -25,11 +25,11 @@ using exact::to_vector;
 // ray may differ by 2e-14.
 constexpr double margin = 0x1p-43;
 
-// Returns the least value that dot(normal, p - a) has for a point p that is farther from the great
-// circle of ab than the radius, relative to the length of the step from a to b. The normal is
-// a x (b - a): it is off by 6.9 u |b - a|, and the product by 7.9 u |p - a| |b - a| with |p - a| <=
-// 2 (see overlay/perturbed_predicates.h). The sum of the sizes of the coordinates, by which the
-// value is multiplied, is not below the length.
+// A bound for dot(normal, p - a) of points p within the radius of the great circle of ab, and for
+// the error of that, relative to the length of the step from a to b. The normal a x (b - a) is off
+// by u (1 + 2 sqrt(2)) |b - a|, and the product by 3 u more, each times |p - a| <= 2: 13.7 u and terms
+// of higher order. It is multiplied by the sum of the sizes of coordinates, which is not below the
+// length.
 constexpr double side_bound = 18 * predicates::unit_roundoff + 2 * arrangement_radius;
 
 // An arc, and on which side of it points are.

@@ -164,6 +164,20 @@ class Chains {
   const CompressedRows<Index>& own_;
 };
 
+// Returns the pairs of both lists, each once. The first list ascends, since nodes keep their order.
+// So does the second one, unless a place is on the ray of a node and has become that node.
+std::vector<NearNode> united(std::span<const NearNode> known, std::vector<NearNode> added) {
+  const auto is_not_less = [](const NearNode& p, const NearNode& q) { return !(p < q); };
+  if (std::ranges::adjacent_find(added, is_not_less) != added.end()) {
+    std::ranges::sort(added);
+    added.erase(std::unique(added.begin(), added.end()), added.end());
+  }
+  std::vector<NearNode> all;
+  all.reserve(known.size() + added.size());
+  std::ranges::set_union(known, added, std::back_inserter(all));
+  return all;
+}
+
 // Leaves out nodes through which no arc is led: those of crossings that have nearer ones.
 void leave_out_unused(std::vector<Point>& nodes, std::vector<Index>& used) {
   std::vector<Index> numbers(nodes.size(), no_index);
@@ -281,7 +295,6 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
     return nodes.numbers[input.nodes.size() + place];
   };
 
-  // Numbers ascend as they did before, so that these lists stay sorted.
   std::vector<NearNode> known = contacts.near;
   for (NearNode& pair : known) pair.node = nodes.numbers[pair.node];
   std::vector<NearNode> added = arcs_near(input, boxes, places.points, threads);
@@ -290,9 +303,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
     const NodedArc& arc = input.arcs[pair.arc];
     return pair.node == nodes.numbers[arc.from] || pair.node == nodes.numbers[arc.to];
   });
-  std::vector<NearNode> near;
-  near.reserve(known.size() + added.size());
-  std::ranges::set_union(known, added, std::back_inserter(near));
+  const std::vector<NearNode> near = united(known, std::move(added));
 
   BentArcs bent(nodes.points.size(), input.arcs.size(), near);
   for (const CrossingArcs& crossing : contacts.crossings) {
