@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "arrangement/noded_arcs.h"
 #include "exact/vector.h"
 #include "rondel/predicates.h"
 #include "system/parallel.h"
@@ -22,9 +23,8 @@ int quarter(const Point& node, const Point& reference, const Point& p) {
   const Sign side = orientation(node, reference, p);
   if (side != Sign::zero) return side == Sign::positive ? 1 : 3;
   // Both directions are on one great circle, so that the sign of this product is certain.
-  const Point first = normalized(cross(node, reference - node));
-  const Point second = normalized(cross(node, p - node));
-  return dot(first, second) > 0 ? 0 : 2;
+  const Vec first = normalized(normal_of(node, reference));
+  return dot(first, normal_of(node, p)) > 0 ? 0 : 2;
 }
 
 }  // namespace
