@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Pairs of arcs whose boxes overlap are looked at once. Where the ends of an arc are farther from the
+// great circle of the other one than the radius, doubles show on which side they are, and that
+// nothing is near. All other pairs are decided exactly, as to crossings, and in double-double, as to
+// distances.
 #include "arrangement/arc_contacts.h"
 
 #include <algorithm>
@@ -109,12 +113,14 @@ class ContactFinder {
   Contacts& found_;
 };
 
+// Sorts a list, and leaves out what it repeats.
 template <class T>
 void sort_and_unite(std::vector<T>& all) {
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
+// Does the same for lists of several threads, as one.
 template <class T>
 void sort_and_join(std::vector<std::vector<T>>& parts, std::vector<T>& all) {
   std::size_t size = 0;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Numbers the nodes and arcs, leads arcs through nodes (snapping.h) until no arcs cross, and follows
+// each given arc through these steps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,6 +35,7 @@ bool are_opposite(const Point& p, const Point& q) {
   return norm(p + q) < least_distance;
 }
 
+// Throws InvalidInput with the first point or arc that is not as arrange() wants it.
 void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
   constexpr double max_deviation = 1e-14;
   const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The faces of a component are visited depth first, by crossing edges; each face that has been
+// visited is left through the edge by which it was entered, so that the owners are again those of the
+// face before. A component begins and ends in the sector where the path from the one before it
+// arrives.
 #include "arrangement/coverage.h"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Directions from a node are compared by exact orientations: first by the part of a turn from the
+// first of them, then with each other.
 #include "arrangement/halfedges.h"
 
 #include <algorithm>
@@ -52,6 +54,7 @@ int Halfedges::compare(Index node, const Point& reference, const Point& p, const
   return -static_cast<int>(orientation(point(node), p, q));
 }
 
+// Sorts the halfedges from a node, and finds what follows the ones that lead to it.
 void Halfedges::sort_around(Index node) {
   const std::span<Index> row =
       std::span(around_.values)

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The sides of all polygons are arranged; faces get the polygons that have them (coverage.h). A
+// halfedge whose face has a region, while the face beyond does not, is on the border of the region,
+// and borders are joined into rings.
 #include "rondel/set_operations.h"
 
 #include <algorithm>
@@ -27,6 +30,7 @@ using arrangement::EdgeOfPolygon;
 using arrangement::Halfedges;
 using arrangement::Owners;
 
+// Throws InvalidInput if the arrays are no compressed rows.
 void validate_rings(const CellRings& cells) {
   if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
       !system::are_offsets(cells.rings, cells.corners.size()) ||
@@ -43,6 +47,7 @@ struct Sides {
   std::vector<std::uint8_t> operands;  // of each polygon
   Owners whole;
 
+  // Appends the cells of an operand, with all of its points.
   void append(const CellRings& cells, std::uint8_t operand) {
     const auto first_point = static_cast<Index>(points.size());
     points.insert(points.end(), cells.points.begin(), cells.points.end());

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Contacts are found, crossings become nodes, arcs are bent (BentArcs), and each arc gets a chain of
+// nodes (Chains), of which its pieces are made.
 #include "arrangement/snapping.h"
 
 #include <algorithm>
