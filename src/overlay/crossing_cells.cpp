@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds all pairs of cells whose sides cross, by sweeping: sides are sorted by the least x of their
-// boxes, and each side is tested with the sides after it whose boxes meet its own.
+// Finds all pairs of cells whose sides cross, in a tree of the boxes of sides.
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "arrangement/arc_contacts.h"
+#include "arrangement/box_tree.h"
 #include "exact/vector.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -22,35 +23,19 @@
 namespace rondel {
 namespace {
 
-constexpr std::size_t sides_per_piece = 1024;
+constexpr std::size_t blocks_per_piece = 128;
 
-// The side of a cell: the shorter arc from a to b, with an axis-aligned box that contains the arc.
-struct BoxedSide {
+// The side of a cell: the shorter arc from a to b.
+struct CellSide {
   Index cell;
-  Point a, b;
-  std::array<double, 3> low, high;
-
-  BoxedSide(Index cell_index, const Point& from, const Point& to)
-      : cell(cell_index), a(from), b(to) {
-    // An arc of at most 90 degrees leaves its chord by less than an eighth of the chord's squared
-    // length, and any shorter arc by less than a quarter of it.
-    const Point chord = b - a;
-    const double bulge = dot(chord, chord) / 4;
-    low = {std::min(a.x, b.x) - bulge, std::min(a.y, b.y) - bulge, std::min(a.z, b.z) - bulge};
-    high = {std::max(a.x, b.x) + bulge, std::max(a.y, b.y) + bulge, std::max(a.z, b.z) + bulge};
-  }
-
-  // True if the boxes overlap in y and z. The sweep has already compared their x.
-  [[nodiscard]] bool may_meet(const BoxedSide& other) const {
-    return low[1] <= other.high[1] && other.low[1] <= high[1] && low[2] <= other.high[2] &&
-           other.low[2] <= high[2];
-  }
+  Point a;
+  Point b;
 };
 
 bool are_opposite(Sign s, Sign t) { return s * t == Sign::negative; }
 
 // Returns the point where two sides cross, or nothing if they only touch or do not meet.
-std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
+std::optional<Point> crossing_of(const CellSide& s, const CellSide& t) {
   if (!are_opposite(orientation(s.a, s.b, t.a), orientation(s.a, s.b, t.b)) ||
       !are_opposite(orientation(t.a, t.b, s.a), orientation(t.a, t.b, s.b))) {
     return std::nullopt;
@@ -65,19 +50,19 @@ std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
 }
 
 // Returns the sides of all cells. Throws InvalidInput if the arrays are no compressed rows.
-std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {
+std::vector<CellSide> sides_of_cells(const CellRings& cells) {
   if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
       !system::are_offsets(cells.rings, cells.corners.size()) ||
       !std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); })) {
     throw InvalidInput("the arrays of the cells do not fit");
   }
-  std::vector<BoxedSide> sides;
+  std::vector<CellSide> sides;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
     for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
       for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
         const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
-        sides.emplace_back(static_cast<Index>(c), cells.points[cells.corners[k]],
-                           cells.points[cells.corners[next]]);
+        sides.push_back({static_cast<Index>(c), cells.points[cells.corners[k]],
+                         cells.points[cells.corners[next]]});
       }
     }
   }
@@ -93,22 +78,25 @@ auto key_of(const CrossingCells& pair) {
 
 std::vector<CrossingCells> crossing_cells(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
-  std::vector<BoxedSide> sides = sides_of_cells(cells);
-  std::ranges::sort(sides, {}, [](const BoxedSide& side) { return side.low[0]; });
-  std::vector<std::vector<CrossingCells>> pieces(system::num_pieces(sides.size(), sides_per_piece));
-  system::parallel_for(
-      execution.threads, sides.size(), sides_per_piece, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const BoxedSide& s = sides[i];
-          for (std::size_t k = i + 1; k < sides.size() && sides[k].low[0] <= s.high[0]; ++k) {
-            if (!s.may_meet(sides[k])) continue;
-            if (const auto place = crossing_of(s, sides[k])) {
-              const auto [first, second] = std::minmax(s.cell, sides[k].cell);
-              pieces[begin / sides_per_piece].push_back({first, second, *place});
-            }
-          }
-        }
-      });
+  const std::vector<CellSide> sides = sides_of_cells(cells);
+  std::vector<arrangement::SpaceBox> boxes;
+  boxes.reserve(sides.size());
+  for (const CellSide& side : sides) boxes.push_back(arrangement::box_of(side.a, side.b));
+  const arrangement::BoxTree tree(std::move(boxes), execution.threads);
+  std::vector<std::vector<CrossingCells>> pieces(
+      system::num_pieces(tree.num_blocks(), blocks_per_piece));
+  system::parallel_for(execution.threads, tree.num_blocks(), blocks_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t block = begin; block < end; ++block) {
+                           tree.visit_pairs(block, [&](Index i, Index k) {
+                             if (const auto place = crossing_of(sides[i], sides[k])) {
+                               const auto [first, second] =
+                                   std::minmax(sides[i].cell, sides[k].cell);
+                               pieces[begin / blocks_per_piece].push_back({first, second, *place});
+                             }
+                           });
+                         }
+                       });
   std::vector<CrossingCells> all;
   for (const auto& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
   std::ranges::sort(all, {}, key_of);
