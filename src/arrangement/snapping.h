@@ -32,8 +32,8 @@ struct Snapped {
 std::optional<Snapped> snap(const NodedArcs& input, unsigned threads);
 
 // Points on different rays, along the spatial order, and the number of each given point among them.
-// Of points on one ray the first `num_fixed` come before the others, and then the one with the least
-// coordinates.
+// One of the first `num_fixed` points stands for all points on its ray; otherwise the point with the
+// least coordinates does.
 struct NumberedPoints {
   std::vector<Point> points;
   std::vector<Index> numbers;

@@ -173,7 +173,7 @@ TEST(append_nearest_nodes, takes_nodes_whose_cells_the_arc_enters) {
   EXPECT_EQ(chain_through({}, is_crowded), (std::vector<Index>{}));
   EXPECT_EQ(chain_through({{1, 0.5}, {0, -0.5}}, is_crowded), (std::vector<Index>{3, 2}));
   EXPECT_FALSE(is_crowded);
-  // Of nodes above each other the nearest one is taken.
+  // The arc takes the nearest of nodes above each other.
   EXPECT_EQ(chain_through({{0, 0.5}, {0, 0.25}, {0, -0.75}}, is_crowded), (std::vector<Index>{3}));
   EXPECT_TRUE(is_crowded);
   // Two nodes a quarter of a radius apart: both are the nearest ones somewhere.
