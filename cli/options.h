@@ -135,14 +135,19 @@ void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& 
 std::vector<FileName> if_of_format(const FileName& file,
                                    std::initializer_list<std::string_view> formats);
 
+/// Returns a name of the library as the tool has it, with - for _.
+inline std::string word_of(std::string_view name) {
+  std::string word(name);
+  std::ranges::replace(word, '_', '-');
+  return word;
+}
+
 /// Returns the values of an enumeration by the names that the library gives them, with - for _.
 template <class Value>
 std::unordered_map<std::string, Value> named_values() {
   std::unordered_map<std::string, Value> values;
   for (const std::string_view name : names_of<Value>()) {
-    std::string word(name);
-    std::ranges::replace(word, '_', '-');
-    values.emplace(std::move(word), *from_name<Value>(name));
+    values.emplace(word_of(name), *from_name<Value>(name));
   }
   return values;
 }

@@ -31,14 +31,21 @@ Column area_column(const CellRings& cells, double radius_km) {
   return numeric_column("area_km2", found);
 }
 
-// Returns these rows of a column.
+}  // namespace
+
 Column rows_of(const Column& column, std::span<const Index> rows) {
   Column made = column.empty_copy();
-  for (const Index row : rows) made.add(column, row);
+  for (const Index row : rows) {
+    if (row != no_index) {
+      made.add(column, row);
+      continue;
+    }
+    made.ends.push_back(made.text.size());
+    // Empty cells that are JSON are null.
+    if (!column.is_json.empty()) made.is_json.push_back(true);
+  }
   return made;
 }
-
-}  // namespace
 
 std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns) {
   columns.insert(columns.begin(), index_column(name, size));

@@ -9,6 +9,7 @@
 /// index rows of INPUT: sites or features
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,9 @@ struct Cut {
   RegionPieces pieces;
   Groups values;  ///< values of the polygons
 };
+
+/// Returns these rows of a column; a row that is no_index is empty.
+Column rows_of(const Column& column, std::span<const Index> rows);
 
 /// Returns the columns, with the numbers of the rows before them.
 std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns);

@@ -6,7 +6,6 @@
 // out   pieces with the columns of both files; or one polygon
 // index features of A, of B; pieces
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "job.h"
+#include "region_features.h"
 #include "report.h"
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"
@@ -36,22 +36,12 @@ struct OverlayOptions {
   [[nodiscard]] bool is_joined() const { return is_dissolved || second.empty(); }
 };
 
-// Returns rows of columns; a row that does not exist is empty.
-std::vector<Column> rows_of(const std::vector<Column>& columns, const std::vector<Index>& rows) {
+// Returns these rows of all columns.
+std::vector<Column> rows_of_all(const std::vector<Column>& columns,
+                                const std::vector<Index>& rows) {
   std::vector<Column> result;
-  for (const Column& column : columns) {
-    Column made = column.empty_copy();
-    for (const Index row : rows) {
-      if (row != no_index) {
-        made.add(column, row);
-        continue;
-      }
-      made.ends.push_back(made.text.size());
-      // Empty cells that are JSON are null.
-      if (!column.is_json.empty()) made.is_json.push_back(true);
-    }
-    result.push_back(std::move(made));
-  }
+  result.reserve(columns.size());
+  for (const Column& column : columns) result.push_back(rows_of(column, rows));
   return result;
 }
 
@@ -80,8 +70,8 @@ Pieces pieces_of(const CellTable& first, const CellTable& second, const OverlayO
     return {combine(first.cells, second.cells, options.how, execution), {}};
   }
   RegionPieces pieces = overlay_pieces(first.cells, second.cells, options.how, execution);
-  return {std::move(pieces.rings), joined(rows_of(first.facts.columns, pieces.cells),
-                                          rows_of(second.facts.columns, pieces.regions))};
+  return {std::move(pieces.rings), joined(rows_of_all(first.facts.columns, pieces.cells),
+                                          rows_of_all(second.facts.columns, pieces.regions))};
 }
 
 // Returns how many features have a place.
@@ -99,9 +89,7 @@ ExitStatus run_overlay(const OverlayOptions& options) {
   require_output(common, can_write_regions(common.target()), ".geojson .gpkg .fgb .parquet",
                  {{"SECOND", options.second}});
   if (options.second.empty() && options.how != SetOperation::unite) {
-    std::string word(name_of(options.how));
-    std::ranges::replace(word, '_', '-');
-    throw UsageError("--how " + word + " needs SECOND, a second file");
+    throw UsageError("--how " + word_of(name_of(options.how)) + " needs SECOND, a second file");
   }
   require_region_writer(common.target());
   Job job(common);

@@ -60,15 +60,6 @@ class SidedArc {
   double limit_ = 0;
 };
 
-// True if the arcs ab and cd cross in the inside of both; exact. Where each great circle separates
-// the ends of the other arc, an arc crosses the other one or the antipodes of the other one; it
-// crosses the other one if c is on one side of ab and a on the other side of cd.
-bool cross_exactly(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Sign first = orientation(a, b, c);
-  return first != Sign::zero && orientation(a, b, d) == -first && orientation(c, d, a) == -first &&
-         orientation(c, d, b) == first;
-}
-
 // Collects the contacts of pairs of arcs whose boxes overlap.
 class ContactFinder {
  public:
@@ -96,7 +87,7 @@ class ContactFinder {
     if (of_from == 0) add_if_near(j, s.from);
     if (of_to == 0 && s.to != s.from) add_if_near(j, s.to);
     if (!is_from_shared && !is_to_shared &&
-        cross_exactly(point(s.from), point(s.to), point(t.from), point(t.to))) {
+        do_arcs_cross(point(s.from), point(s.to), point(t.from), point(t.to))) {
       found_.crossings.push_back({i, j});
     }
   }
@@ -135,6 +126,15 @@ constexpr std::size_t points_per_task = 1024;
 constexpr std::size_t points_per_query = 16;
 
 }  // namespace
+
+// Where each great circle separates the ends of the other arc, an arc crosses the other one or the
+// antipodes of the other one; it crosses the other one if c is on one side of ab and a on the other
+// side of cd.
+bool do_arcs_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const Sign first = orientation(a, b, c);
+  return first != Sign::zero && orientation(a, b, d) == -first && orientation(c, d, a) == -first &&
+         orientation(c, d, b) == first;
+}
 
 bool is_near(const Point& a, const Point& b, const Point& p) {
   // The conditions below do not tell the antipodes of an end. All points of an arc are less than

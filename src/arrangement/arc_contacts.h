@@ -38,6 +38,9 @@ struct Contacts {
   std::vector<NearNode> near;           // ascending; of ends of arcs alone
 };
 
+// True if the arcs ab and cd cross in the inside of both; exact.
+bool do_arcs_cross(const Point& a, const Point& b, const Point& c, const Point& d);
+
 // True if the foot of the perpendicular from a point to the arc ab is within the arc and not farther
 // from the point than `arrangement_radius`, up to rounding: the same result for the same bits.
 bool is_near(const Point& a, const Point& b, const Point& p);

@@ -17,6 +17,7 @@
 
 #include "arrangement/coverage.h"
 #include "arrangement/halfedges.h"
+#include "arrangement/ring_arrays.h"
 #include "rondel/arrangement.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -29,15 +30,6 @@ using arrangement::Coverage;
 using arrangement::EdgeOfPolygon;
 using arrangement::Halfedges;
 using arrangement::Owners;
-
-// Throws InvalidInput if the arrays are no compressed rows.
-void validate_rings(const CellRings& cells) {
-  if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
-      !system::are_offsets(cells.rings, cells.corners.size()) ||
-      !std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); })) {
-    throw InvalidInput("the arrays of the cells do not fit");
-  }
-}
 
 // The sides of the polygons of two operands.
 struct Sides {
@@ -246,8 +238,10 @@ struct Region {
 };
 
 // Returns the regions that are not empty, sorted by their keys.
-std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, unsigned threads) {
-  const Arrangement arranged = arrange(sides.points, sides.arcs, {threads});
+std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule,
+                               const Execution& execution) {
+  const unsigned threads = execution.threads;
+  const Arrangement arranged = arrange(sides.points, sides.arcs, execution);
   std::vector<RegionKey> keys_of_first_face;
   std::vector<BorderHalfedge> border;
   const Halfedges halfedges(arranged, threads);
@@ -331,8 +325,8 @@ CellRings cells_of(std::span<const Region> regions) {
 }
 
 Sides sides_of(const CellRings& first, const CellRings& second) {
-  validate_rings(first);
-  validate_rings(second);
+  arrangement::validate_rings(first);
+  arrangement::validate_rings(second);
   Sides sides;
   sides.append(first, 0);
   sides.append(second, 1);
@@ -340,8 +334,8 @@ Sides sides_of(const CellRings& first, const CellRings& second) {
 }
 
 // Returns the one region of a joined result, which may be empty.
-Region joined_region(const Sides& sides, SetOperation operation, unsigned threads) {
-  std::vector<Region> regions = regions_of(sides, RegionRule(operation, true), threads);
+Region joined_region(const Sides& sides, SetOperation operation, const Execution& execution) {
+  std::vector<Region> regions = regions_of(sides, RegionRule(operation, true), execution);
   return regions.empty() ? Region{} : std::move(regions.front());
 }
 
@@ -367,15 +361,14 @@ CellRings combine(const CellRings& first, const CellRings& second, SetOperation 
                   const Execution& execution) {
   const system::Call call(execution);
   const Sides sides = sides_of(first, second);
-  return cells_of(std::vector{joined_region(sides, operation, execution.threads)});
+  return cells_of(std::vector{joined_region(sides, operation, execution)});
 }
 
 RegionPieces overlay_pieces(const CellRings& first, const CellRings& second, SetOperation operation,
                             const Execution& execution) {
   const system::Call call(execution);
   const Sides sides = sides_of(first, second);
-  const std::vector<Region> regions =
-      regions_of(sides, RegionRule(operation, false), execution.threads);
+  const std::vector<Region> regions = regions_of(sides, RegionRule(operation, false), execution);
   RegionPieces result{cells_of(regions), {}, {}};
   for (const Region& region : regions) {
     result.cells.push_back(region.key.first);
@@ -392,17 +385,18 @@ CellRings unite(const CellRings& polygons, const Execution& execution) {
 
 CellRings repaired(const CellRings& polygons, const Execution& execution) {
   const system::Call call(execution);
-  validate_rings(polygons);
+  arrangement::validate_rings(polygons);
   std::vector<Region> regions(polygons.num_cells());
   constexpr std::size_t grain = 16;
-  system::parallel_for(execution.threads, regions.size(), grain,
-                       [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t c = begin; c < end; ++c) {
-                           Sides sides;
-                           sides.append_cell(polygons, c);
-                           regions[c] = joined_region(sides, SetOperation::unite, 1);
-                         }
-                       });
+  system::parallel_for(
+      execution.threads, regions.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c) {
+          Sides sides;
+          sides.append_cell(polygons, c);
+          regions[c] =
+              joined_region(sides, SetOperation::unite, {.threads = 1, .stop = execution.stop});
+        }
+      });
   return cells_of(regions);
 }
 

@@ -12,13 +12,12 @@
 
 #include "arrangement/arc_contacts.h"
 #include "arrangement/box_tree.h"
+#include "arrangement/ring_arrays.h"
 #include "exact/vector.h"
-#include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/parallel.h"
-#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -51,11 +50,7 @@ std::optional<Point> crossing_of(const CellSide& s, const CellSide& t) {
 
 // Returns the sides of all cells. Throws InvalidInput if the arrays are no compressed rows.
 std::vector<CellSide> sides_of_cells(const CellRings& cells) {
-  if (cells.rings.empty() || !system::are_offsets(cells.cells, cells.rings.size() - 1) ||
-      !system::are_offsets(cells.rings, cells.corners.size()) ||
-      !std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); })) {
-    throw InvalidInput("the arrays of the cells do not fit");
-  }
+  arrangement::validate_rings(cells);
   std::vector<CellSide> sides;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
     for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "arrangement/arc_contacts.h"
 #include "exact/vector.h"
 #include "overlay/measure.h"
 #include "predicates/bounds.h"
-#include "rondel/predicates.h"
 
 namespace rondel::overlay {
 namespace {
@@ -21,15 +21,6 @@ bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const 
     return height * height <= rounding * rounding * dot(normal, normal);
   };
   return is_near(a, b, p) || is_near(a, b, q) || is_near(p, q, a) || is_near(p, q, b);
-}
-
-// True if the arcs ab and pq cross in the inside of both; exact. Where each great circle separates
-// the ends of the other arc, an arc crosses the other one or the antipodes of the other one; it
-// crosses the other one if p is on one side of ab and a on the other side of pq.
-bool do_cross(const Point& a, const Point& b, const Point& p, const Point& q) {
-  const Sign first = orientation(a, b, p);
-  return first != Sign::zero && orientation(a, b, q) == -first && orientation(p, q, a) == -first &&
-         orientation(p, q, b) == first;
 }
 
 // A side with the least x that its arc may have.
@@ -54,7 +45,7 @@ bool has_sure_crossing(std::span<const BorderArc> arcs) {
     for (std::size_t k = i + 1; k < sides.size() && sides[k].low <= high; ++k) {
       const Point& p = sides[k].a;
       const Point& q = sides[k].b;
-      if (do_cross(a, b, p, q) && !is_touch_by_rounding(a, b, p, q)) return true;
+      if (arrangement::do_arcs_cross(a, b, p, q) && !is_touch_by_rounding(a, b, p, q)) return true;
     }
   }
   return false;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -371,6 +372,14 @@ TEST(combine, refuses_what_is_no_polygon) {
   EXPECT_EQ(thrown_index([&] { return unite(cells); }), 2U);
   cells = cells_of({{{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}});
   EXPECT_EQ(thrown_index([&] { return unite(cells); }), 1U);
+}
+
+TEST(combine, ends_when_it_is_told_to_stop) {
+  const CellRings cells = cells_of({square({0, 0, 1}, 0.3)});
+  const std::atomic<bool> stop = true;
+  const Execution execution{.threads = 1, .stop = &stop};
+  EXPECT_THROW(unite(cells, execution), Interrupted);
+  EXPECT_THROW(repaired(cells, execution), Interrupted);
 }
 
 TEST(set_operation, has_names_of_its_own) {
