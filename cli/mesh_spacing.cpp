@@ -158,7 +158,7 @@ std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t 
     if (!kilometers) throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
     const double near = *kilometers / kilometers_per_radian;
     const std::vector<Point> places =
-        mesh::read_refinement({file, {}}, 0.5 * near, {.edges = options.edges}, execution);
+        mesh::read_refinement({file, {}}, 0.5 * near, options.polygons, execution);
     if (std::ranges::none_of(places, [&](const Point& p) { return size->spacing(p) > near; })) {
       tell(file, {"--refine: the spacing there is " + text +
                   " kilometers or less without it, which it does not change"});
@@ -185,7 +185,7 @@ FixedSites fixed_sites(const ScvtFiles& options, const mesh::ScvtOptions& scvt,
     // distance from those of another.
     LinesOfFiles from{{}, files, {}};
     for (const std::string& file : files) {
-      std::vector<std::vector<Point>> more = read({file, {}}, {.edges = options.edges}, execution);
+      std::vector<std::vector<Point>> more = read({file, {}}, options.polygons, execution);
       std::ranges::move(more, std::back_inserter(from.lines));
       from.ends.push_back(from.lines.size());
     }

@@ -33,7 +33,7 @@ struct ScvtFiles {
   std::string density;              ///< --density: FILE:NAME
   std::vector<std::string> fixed;   ///< --fixed: sites, lines
   std::vector<std::string> along;   ///< --along: lines
-  PolygonEdges edges = PolygonEdges::lonlat;
+  PolygonOptions polygons;          ///< for polygons of --refine, --fixed and --along
 };
 
 /// The sites of --fixed and --along.

@@ -289,6 +289,13 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
   require_separate_files(read, written);
 }
 
+CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target) {
+  return add_word<InvalidPolygons>(
+      parser, "--invalid", target, named_values<InvalidPolygons>(),
+      "What becomes of polygons that are not valid: error (default) or repair (as\n"
+      "'rondel repair' does)");
+}
+
 CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::string& file,
                               const std::string& what) {
   const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };

@@ -23,6 +23,7 @@
 #include "files_of_command.h"
 #include "rondel/io.h"
 #include "rondel/names.h"
+#include "rondel/polygon_files.h"
 #include "rondel/triangulation.h"
 
 namespace rondel::cli {
@@ -168,5 +169,8 @@ CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
       })
       ->type_name("WORD");
 }
+
+/// Adds --invalid, the treatment of polygons that are not valid.
+CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target);
 
 }  // namespace rondel::cli

@@ -105,7 +105,7 @@ Features features_of(const RegionsOptions& options, Cut cut, const Groups& group
 
 Regions regions_of(const RegionsOptions& options, const Execution& execution) {
   // Without --clip-value, clip() unites the polygons.
-  PolygonOptions rules{.edges = options.edges};
+  PolygonOptions rules{.edges = options.edges, .invalid = options.invalid};
   if (!options.clip_value.empty()) {
     rules.overlap = options.overlap;
     rules.is_taken = [&](std::size_t feature, std::span<const Column> columns) {

@@ -28,6 +28,7 @@ struct RegionsOptions {
   std::string clip;        ///< --clip; empty: whole cells
   std::string clip_value;  ///< --clip-value; empty: the union of the polygons
   PolygonEdges edges = PolygonEdges::lonlat;
+  InvalidPolygons invalid = InvalidPolygons::error;
   PolygonOverlap overlap = PolygonOverlap::error;
   std::string group;           ///< --group; empty: one cell a site
   double densify_km = 0;       ///< --densify; 0: the input has sites, otherwise lines and polygons

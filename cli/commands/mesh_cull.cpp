@@ -31,7 +31,7 @@ struct MeshCullOptions {
   std::string mask;     // --mask: FILE, FILE.nc:NAME or FILE.csv:COLUMN
   std::string inside;   // --inside: polygons
   std::string outside;  // --outside: polygons
-  PolygonEdges polygon_edges = PolygonEdges::lonlat;
+  PolygonOptions polygons;
   std::string cell_map;    // --cell-map; empty: not written
   std::string edge_map;    // --edge-map
   std::string vertex_map;  // --vertex-map
@@ -103,11 +103,11 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
 }
 
 // Marks the cells whose sites lie in the polygons, or do not lie in them.
-void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool is_inside,
+void mark_by_polygons(const std::string& file, const PolygonOptions& options, bool is_inside,
                       const mesh::VoronoiMesh& arrays, const Execution& execution,
                       std::vector<std::uint8_t>& is_removed) {
   if (file.empty()) return;
-  const CellTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
+  const CellTable table = read_polygons({file, {}}, options, execution);
   tell(table.facts.name, table.facts.remarks);
   std::vector<std::uint8_t> found;
   try {
@@ -147,10 +147,8 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options) {
   const mesh::VoronoiMesh arrays = read_mesh_or_sites(job, common, options.written.radius, true);
   std::vector<std::uint8_t> is_removed(arrays.num_cells(), 0);
   if (!options.mask.empty()) is_removed = mask_of_file(options.mask, arrays.num_cells());
-  mark_by_polygons(options.inside, options.polygon_edges, true, arrays, job.execution(),
-                   is_removed);
-  mark_by_polygons(options.outside, options.polygon_edges, false, arrays, job.execution(),
-                   is_removed);
+  mark_by_polygons(options.inside, options.polygons, true, arrays, job.execution(), is_removed);
+  mark_by_polygons(options.outside, options.polygons, false, arrays, job.execution(), is_removed);
   mesh::Culled culled;
   try {
     culled = mesh::cull(arrays, is_removed, job.execution());
@@ -187,14 +185,17 @@ Command add_mesh_cull_command(CLI::App& group) {
                    "Remove the cells that have 1 in this file; the others have 0: .npy,\n"
                    "FILE.nc:NAME, FILE.csv:COLUMN; of NAME(nCells, nRegions) those in any region")
       ->type_name("FILE");
-  const CLI::Option* const edges = add_word<PolygonEdges>(
-      *parser, "--edges", options->polygon_edges, named_values<PolygonEdges>(),
+  CLI::Option* const edges = add_word<PolygonEdges>(
+      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
-  require_effect(
-      options->written.common, edges,
-      [given = options.get()] { return !given->inside.empty() || !given->outside.empty(); },
-      "without --inside or --outside");
+  for (CLI::Option* const option :
+       {edges, add_invalid_option(*parser, options->polygons.invalid)}) {
+    require_effect(
+        options->written.common, option,
+        [given = options.get()] { return !given->inside.empty() || !given->outside.empty(); },
+        "without --inside or --outside");
+  }
   add_mesh_output_options(*parser, options->written, MeshOutputKind::mesh);
   add_map_options(*parser, *options);
   add_threads_option(*parser, options->written.common);

@@ -189,17 +189,20 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
                   "sites on both sides never move; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE");
-  const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.files.edges, named_values<PolygonEdges>(),
+  CLI::Option* const edges = add_word<PolygonEdges>(
+      parser, "--edges", options.files.polygons.edges, named_values<PolygonEdges>(),
       "What joins positions of --refine, --fixed and --along: lonlat (default;\n"
       "straight in longitude and latitude, RFC 7946) or geodesic (great circles)");
-  require_effect(
-      options.output.common, edges,
-      [&options] {
-        return !(options.files.refine.empty() && options.files.fixed.empty() &&
-                 options.files.along.empty());
-      },
-      "without --refine, --fixed or --along");
+  for (CLI::Option* const option :
+       {edges, add_invalid_option(parser, options.files.polygons.invalid)}) {
+    require_effect(
+        options.output.common, option,
+        [&options] {
+          return !(options.files.refine.empty() && options.files.fixed.empty() &&
+                   options.files.along.empty());
+        },
+        "without --refine, --fixed or --along");
+  }
 }
 
 // Adds the bound on how fast the spacing grows: by G kilometers a kilometer.

@@ -153,6 +153,7 @@ Command add_overlay_command(CLI::App& tool) {
       *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
       "What joins positions of the files: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
+  add_invalid_option(*parser, options->read.invalid);
   parser
       ->add_option("--tolerance", options->tolerance_deg,
                    "How far a line of OUTPUT may be from its great circle (default: 0.01)")

@@ -180,8 +180,10 @@ ExitStatus write_cells_of_features(const RegionsOptions& options) {
   Features made;
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
-    table = read_features(options.common.source(),
-                          {.edges = options.edges, .overlap = options.overlap}, execution);
+    table = read_features(
+        options.common.source(),
+        {.edges = options.edges, .invalid = options.invalid, .overlap = options.overlap},
+        execution);
     tell(table.facts.name, table.facts.remarks);
     Groups groups;
     if (!options.group.empty()) {
@@ -223,6 +225,7 @@ void add_polygon_words(CLI::App& parser, RegionsOptions& options) {
       parser, "--edges", options.edges, named_values<PolygonEdges>(),
       "What joins positions of --clip and --densify: lonlat (default; straight in\n"
       "longitude and latitude, RFC 7946) or geodesic (great circles)");
+  add_invalid_option(parser, options.invalid);
   std::unordered_map<std::string, PolygonOverlap> overlaps = named_values<PolygonOverlap>();
   // Cells of features must not overlap: a place in two polygons is an error, or is of the first
   // one.
@@ -247,10 +250,12 @@ std::string earth_radius_error(const std::string& text) {
 // Tells of options for polygons without them, and of those for sites with lines and polygons.
 void require_effects(const CLI::App& parser, RegionsOptions& options) {
   const auto has_features = [&options] { return options.densify_km > 0; };
-  require_effect(
-      options.common, parser.get_option("--edges"),
-      [=, &options] { return has_features() || !options.clip.empty(); },
-      "without --clip or --densify");
+  for (const char* const name : {"--edges", "--invalid"}) {
+    require_effect(
+        options.common, parser.get_option(name),
+        [=, &options] { return has_features() || !options.clip.empty(); },
+        "without --clip or --densify");
+  }
   require_effect(
       options.common, parser.get_option("--overlap"),
       [=, &options] { return has_features() || !options.clip_value.empty(); },

@@ -74,7 +74,7 @@ Command add_voronoi_command(CLI::App& tool) {
   add_region_options(*parser, *options);
   // The help shows these options in a group of their own, apart from those of whole cells.
   for (const char* const name :
-       {"--clip", "--clip-value", "--edges", "--overlap", "--group", "--densify"}) {
+       {"--clip", "--clip-value", "--edges", "--invalid", "--overlap", "--group", "--densify"}) {
     parser->get_option(name)->group("Clipped and joined cells, as 'rondel regions' makes them");
   }
   add_report_options(*parser, options->common);

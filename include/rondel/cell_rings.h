@@ -100,7 +100,10 @@ struct CellFacts {
   /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
   std::vector<std::uint64_t> shape = {};
   std::vector<Column> columns =
-      {};                   ///< texts and numbers for each cell: the properties of polygons
+      {};  ///< texts and numbers for each cell: the properties of polygons
+  /// What was wrong with each cell that was repaired when it was read, and an empty text for the
+  /// others; no texts if none was.
+  std::vector<std::string> faults = {};
   bool has_corners = true;  ///< whether files of weights get the corners of the cells
   /// Sentences for whoever reads the file: what is masked, left out or without an area, and which
   /// grid of several was read.

@@ -49,10 +49,11 @@ struct GlobalGrid {
 
 /// How the cells of a file are read.
 struct CellFileOptions {
-  GridSides sides = GridSides::parallels;         ///< for coordinates along axes
-  PolygonEdges edges = PolygonEdges::lonlat;      ///< for polygons
-  PolygonOverlap overlap = PolygonOverlap::keep;  ///< for polygons
-  FeatureChoice is_taken = {};                    ///< for polygons, as in PolygonOptions
+  GridSides sides = GridSides::parallels;            ///< for coordinates along axes
+  PolygonEdges edges = PolygonEdges::lonlat;         ///< for polygons
+  InvalidPolygons invalid = InvalidPolygons::error;  ///< for polygons
+  PolygonOverlap overlap = PolygonOverlap::keep;     ///< for polygons
+  FeatureChoice is_taken = {};                       ///< for polygons, as in PolygonOptions
 };
 
 /// Cells prepared for overlays with others, and what is known of them. Copies share the memory;

@@ -39,6 +39,20 @@ enum class PolygonOverlap : std::uint8_t {
 /// Returns the name of a value: "keep", "error", "first"; empty for other numbers.
 RONDEL_API std::string_view name_of(PolygonOverlap overlap) noexcept;
 
+/// The treatment of features that are not valid: sides that cross, rings without an area, holes
+/// outside of their shell, parts that overlap, rings around a pole that are not led to it, rings
+/// that are not closed.
+enum class InvalidPolygons : std::uint8_t {
+  error,  ///< a FileError names the feature, what is wrong with it, and a place
+  /// The feature is repaired, and a remark says so. Each of its polygons has the places that an odd
+  /// number of its rings' sides divides from the outside, and the feature is their union. No
+  /// position moves; sides get corners where they cross. Other features stay bit by bit.
+  repair,
+};
+
+/// Returns the name of a value: "error", "repair"; empty for other numbers.
+RONDEL_API std::string_view name_of(InvalidPolygons invalid) noexcept;
+
 /// A function that decides whether a feature is taken, by its index and the properties of all
 /// features.
 using FeatureChoice = std::function<bool(std::size_t feature, std::span<const Column> columns)>;
@@ -50,6 +64,7 @@ struct PolygonOptions {
   /// the area of a feature differs from that between the lines by a share of at most 1/1000, or of
   /// at most 10 times this number if that is less.
   double tolerance_deg = 1e-4;
+  InvalidPolygons invalid = InvalidPolygons::error;
   PolygonOverlap overlap = PolygonOverlap::keep;
   /// The features to read. Others are cells without rings, and take no space. Without a function
   /// all are taken.
@@ -79,13 +94,20 @@ struct PolygonOptions {
 /// 6. Features that share a line of positions share the corners that it gets, bit by bit. A corner
 ///    of one feature that lies on a side of another one, up to some roundings (2^-42 degrees),
 ///    becomes a corner of that one, too.
-/// \throws FileError for what cannot be read, with file, line and feature; for sides that cross,
-///         holes outside of their shell or in another hole, parts that overlap, rings without an
-///         area, holes that leave nothing, with feature, ring and place; for features that overlap
-///         if options say so.
+/// \throws FileError for what cannot be read, with file, line and feature; unless they are to be
+///         repaired, for sides that cross, holes outside of their shell or in another hole, parts
+///         that overlap, rings without an area, holes that leave nothing, with feature, ring and
+///         place; for features that overlap if options say so.
 /// \throws InvalidInput if the tolerance is not positive.
 RONDEL_API CellTable read_polygons(const FileName& file, const PolygonOptions& options = {},
                                    const Execution& execution = {});
+
+/// Finds out which polygons are not valid, by the rules of read_polygons(). The text of feature i is
+/// what is wrong with it, as read_polygons() would say, and empty if it is valid.
+/// \throws FileError for what cannot be read
+RONDEL_API std::vector<std::string> polygon_faults(const FileName& file,
+                                                   const PolygonOptions& options = {},
+                                                   const Execution& execution = {});
 
 /// Returns a feature's name for messages: its index, and its property `name` if it has one, "14
 /// (Sudan)".

@@ -8,6 +8,7 @@
 #include "arrangement/coverage.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "arrangement/arc_contacts.h"
@@ -20,7 +21,8 @@
 namespace rondel::arrangement {
 
 Coverage::Coverage(const Halfedges& halfedges, const CompressedRows<EdgeOfPolygon>& sides,
-                   const std::vector<std::uint8_t>& operands, Owners whole, unsigned threads)
+                   const std::vector<std::uint8_t>& operands, Owners whole,
+                   std::span<const KnownPlace> known, unsigned threads)
     : halfedges_(halfedges),
       sides_(sides),
       operands_(operands),
@@ -28,7 +30,7 @@ Coverage::Coverage(const Halfedges& halfedges, const CompressedRows<EdgeOfPolygo
       is_visited_(halfedges.size(), 0),
       is_inside_first_(operands.size(), 0) {
   link_components(threads);
-  find_insides();
+  find_insides(known);
 }
 
 void Coverage::visit(const std::function<void(Index, const Owners&)>& visit) {
@@ -173,11 +175,12 @@ void Coverage::traverse_component(Index start, const Visit& visit) {
   }
 }
 
-// Finds which polygons have the face where a traversal begins. The interior of a polygon is to the
-// left of its sides.
-void Coverage::find_insides() {
+// Finds which polygons have the face where a traversal begins. Without known places the interior of
+// a polygon is to the left of its sides.
+void Coverage::find_insides(std::span<const KnownPlace> known) {
+  if (!known.empty()) return decide_by_sectors(sectors_at(known));
   const std::vector<Index> undecided = decide_by_sides();
-  if (!undecided.empty()) decide_by_outside(undecided);
+  if (!undecided.empty()) decide_by_sectors(outsides_of(undecided));
 }
 
 // Decides by the majority of a polygon's edges, and returns the polygons whose edges disagree.
@@ -198,8 +201,8 @@ std::vector<Index> Coverage::decide_by_sides() {
   return undecided;
 }
 
-// Decides polygons in a hemisphere: the point opposite to the mean of their nodes is outside.
-void Coverage::decide_by_outside(const std::vector<Index>& polygons) {
+// Returns the edges of each of these polygons, and no edges of others.
+std::vector<std::vector<Index>> Coverage::edges_of(const std::vector<Index>& polygons) const {
   std::vector<std::vector<Index>> edges(operands_.size());
   std::vector<std::uint8_t> is_asked(operands_.size(), 0);
   for (const Index p : polygons) is_asked[p] = 1;
@@ -208,47 +211,78 @@ void Coverage::decide_by_outside(const std::vector<Index>& polygons) {
       if (is_asked[side.polygon] != 0) edges[side.polygon].push_back(edge);
     }
   }
-  // The sectors in which paths to the outside begin, and whether the polygon has them.
-  struct Known {
-    Index sector;
-    Index polygon;
-    bool is_inside;
-  };
-  std::vector<Known> known;
+  return edges;
+}
+
+// Decides polygons in a hemisphere: the point opposite to the mean of their nodes is outside.
+std::vector<Coverage::KnownSector> Coverage::outsides_of(const std::vector<Index>& polygons) const {
+  const std::vector<std::vector<Index>> edges = edges_of(polygons);
+  std::vector<KnownSector> known;
   for (const Index p : polygons) {
-    const auto ends_of = [&](Index edge) {
-      return std::array{halfedges_.origin(2 * edge), halfedges_.end(2 * edge)};
-    };
     Point mean = {};
     for (const Index edge : edges[p]) {
-      for (const Index node : ends_of(edge)) mean = mean + halfedges_.point(node);
+      mean = mean + halfedges_.point(halfedges_.origin(2 * edge)) +
+             halfedges_.point(halfedges_.end(2 * edge));
     }
     const Point middle = normalized(mean);
     constexpr double least_cosine = 1e-9;
     const bool is_in_hemisphere = std::ranges::all_of(edges[p], [&](Index edge) {
-      return std::ranges::all_of(ends_of(edge), [&](Index node) {
-        return dot(middle, halfedges_.point(node)) > least_cosine;
-      });
+      return dot(middle, halfedges_.point(halfedges_.origin(2 * edge))) > least_cosine &&
+             dot(middle, halfedges_.point(halfedges_.end(2 * edge))) > least_cosine;
     });
-    if (!is_in_hemisphere) continue;
-    const Point outside = -1.0 * middle;
-    // No node of the hemisphere is opposite to that point, but the middle itself.
-    const auto is_usable = [&](Index edge) {
-      return !is_same_site(halfedges_.point(ends_of(edge)[0]), middle);
-    };
-    const Index start = ends_of(*std::ranges::find_if(edges[p], is_usable))[0];
-    const auto num_crossings = std::ranges::count_if(edges[p], [&](Index edge) {
-      const auto ends = ends_of(edge);
-      return ends[0] != start && ends[1] != start &&
-             halfedges_.is_crossed(edge, halfedges_.point(start), outside);
-    });
-    known.push_back({halfedges_.sector_towards(start, outside), p, num_crossings % 2 != 0});
+    if (is_in_hemisphere) known.push_back(sector_at(p, edges[p], {-1.0 * middle, middle, false}));
   }
-  std::ranges::sort(known, {}, &Known::sector);
+  return known;
+}
+
+// Returns the sectors of all polygons that have sides, and decides the others.
+std::vector<Coverage::KnownSector> Coverage::sectors_at(std::span<const KnownPlace> known) {
+  std::vector<Index> all(known.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<std::vector<Index>> edges = edges_of(all);
+  std::vector<KnownSector> sectors;
+  for (const Index p : all) {
+    if (edges[p].empty()) {
+      is_inside_first_[p] = static_cast<std::uint8_t>(known[p].is_inside);
+    } else {
+      sectors.push_back(sector_at(p, edges[p], known[p]));
+    }
+  }
+  return sectors;
+}
+
+// Follows a path from a corner of a polygon to a place. `edges` has the polygon's edges, and there
+// must be one.
+Coverage::KnownSector Coverage::sector_at(Index polygon, std::span<const Index> edges,
+                                          const KnownPlace& known) const {
+  std::vector<Index> nodes;
+  for (const Index edge : edges) {
+    nodes.insert(nodes.end(), {halfedges_.origin(2 * edge), halfedges_.end(2 * edge)});
+  }
+  const auto is_at = [&](const Point& place) {
+    return [&](Index node) { return is_same_site(halfedges_.point(node), place); };
+  };
+  const auto here = std::ranges::find_if(nodes, is_at(known.place));
+  if (here != nodes.end()) {
+    return {halfedges_.sector_towards(*here, known.towards), polygon, known.is_inside};
+  }
+  // No path leads to the opposite point.
+  const Point opposite = -1.0 * known.place;
+  const Index start = *std::ranges::find_if_not(nodes, is_at(opposite));
+  const auto num_crossings = std::ranges::count_if(edges, [&](Index edge) {
+    return halfedges_.origin(2 * edge) != start && halfedges_.end(2 * edge) != start &&
+           halfedges_.is_crossed(edge, halfedges_.point(start), known.place);
+  });
+  return {halfedges_.sector_towards(start, known.place), polygon,
+          known.is_inside != (num_crossings % 2 != 0)};
+}
+
+void Coverage::decide_by_sectors(std::vector<KnownSector> known) {
+  std::ranges::sort(known, {}, &KnownSector::sector);
   begin();
   const std::vector<std::uint8_t> before = is_inside_first_;
   traverse([&](Index h) {
-    for (auto k = std::ranges::lower_bound(known, h, {}, &Known::sector);
+    for (auto k = std::ranges::lower_bound(known, h, {}, &KnownSector::sector);
          k != known.end() && k->sector == h; ++k) {
       const bool is_right = is_inside(k->polygon) == k->is_inside;
       is_inside_first_[k->polygon] = before[k->polygon] ^ static_cast<std::uint8_t>(!is_right);

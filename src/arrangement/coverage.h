@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "arrangement/halfedges.h"
@@ -34,12 +35,22 @@ struct EdgeOfPolygon {
 // The polygons of each of two operands that have a place, in any order.
 using Owners = std::array<std::vector<Index>, 2>;
 
+// A place of which it is known whether it is inside of a polygon. Where it is a corner of the
+// polygon, the places beside it are meant, to the right of the way towards another point.
+struct KnownPlace {
+  Point place;
+  Point towards;
+  bool is_inside;
+};
+
 class Coverage {
  public:
   // `operands` has 0 or 1 for each polygon; `sides` has the polygons of each edge; `whole` lists
-  // those that are the whole sphere, which have no sides.
+  // those that are the whole sphere, which have no sides; `known` has a place for each polygon, or
+  // is empty if the direction of the sides says what is inside.
   Coverage(const Halfedges& halfedges, const CompressedRows<EdgeOfPolygon>& sides,
-           const std::vector<std::uint8_t>& operands, Owners whole, unsigned threads);
+           const std::vector<std::uint8_t>& operands, Owners whole,
+           std::span<const KnownPlace> known, unsigned threads);
 
   // Calls visit(h, owners) for each halfedge with the polygons that have its face.
   void visit(const std::function<void(Index, const Owners&)>& visit);
@@ -54,9 +65,21 @@ class Coverage {
   };
 
   void link_components(unsigned threads);
-  void find_insides();
+  // The sector in which the way to a known place begins, and whether the polygon has the sector.
+  struct KnownSector {
+    Index sector;
+    Index polygon;
+    bool is_inside;
+  };
+
+  void find_insides(std::span<const KnownPlace> known);
   [[nodiscard]] std::vector<Index> decide_by_sides();
-  void decide_by_outside(const std::vector<Index>& polygons);
+  [[nodiscard]] std::vector<std::vector<Index>> edges_of(const std::vector<Index>& polygons) const;
+  [[nodiscard]] std::vector<KnownSector> outsides_of(const std::vector<Index>& polygons) const;
+  [[nodiscard]] std::vector<KnownSector> sectors_at(std::span<const KnownPlace> known);
+  [[nodiscard]] KnownSector sector_at(Index polygon, std::span<const Index> edges,
+                                      const KnownPlace& known) const;
+  void decide_by_sectors(std::vector<KnownSector> known);
   void begin();
   [[nodiscard]] bool is_inside(Index polygon) const { return places_[polygon] != no_index; }
   void toggle(Index polygon);

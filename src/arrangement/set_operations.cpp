@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "arrangement/coverage.h"
+#include "arrangement/even_odd.h"
 #include "arrangement/halfedges.h"
 #include "arrangement/ring_arrays.h"
 #include "rondel/arrangement.h"
@@ -29,6 +30,7 @@ namespace {
 using arrangement::Coverage;
 using arrangement::EdgeOfPolygon;
 using arrangement::Halfedges;
+using arrangement::KnownPlace;
 using arrangement::Owners;
 
 // The sides of the polygons of two operands.
@@ -38,6 +40,7 @@ struct Sides {
   std::vector<Index> polygons;         // of each arc
   std::vector<std::uint8_t> operands;  // of each polygon
   Owners whole;
+  std::vector<KnownPlace> known = {};  // of each polygon, or none
 
   // Appends the cells of an operand, with all of its points.
   void append(const CellRings& cells, std::uint8_t operand) {
@@ -52,6 +55,14 @@ struct Sides {
       return static_cast<Index>(points.size() - 1);
     };
     append_cells(cells, cell, cell + 1, 0, number);
+  }
+  // Returns the polygons that have the whole sphere if there is no edge.
+  [[nodiscard]] Owners owners_without_edges() const {
+    Owners owners = whole;
+    for (std::size_t p = 0; p < known.size(); ++p) {
+      if (known[p].is_inside) owners[operands[p]].push_back(static_cast<Index>(p));
+    }
+    return owners;
   }
 
  private:
@@ -246,12 +257,12 @@ std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule,
   std::vector<BorderHalfedge> border;
   const Halfedges halfedges(arranged, threads);
   if (arranged.edges.empty()) {
-    rule.append_keys(sides.whole, keys_of_first_face);
+    rule.append_keys(sides.owners_without_edges(), keys_of_first_face);
   } else {
     const CompressedRows<EdgeOfPolygon> polygons = polygons_of_edges(arranged, sides.polygons);
     bool is_first = true;
     std::vector<RegionKey> keys;
-    Coverage(halfedges, polygons, sides.operands, sides.whole, threads)
+    Coverage(halfedges, polygons, sides.operands, sides.whole, sides.known, threads)
         .visit([&](Index h, const Owners& owners) {
           keys.clear();
           rule.append_keys(owners, keys);
@@ -398,6 +409,14 @@ CellRings repaired(const CellRings& polygons, const Execution& execution) {
         }
       });
   return cells_of(regions);
+}
+
+CellRings arrangement::even_odd_union(const CellRings& polygons, std::span<const KnownPlace> known,
+                                      const Execution& execution) {
+  Sides sides;
+  sides.append(polygons, 0);
+  sides.known.assign(known.begin(), known.end());
+  return cells_of(std::vector{joined_region(sides, SetOperation::unite, execution)});
 }
 
 }  // namespace rondel

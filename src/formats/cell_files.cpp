@@ -241,8 +241,10 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
   const std::string ending = io::ending(file);
   // A file may have the ending of GeoJSON and be netCDF all the same; its first bytes decide.
   const bool are_polygons = (ending == ".geojson" || ending == ".json") && !can_read_cells(file);
-  const PolygonOptions rules{
-      .edges = options.edges, .overlap = options.overlap, .is_taken = options.is_taken};
+  const PolygonOptions rules{.edges = options.edges,
+                             .invalid = options.invalid,
+                             .overlap = options.overlap,
+                             .is_taken = options.is_taken};
   return of(are_polygons ? read_polygons(file, rules, execution) : read_cells(file), options.sides,
             execution);
 }

@@ -36,7 +36,9 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
     throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
                        " is not positive");
   }
-  map::PolygonFeatures features = io::read_polygon_features(file, kinds);
+  const auto faulty =
+      options.invalid == InvalidPolygons::error ? io::FaultyRings::error : io::FaultyRings::keep;
+  map::PolygonFeatures features = io::read_polygon_features(file, kinds, faulty);
   for (std::size_t f = 0; options.is_taken && f < features.rings.size(); ++f) {
     if (options.is_taken(f, features.columns)) continue;
     features.rings[f].clear();
@@ -78,6 +80,10 @@ std::string_view name_of(PolygonEdges edges) noexcept {
   return system::name_in({"lonlat", "geodesic"}, edges);
 }
 
+std::string_view name_of(InvalidPolygons invalid) noexcept {
+  return system::name_in({"error", "repair"}, invalid);
+}
+
 std::string_view name_of(PolygonOverlap overlap) noexcept {
   return system::name_in({"keep", "error", "first"}, overlap);
 }
@@ -88,10 +94,19 @@ CellTable read_polygons(const FileName& file, const PolygonOptions& options,
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
   CellTable table;
   if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
-  table.cells = overlay::cells_of_features(features, options, table.facts.remarks, execution);
+  table.cells = overlay::cells_of_features(features, options, table.facts, execution);
   table.facts.name = std::move(features.name);
   table.facts.columns = std::move(features.columns);
   return table;
+}
+
+std::vector<std::string> polygon_faults(const FileName& file, const PolygonOptions& options,
+                                        const Execution& execution) {
+  const system::Call call(execution);
+  PolygonOptions lenient = options;
+  lenient.invalid = InvalidPolygons::repair;
+  const map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, lenient);
+  return overlay::faults_of_features(features, options, execution);
 }
 
 FeatureTable read_features(const FileName& file, const PolygonOptions& options,
@@ -105,7 +120,7 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
   }
   table.lines = lines_of_features(features, options);
   if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
-  table.polygons = overlay::cells_of_features(features, options, table.facts.remarks, execution);
+  table.polygons = overlay::cells_of_features(features, options, table.facts, execution);
   table.ids = std::move(features.ids);
   table.facts.name = std::move(features.name);
   table.facts.columns = std::move(features.columns);

@@ -24,9 +24,11 @@ constexpr std::array<PolygonFormat, 2> polygon_formats = {{{".geojson"}, {".json
 // Collects the rings and lines of features.
 class PolygonReader {
  public:
-  PolygonReader(std::string_view bytes, FeatureKinds kinds, map::PolygonFeatures& features)
+  PolygonReader(std::string_view bytes, FeatureKinds kinds, FaultyRings faulty,
+                map::PolygonFeatures& features)
       : items_(bytes),
         kinds_(kinds),
+        faulty_(faulty),
         features_(features),
         columns_(features.columns, features.ids) {}
 
@@ -113,38 +115,45 @@ class PolygonReader {
   }
 
   // Returns a ring without its last position, which is the first one again.
-  static map::LonLatRing ring_of(const JsonTree& ring, bool is_hole) {
+  [[nodiscard]] map::LonLatRing ring_of(const JsonTree& ring, bool is_hole) const {
     if (!ring.is_array()) throw BadValue("a ring that is no array");
     std::vector<LonLat> positions;
     positions.reserve(ring.items.size());
     for (const JsonTree& item : ring.items) positions.push_back(geojson_position(item));
-    if (positions.size() < 4) {
-      throw BadValue("a ring of " + std::to_string(positions.size()) + " positions");
+    const std::size_t size = positions.size();
+    const bool is_closed = size > 0 && positions.front() == positions.back();
+    const bool is_turn =
+        size > 0 && !is_closed && positions.front().lat_deg == positions.back().lat_deg &&
+        std::remainder(positions.front().lon_deg - positions.back().lon_deg, 360.0) == 0;
+    if (is_closed || is_turn) positions.pop_back();
+    map::LonLatRing result{std::move(positions), is_hole, is_turn};
+    if (size < 4) {
+      result.fault = "a ring of " + std::to_string(size) + " positions";
+    } else if (!is_closed && !is_turn) {
+      result.fault = "a ring that is not closed";
     }
-    const LonLat &first = positions.front(), &last = positions.back();
-    const bool is_turn = first.lat_deg == last.lat_deg && first.lon_deg != last.lon_deg &&
-                         std::remainder(first.lon_deg - last.lon_deg, 360.0) == 0;
-    if (!is_turn && !(first == last)) throw BadValue("a ring that is not closed");
-    positions.pop_back();
-    return {std::move(positions), is_hole, is_turn};
+    if (!result.fault.empty() && faulty_ == FaultyRings::error) throw BadValue(result.fault);
+    return result;
   }
 
   GeoJsonItems items_;
   FeatureKinds kinds_;
+  FaultyRings faulty_;
   map::PolygonFeatures& features_;
   PropertyColumns columns_;
 };
 
 }  // namespace
 
-map::PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds) {
+map::PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds,
+                                           FaultyRings faulty) {
   FileBytes bytes(file);
   map::PolygonFeatures features;
   features.name = bytes.name();
   (void)require_format<PolygonFormat>(polygon_formats, file, "polygons are read from");
   if (bytes.head().empty()) throw FileError(features.name + ": the file is empty");
   in_file(features.name, [&] {
-    PolygonReader reader(bytes.text(), kinds, features);
+    PolygonReader reader(bytes.text(), kinds, faulty, features);
     at_line_of(reader, [&] { reader.read(); });
   });
   return features;

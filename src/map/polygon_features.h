@@ -24,6 +24,7 @@ struct LonLatRing {
   // have closed it (overlay/feature_polygons.h).
   std::vector<LonLat> thin_positions = {};
   bool is_left_out = false;  // no wider than rounding
+  std::string fault = {};    // what makes it no ring, to be repaired; empty for a ring
 };
 
 // Row i belongs to feature i of the file, or to bare geometry i.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -15,6 +16,7 @@
 
 #include "overlay/border_rings.h"
 #include "overlay/disjoint_cells.h"
+#include "overlay/feature_repairs.h"
 #include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
 #include "overlay/single_cells.h"
@@ -83,17 +85,17 @@ bool leave_out_thin_ring(std::vector<map::LonLatRing>& rings, const PlaneFault& 
   return true;
 }
 
-// Converts all features with one set of options.
+// Converts all features with one set of options. Features with a fault are repaired.
 class FeatureCells {
  public:
   FeatureCells(map::PolygonFeatures& features, const PolygonOptions& options,
-               const Execution& execution)
-      : features_(features), options_(options), execution_(execution) {}
+               std::span<const std::string> faults, const Execution& execution)
+      : features_(features), options_(options), faults_(faults), execution_(execution) {}
 
   // Returns the cells of all features, with overlaps treated as the options say. Throws FileError.
   CellRings operator()() {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
-    CellRings cells = is_geodesic ? geodesic_cells(features_, quiet()) : plane_cells();
+    CellRings cells = is_geodesic ? all_geodesic_cells() : plane_cells();
     look_for_vanished(cells);
     if (options_.overlap == PolygonOverlap::keep && !is_geodesic) {
       require_parts_apart(cells);
@@ -207,14 +209,71 @@ class FeatureCells {
     if (!features.empty()) (void)overlaps_in(wide, features);
   }
 
+  // Takes the rings of features that are to be repaired away from the others, and returns them.
+  std::vector<std::vector<map::LonLatRing>> faulty_rings() {
+    std::vector<std::vector<map::LonLatRing>> faulty(faults_.size());
+    for (std::size_t f = 0; f < faults_.size(); ++f) {
+      if (!faults_[f].empty()) faulty[f].swap(features_.rings[f]);
+    }
+    return faulty;
+  }
+  // Replaces the cells of features that are to be repaired.
+  template <class Repair>
+  void repair(CellRings& cells, const Repair& repaired) {
+    if (faults_.empty()) return;
+    CellRings result;
+    std::vector<std::size_t> features;
+    for (std::size_t f = 0; f < faults_.size(); ++f) {
+      if (faults_[f].empty()) {
+        append(one_cell(cells, static_cast<Index>(f)), result);
+        continue;
+      }
+      features.push_back(f);
+      try {
+        append(repaired(f), result);
+      } catch (const InvalidInput& error) {
+        refuse(f, faults_[f] + ", which cannot be repaired: " + error.what());
+      }
+    }
+    merge_equal_points(result);
+    cells = std::move(result);
+    tell_of_repaired(features, cells);
+  }
+  void tell_of_repaired(const std::vector<std::size_t>& features, const CellRings& cells) {
+    if (features.empty()) return;
+    const std::size_t first = features.front();
+    std::string text = "feature " + feature_name(features_.columns, first) + " was repaired (" +
+                       faults_[first] + ")";
+    if (features.size() > 1) text += ", and " + std::to_string(features.size() - 1) + " more";
+    const auto num_empty = std::ranges::count_if(features, [&](std::size_t f) {
+      return cells.cells[f] == cells.cells[f + 1] && !cells.is_whole(f);
+    });
+    if (num_empty > 0) text += "; nothing is left of " + std::to_string(num_empty);
+    remarks_.push_back(std::move(text));
+  }
+
+  CellRings all_geodesic_cells() {
+    const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
+    CellRings cells = geodesic_cells(features_, quiet());
+    repair(cells, [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
+    return cells;
+  }
+
   // Returns the cells of polygons whose sides are straight in longitude and latitude.
   CellRings plane_cells() {
     for (std::size_t f = 0; f < features_.rings.size(); ++f) require_turns(f);
     share_corners(features_.rings, execution_.threads);
+    const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     std::vector<PlaneSide> sides;
     std::vector<Index> owners;
     std::vector<std::size_t> turns(features_.rings.size());
     sweep(sides, owners, turns);
+    std::vector<std::size_t> first_sides(faulty.size());
+    for (std::size_t f = 0; f < faulty.size(); ++f) {
+      first_sides[f] = sides.size();
+      const std::vector<PlaneSide> given = given_sides(faulty[f]);
+      sides.insert(sides.end(), given.begin(), given.end());
+    }
     DividedSides divided = divide_for_areas(
         sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
     share_polar_corners(sides, divided);
@@ -222,7 +281,7 @@ class FeatureCells {
     std::ranges::transform(divided.values, corners.begin(),
                            [](const LonLat& p) { return unit_vector(p); });
     std::vector<KeyedArc> arcs;
-    for (std::size_t s = 0; s < sides.size(); ++s) {
+    for (std::size_t s = 0; s < owners.size(); ++s) {
       const Point last = unit_vector(sides[s].to);
       for (std::uint64_t k = divided.offsets[s]; k < divided.offsets[s + 1]; ++k) {
         arcs.push_back(
@@ -236,6 +295,12 @@ class FeatureCells {
         cells.whole.push_back(static_cast<Index>(f));
       }
     }
+    repair(cells, [&](std::size_t f) {
+      std::vector<std::span<const LonLat>> rows;
+      const std::size_t end = f + 1 < faulty.size() ? first_sides[f + 1] : sides.size();
+      for (std::size_t s = first_sides[f]; s < end; ++s) rows.push_back(divided[s]);
+      return repaired_plane_feature(faulty[f], rows, quiet());
+    });
     return cells;
   }
 
@@ -258,16 +323,19 @@ class FeatureCells {
   void require_turns(std::size_t feature) const {
     constexpr double max_turns = 10;
     const std::vector<map::LonLatRing>& rings = features_.rings[feature];
+    const bool is_faulty = !faults_.empty() && !faults_[feature].empty();
     for (Index r = 0; r < rings.size(); ++r) {
       const std::vector<LonLat>& positions = rings[r].positions;
-      if (rings[r].is_turn) {
+      if (rings[r].is_turn && !is_faulty) {
         refuse(feature,
                ring_name(rings, r) + " goes around the globe from " +
                    text_of_place(positions.front()) +
                    " and is not closed: a ring around a pole has to be led there along the "
                    "longitudes -180 and 180, or to be read with geodesic edges");
       }
-      if (const auto side = lone_long_side(positions)) refuse_long_side(feature, r, *side);
+      if (const auto side = lone_long_side(positions); side && !is_faulty) {
+        refuse_long_side(feature, r, *side);
+      }
       for (const LonLat& p : positions) {
         if (std::abs(p.lon_deg) > max_turns * 360) {
           refuse(feature, ring_name(rings, r) + ": longitude " + text_of_place(p) +
@@ -310,6 +378,7 @@ class FeatureCells {
 
   map::PolygonFeatures& features_;
   const PolygonOptions& options_;
+  std::span<const std::string> faults_;  // of each feature, or none
   const Execution& execution_;
   std::vector<std::string> remarks_;
 };
@@ -317,15 +386,57 @@ class FeatureCells {
 }  // namespace
 
 CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
-                            std::vector<std::string>& remarks, const Execution& execution) {
-  FeatureCells make(features, options, execution);
-  CellRings cells = make();
-  remarks.insert(remarks.end(), make.remarks().begin(), make.remarks().end());
-  return cells;
+                            CellFacts& facts, const Execution& execution) {
+  const auto cells_with = [&](std::span<const std::string> faults) {
+    FeatureCells make(features, options, faults, execution);
+    CellRings cells = make();
+    facts.remarks.insert(facts.remarks.end(), make.remarks().begin(), make.remarks().end());
+    return cells;
+  };
+  if (options.invalid == InvalidPolygons::error) return cells_with({});
+  std::vector<std::string> faults = faults_of_features(features, options, execution);
+  const std::vector<std::vector<map::LonLatRing>> given = features.rings;
+  for (;;) {
+    // A feature that is valid alone may become invalid by corners of others on its sides.
+    try {
+      CellRings cells = cells_with(faults);
+      if (std::ranges::any_of(faults, std::not_fn(&std::string::empty))) {
+        facts.faults = std::move(faults);
+      }
+      return cells;
+    } catch (const FeatureFault& fault) {
+      if (!faults[fault.feature()].empty()) throw;
+      faults[fault.feature()] = fault.fault();
+      features.rings = given;
+    }
+  }
+}
+
+std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
+                                            const PolygonOptions& options,
+                                            const Execution& execution) {
+  std::vector<std::string> faults(features.rings.size());
+  const PolygonOptions alone{.edges = options.edges, .tolerance_deg = options.tolerance_deg};
+  system::parallel_for(
+      execution.threads, faults.size(), swept_per_block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+          map::PolygonFeatures one;
+          one.rings = {features.rings[f]};
+          for (const map::LonLatRing& ring : one.rings.front()) {
+            if (faults[f].empty()) faults[f] = ring.fault;
+          }
+          if (!faults[f].empty()) continue;
+          try {
+            (void)FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop})();
+          } catch (const FeatureFault& fault) {
+            faults[f] = fault.fault();
+          }
+        }
+      });
+  return faults;
 }
 
 }  // namespace rondel::overlay
-
 namespace rondel {
 
 std::string feature_name(std::span<const Column> columns, std::size_t feature) {

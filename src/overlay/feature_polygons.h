@@ -12,20 +12,27 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "map/polygon_features.h"
 #include "rondel/cell_rings.h"
+#include "rondel/error.h"
 #include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
-// Returns the cells of all features, and adds a remark on features that rounding of their corners
-// has left without an area. Throws FileError for polygons that bound no region, with the feature,
-// the ring and a place.
+// Returns the cells of all features. Adds the faults of features that were repaired to the facts, and
+// remarks on these and on features that rounding of their corners has left without an area. Throws FileError for polygons that bound
+// no region, with the feature, the ring and a place, unless they are to be repaired.
 CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
-                            std::vector<std::string>& remarks, const Execution& execution);
+                            CellFacts& facts, const Execution& execution);
+
+// Returns for each feature what is wrong with it, or an empty text.
+std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
+                                            const PolygonOptions& options,
+                                            const Execution& execution);
 
 // --- the steps, one file each ---
 
@@ -55,7 +62,20 @@ std::string text_of_place(const Point& place);
 // polygon.
 std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring);
 
-// Throws FileError with the name of the file, the feature and what is wrong with it.
+// A feature that is not valid, and what is wrong with it.
+class FeatureFault : public FileError {
+ public:
+  FeatureFault(const std::string& message, std::size_t feature, std::string fault)
+      : FileError(message), feature_(feature), fault_(std::move(fault)) {}
+  [[nodiscard]] std::size_t feature() const { return feature_; }
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+ private:
+  std::size_t feature_;
+  std::string fault_;
+};
+
+// Throws FeatureFault with the name of the file, the feature and what is wrong with it.
 [[noreturn]] void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
                                  const std::string& what);
 
@@ -67,6 +87,10 @@ std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring);
 // 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
 //    polygon, for parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
+
+// Returns the corners of a ring, oriented with the inside of its polygon to the left, so that a shell
+// is around its smaller side.
+std::vector<Point> geodesic_ring(const map::LonLatRing& ring);
 
 // Throws FileError if a hole of the feature is outside of its polygon or in another hole.
 void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,

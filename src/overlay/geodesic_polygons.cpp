@@ -22,6 +22,35 @@
 namespace rondel::overlay {
 namespace {
 
+// True if a ring is clockwise. For a ring that spans less than 180 degrees of longitude and has
+// no pole it is decided exactly by the turn at its westernmost corner, whose meridian has the
+// ring on one side. Otherwise the smaller side is the inside.
+bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Point>& corners) {
+  const std::size_t n = positions.size();
+  double lon = 0;
+  double west = 0;
+  double east = 0;
+  std::size_t corner = 0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    const LonLat& p = positions[k < n ? k : 0];
+    const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
+    if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
+    lon += step;
+    if (k == n) break;
+    if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
+    west = std::min(west, lon);
+    east = std::max(east, lon);
+  }
+  // A corner that the ring passes twice may be the foot of a spike, which says nothing.
+  const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
+  if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
+    const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
+                                  corners[corner + 1 < n ? corner + 1 : 0]);
+    if (sign != Sign::zero) return sign == Sign::negative;
+  }
+  return map::area_on_left(corners) < 0;
+}
+
 // Converts all features.
 class GeodesicCells {
  public:
@@ -124,20 +153,10 @@ class GeodesicCells {
     refuse_feature(features_, feature, "parts of it overlap");
   }
 
-  // Appends the arcs of a ring, oriented with the inside of its polygon to the left.
+  // Appends the arcs of a ring.
   void append(std::size_t feature, Index ring) {
     const std::vector<map::LonLatRing>& rings = features_.rings[feature];
-    std::vector<LonLat> positions = rings[ring].positions;
-    const auto is_same = [](const LonLat& p, const LonLat& q) {
-      return unit_vector(p) == unit_vector(q);
-    };
-    positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
-    while (positions.size() > 1 && is_same(positions.front(), positions.back()))
-      positions.pop_back();
-    std::vector<Point> corners(positions.size());
-    std::ranges::transform(positions, corners.begin(),
-                           [](const LonLat& p) { return unit_vector(p); });
-    if (goes_clockwise(positions, corners) != rings[ring].is_hole) std::ranges::reverse(corners);
+    const std::vector<Point> corners = geodesic_ring(rings[ring]);
     if (corners.size() > 2) {
       const double area = std::abs(map::area_on_left(corners));
       areas_[feature] += rings[ring].is_hole ? -area : area;
@@ -153,36 +172,6 @@ class GeodesicCells {
     }
   }
 
-  // True if a ring is clockwise. For a ring that spans less than 180 degrees of longitude and has
-  // no pole it is decided exactly by the turn at its westernmost corner, whose meridian has the
-  // ring on one side. Otherwise the smaller side is the inside.
-  static bool goes_clockwise(const std::vector<LonLat>& positions,
-                             const std::vector<Point>& corners) {
-    const std::size_t n = positions.size();
-    double lon = 0;
-    double west = 0;
-    double east = 0;
-    std::size_t corner = 0;
-    for (std::size_t k = 1; k <= n; ++k) {
-      const LonLat& p = positions[k < n ? k : 0];
-      const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
-      if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
-      lon += step;
-      if (k == n) break;
-      if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
-      west = std::min(west, lon);
-      east = std::max(east, lon);
-    }
-    // A corner that the ring passes twice may be the foot of a spike, which says nothing.
-    const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
-    if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
-      const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
-                                    corners[corner + 1 < n ? corner + 1 : 0]);
-      if (sign != Sign::zero) return sign == Sign::negative;
-    }
-    return map::area_on_left(corners) < 0;
-  }
-
   const map::PolygonFeatures& features_;
   const Execution& execution_;
   std::vector<KeyedArc> arcs_;
@@ -193,6 +182,22 @@ class GeodesicCells {
 
 CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution) {
   return GeodesicCells(features, execution)();
+}
+
+std::vector<Point> geodesic_ring(const map::LonLatRing& ring) {
+  std::vector<LonLat> positions = ring.positions;
+  const auto is_same = [](const LonLat& p, const LonLat& q) {
+    return unit_vector(p) == unit_vector(q);
+  };
+  positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
+  while (positions.size() > 1 && is_same(positions.front(), positions.back())) positions.pop_back();
+  std::vector<Point> corners(positions.size());
+  std::ranges::transform(positions, corners.begin(),
+                         [](const LonLat& p) { return unit_vector(p); });
+  if (!corners.empty() && goes_clockwise(positions, corners) != ring.is_hole) {
+    std::ranges::reverse(corners);
+  }
+  return corners;
 }
 
 void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,

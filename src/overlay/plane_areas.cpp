@@ -169,8 +169,8 @@ class AreaKeeper {
         threads_(threads),
         divider_(sides, tolerance, threads),
         num_halvings_(sides.size(), 0) {
-    for (std::size_t s = 0; s <= sides.size(); ++s) {
-      if (s == 0 || s == sides.size() || owners[s] != owners[s - 1]) begins_.push_back(s);
+    for (std::size_t s = 0; s <= owners.size(); ++s) {
+      if (s == 0 || s == owners.size() || owners[s] != owners[s - 1]) begins_.push_back(s);
     }
   }
 
@@ -184,6 +184,7 @@ class AreaKeeper {
       cells.clear();
       if (times.empty()) break;
       for (const Index side : divider_.halve(times)) {
+        if (side >= begins_.back()) break;  // sides without an owner
         const auto after = std::ranges::upper_bound(begins_, side);
         const auto cell = static_cast<std::size_t>(after - begins_.begin() - 1);
         if (cells.empty() || cells.back() != cell) cells.push_back(cell);
@@ -231,7 +232,8 @@ class AreaKeeper {
   double share_;
   unsigned threads_;
   SideDivider divider_;
-  // Where the sides of each cell begin, for the cells that have any.
+  // Where the sides of each cell begin, for the cells that have any, and where those of the last
+  // one end.
   std::vector<std::size_t> begins_;
   std::vector<std::uint8_t> num_halvings_;
 };

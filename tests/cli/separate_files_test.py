@@ -33,6 +33,7 @@ COMMANDS = {
     "voronoi": ("{INPUT}", ["INPUT", "--clip"], {"--output": ".geojson"}),
     "regions": ("{INPUT} --clip {--clip}", ["INPUT", "--clip"], {"--output": ".geojson"}),
     "overlay": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".geojson"}),
+    "repair": ("{INPUT}", ["INPUT"], {"--output": ".geojson"}),
     "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),
     "contours": ("{INPUT} --value v --step 1", ["INPUT"], {"--output": ".geojson"}),

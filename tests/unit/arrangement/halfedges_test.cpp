@@ -107,7 +107,7 @@ TEST_F(Figure, faces_have_the_polygons_around_them) {
   for (const auto& row : rows) polygons.append(row);
   std::map<Index, Owners> found;
   const std::vector<std::uint8_t> operands = {0, 1};
-  Coverage(halfedges, polygons, operands, {}, 1).visit([&](Index h, const Owners& owners) {
+  Coverage(halfedges, polygons, operands, {}, {}, 1).visit([&](Index h, const Owners& owners) {
     found[h] = owners;
   });
   EXPECT_EQ(found.size(), halfedges.size());

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel repair: polygons that are not valid become valid.
+// in    polygons of a file
+// out   the same features with valid polygons
+// index features
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "job.h"
+#include "report.h"
+#include "rondel/error.h"
+#include "rondel/feature_cells.h"
+#include "rondel/polygon_files.h"
+#include "rondel/regions.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel repair`.
+struct RepairOptions {
+  CommonOptions common;
+  PolygonOptions read = {.invalid = InvalidPolygons::repair};
+  double tolerance_deg = 0.01;
+};
+
+// Throws FileError for a feature with lines or points, which would not be in OUTPUT.
+void require_polygons(const FeatureTable& table) {
+  for (std::size_t f = 0; f < table.lines.size(); ++f) {
+    if (table.lines.offsets[f] == table.lines.offsets[f + 1]) continue;
+    throw FileError(table.facts.name + ": feature " + feature_name(table.facts.columns, f) +
+                    " has lines or points");
+  }
+}
+
+// Returns what was repaired, as JSON.
+nlohmann::ordered_json repairs_of(const CellFacts& facts) {
+  auto repairs = nlohmann::ordered_json::array();
+  for (std::size_t f = 0; f < facts.faults.size(); ++f) {
+    if (!facts.faults[f].empty()) repairs.push_back({{"feature", f}, {"fault", facts.faults[f]}});
+  }
+  return repairs;
+}
+
+// Throws FileError for files that cannot be read or written, UsageError.
+ExitStatus run_repair(const RepairOptions& options) {
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_regions(common.target()), ".geojson .gpkg .fgb .parquet");
+  require_region_writer(common.target());
+  Job job(common);
+  FeatureTable table;
+  job.time(Stage::dual, [&] {
+    table = read_features(common.source(), options.read, job.execution());
+    require_polygons(table);
+    tell(table.facts.name, table.facts.remarks);
+  });
+  job.time(Stage::write, [&] {
+    write_regions(common.target(), table.polygons, table.facts.columns, options.tolerance_deg,
+                  job.execution(), table.ids);
+  });
+  const std::size_t size = table.polygons.num_cells();
+  const nlohmann::ordered_json repairs = repairs_of(table.facts);
+  const double seconds = job.seconds().total;
+  job.report(
+      nlohmann::ordered_json{{"features", size}, {"repaired", repairs}, {"seconds", seconds}}.dump(
+          2) +
+          '\n',
+      "repaired " + std::to_string(repairs.size()) + " of " + count(size, "polygon", "polygons") +
+          "\nwrote them to " + common.output + " in " + text_of_seconds(seconds) + '\n');
+  return done;
+}
+
+}  // namespace
+
+Command add_repair_command(CLI::App& tool) {
+  auto options = std::make_shared<RepairOptions>();
+  CLI::App* parser = tool.add_subcommand("repair", "Make polygons valid");
+  parser
+      ->add_option_function<std::string>(
+          "INPUT",
+          [given = options.get()](const std::string& file) {
+            given->common.input = standard(file, "/dev/stdin");
+          },
+          "The polygons: .geojson, or - for standard input")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("--input-format", options->common.input_format,
+                   "Format of standard input, or of INPUT: geojson")
+      ->type_name("FORMAT");
+  add_output_option(*parser, options->common,
+                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
+                    ".parquet")
+      ->required();
+  add_word<PolygonEdges>(
+      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
+      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
+      "RFC 7946) or geodesic (great circles)");
+  parser
+      ->add_option("--tolerance", options->tolerance_deg,
+                   "How far a line of OUTPUT may be from its great circle (default: 0.01)")
+      ->check(positive_error)
+      ->type_name("DEG");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "A polygon has the places that an odd number of its rings' sides divides from the outside,\n"
+      "and a feature is the union of its polygons: where sides cross they get a corner, spikes\n"
+      "and rings without an area vanish, and a ring around a pole has the pole. Features that\n"
+      "are valid keep their corners and sides. Properties and ids stay. --json lists what was\n"
+      "wrong with each feature.\n\n"
+      "Examples:\n"
+      "  rondel repair digitized.geojson -o valid.geojson\n"
+      "  rondel repair digitized.geojson -o valid.gpkg --json");
+  return {parser, [options] { return run_repair(*options); }};
+}
+
+}  // namespace rondel::cli
