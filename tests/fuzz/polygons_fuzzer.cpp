@@ -4,10 +4,12 @@
 // read_polygons and read_features on files of any bytes: cells whose arrays fit, or a message of one line that begins
 // with the file's name; the cells have an area, and can be clipped to; cells that were made disjoint do not overlap, and
 // are what the others cover; the features have sites and cells.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
@@ -74,6 +76,22 @@ void test_overlaps(const std::string& path, PolygonOptions options) {
   require(apart.cells.corners == kept.cells.corners, "what does not overlap is as it was");
 }
 
+// Repaired polygons are valid; those that were valid before are as they were, up to corners of others.
+void test_repairs(const std::string& path, PolygonOptions options) {
+  const std::vector<std::string> faults = polygon_faults(path, options);
+  options.invalid = InvalidPolygons::repair;
+  const CellTable repaired = read_polygons(path, options);
+  require(faults.size() == repaired.cells.num_cells(), "a text for each feature");
+  const bool are_valid = std::ranges::all_of(faults, &std::string::empty);
+  require(!are_valid || repaired.facts.faults.empty() || faults.size() > 1, "nothing to repair");
+  for (const CrossingCells& pair : crossing_cells(repaired.cells)) {
+    require(pair.first != pair.second || faults[pair.first].empty(), "no cell crosses itself");
+  }
+  for (std::size_t f = 0; f < faults.size(); ++f) {
+    require(faults[f].empty() || !repaired.facts.faults[f].empty(), "each fault is repaired");
+  }
+}
+
 void test_features(const FeatureTable& table) {
   require(table.polygons.num_cells() == table.lines.size(), "a cell for each feature");
   require(table.lines.rows.offsets.back() == table.lines.rows.values.size(),
@@ -120,6 +138,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_reader(path, [&] { fuzz::test_cells(read_polygons(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_overlaps(path, options); });
+    fuzz::test_reader(path, [&] { fuzz::test_repairs(path, options); });
   }
   return 0;
 }

@@ -162,6 +162,7 @@ TEST(names, lead_back_to_their_values) {
   expect_names<GridSides>({"parallels", "great_circles"});
   expect_names<PolygonEdges>({"lonlat", "geodesic"});
   expect_names<PolygonOverlap>({"keep", "error", "first"});
+  expect_names<InvalidPolygons>({"error", "repair"});
   expect_names<NetcdfKind>({"by_name", "cdf2", "cdf5", "nc4"});
   expect_names<RemapNorm>({"destarea", "fracarea"});
   expect_names<CellOverlap>({"error", "first", "share"});
