@@ -22,7 +22,7 @@ namespace rondel::arrangement {
 
 Coverage::Coverage(const Halfedges& halfedges, const CompressedRows<EdgeOfPolygon>& sides,
                    const std::vector<std::uint8_t>& operands, Owners whole,
-                   std::span<const KnownPlace> known, unsigned threads)
+                   std::span<const std::optional<KnownPlace>> known, unsigned threads)
     : halfedges_(halfedges),
       sides_(sides),
       operands_(operands),
@@ -175,12 +175,24 @@ void Coverage::traverse_component(Index start, const Visit& visit) {
   }
 }
 
-// Finds which polygons have the face where a traversal begins. Without known places the interior of
-// a polygon is to the left of its sides.
-void Coverage::find_insides(std::span<const KnownPlace> known) {
-  if (!known.empty()) return decide_by_sectors(sectors_at(known));
-  const std::vector<Index> undecided = decide_by_sides();
-  if (!undecided.empty()) decide_by_sectors(outsides_of(undecided));
+// Finds which polygons have the face where a traversal begins. Where no place is known, the interior
+// of a polygon is to the left of its sides.
+void Coverage::find_insides(std::span<const std::optional<KnownPlace>> known) {
+  std::vector<Index> undecided = decide_by_sides();
+  std::erase_if(undecided, [&](Index p) { return p < known.size() && known[p]; });
+  std::vector<KnownSector> sectors = outsides_of(undecided);
+  std::vector<Index> all(known.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  const std::vector<std::vector<Index>> edges = edges_of(all);
+  for (Index p = 0; p < known.size(); ++p) {
+    if (!known[p]) continue;
+    if (edges[p].empty()) {
+      is_inside_first_[p] = static_cast<std::uint8_t>(known[p]->is_inside);
+    } else {
+      sectors.push_back(sector_at(p, edges[p], *known[p]));
+    }
+  }
+  if (!sectors.empty()) decide_by_sectors(std::move(sectors));
 }
 
 // Decides by the majority of a polygon's edges, and returns the polygons whose edges disagree.
@@ -233,22 +245,6 @@ std::vector<Coverage::KnownSector> Coverage::outsides_of(const std::vector<Index
     if (is_in_hemisphere) known.push_back(sector_at(p, edges[p], {-1.0 * middle, middle, false}));
   }
   return known;
-}
-
-// Returns the sectors of all polygons that have sides, and decides the others.
-std::vector<Coverage::KnownSector> Coverage::sectors_at(std::span<const KnownPlace> known) {
-  std::vector<Index> all(known.size());
-  std::iota(all.begin(), all.end(), Index{0});
-  const std::vector<std::vector<Index>> edges = edges_of(all);
-  std::vector<KnownSector> sectors;
-  for (const Index p : all) {
-    if (edges[p].empty()) {
-      is_inside_first_[p] = static_cast<std::uint8_t>(known[p].is_inside);
-    } else {
-      sectors.push_back(sector_at(p, edges[p], known[p]));
-    }
-  }
-  return sectors;
 }
 
 // Follows a path from a corner of a polygon to a place. `edges` has the polygon's edges, and there

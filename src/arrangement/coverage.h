@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -47,10 +48,10 @@ class Coverage {
  public:
   // `operands` has 0 or 1 for each polygon; `sides` has the polygons of each edge; `whole` lists
   // those that are the whole sphere, which have no sides; `known` has a place for each polygon, or
-  // is empty if the direction of the sides says what is inside.
+  // is empty. Where nothing is known, the direction of the sides says what is inside.
   Coverage(const Halfedges& halfedges, const CompressedRows<EdgeOfPolygon>& sides,
            const std::vector<std::uint8_t>& operands, Owners whole,
-           std::span<const KnownPlace> known, unsigned threads);
+           std::span<const std::optional<KnownPlace>> known, unsigned threads);
 
   // Calls visit(h, owners) for each halfedge with the polygons that have its face.
   void visit(const std::function<void(Index, const Owners&)>& visit);
@@ -72,11 +73,10 @@ class Coverage {
     bool is_inside;
   };
 
-  void find_insides(std::span<const KnownPlace> known);
+  void find_insides(std::span<const std::optional<KnownPlace>> known);
   [[nodiscard]] std::vector<Index> decide_by_sides();
   [[nodiscard]] std::vector<std::vector<Index>> edges_of(const std::vector<Index>& polygons) const;
   [[nodiscard]] std::vector<KnownSector> outsides_of(const std::vector<Index>& polygons) const;
-  [[nodiscard]] std::vector<KnownSector> sectors_at(std::span<const KnownPlace> known);
   [[nodiscard]] KnownSector sector_at(Index polygon, std::span<const Index> edges,
                                       const KnownPlace& known) const;
   void decide_by_sectors(std::vector<KnownSector> known);

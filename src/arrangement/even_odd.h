@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The union of polygons whose rings may cross, with a known place for each of them.
+// The union of polygons whose rings may cross, with known places.
 //
 // in    polygons, and for each a place of which it is known whether it is inside
 // out   one cell: the places that an odd number of rings of some polygon divides from its known
@@ -9,6 +9,7 @@
 // index polygons
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "arrangement/coverage.h"
@@ -19,8 +20,9 @@
 namespace rondel::arrangement {
 
 // Returns one cell, as unite() does. Rings may have any number of corners and either direction.
-// Without known places the direction of the rings says what is inside, as for unite().
-CellRings even_odd_union(const CellRings& polygons, std::span<const KnownPlace> known,
+// Where no place is known, the direction of the rings says what is inside, as for unite().
+CellRings even_odd_union(const CellRings& polygons,
+                         std::span<const std::optional<KnownPlace>> known,
                          const Execution& execution);
 
 }  // namespace rondel::arrangement

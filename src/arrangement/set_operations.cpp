@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -40,7 +41,7 @@ struct Sides {
   std::vector<Index> polygons;         // of each arc
   std::vector<std::uint8_t> operands;  // of each polygon
   Owners whole;
-  std::vector<KnownPlace> known = {};  // of each polygon, or none
+  std::vector<std::optional<KnownPlace>> known = {};  // of each polygon, or none
 
   // Appends the cells of an operand, with all of its points.
   void append(const CellRings& cells, std::uint8_t operand) {
@@ -60,7 +61,7 @@ struct Sides {
   [[nodiscard]] Owners owners_without_edges() const {
     Owners owners = whole;
     for (std::size_t p = 0; p < known.size(); ++p) {
-      if (known[p].is_inside) owners[operands[p]].push_back(static_cast<Index>(p));
+      if (known[p] && known[p]->is_inside) owners[operands[p]].push_back(static_cast<Index>(p));
     }
     return owners;
   }
@@ -411,7 +412,8 @@ CellRings repaired(const CellRings& polygons, const Execution& execution) {
   return cells_of(regions);
 }
 
-CellRings arrangement::even_odd_union(const CellRings& polygons, std::span<const KnownPlace> known,
+CellRings arrangement::even_odd_union(const CellRings& polygons,
+                                      std::span<const std::optional<KnownPlace>> known,
                                       const Execution& execution) {
   Sides sides;
   sides.append(polygons, 0);

@@ -8,10 +8,11 @@
 // index the sides of a feature: those of all of its rings, one ring after the other
 //
 // Sides that are straight in longitude and latitude become arcs as those of valid polygons do, and the
-// arrangement of these arcs has the crossings. A pole says what is inside: no side is beyond it, so
-// that it is outside, unless sides lead along it or an odd number of rings goes around it. Geodesic
-// rings are around their smaller sides where they are simple; where they cross, the outside is
-// opposite to them (rondel/set_operations.h).
+// arrangement of these arcs has the crossings. Sides of more than 180 degrees of longitude go the
+// shorter way around the globe. A pole says what is inside: no side is beyond it, so
+// that it is outside, unless sides lead along it or an odd number of rings goes around it. The outside of
+// geodesic rings is opposite to their middle; where they are in no hemisphere, a ring is around its
+// smaller side.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +26,10 @@
 
 namespace rondel::overlay {
 
-// True for a ring around a pole that straight lines do not lead to it.
-bool is_around_pole(const map::LonLatRing& ring);
-
-// Returns the sides of all rings. The sides of a ring around a pole go the shorter way around the
-// globe, so that the last one does not end at the first position but a turn away from it.
+// Returns the sides of all rings. The sides of a ring that goes around the globe, or has a side of
+// more than 180 degrees of longitude that is neither at a pole nor between two meridians, as those of
+// a box are, go the shorter way around the globe. So a side may end a turn away from where the next
+// one begins.
 std::vector<PlaneSide> given_sides(std::span<const map::LonLatRing> rings);
 
 // Returns the cell of a feature. `corners` has a row for each of the given sides: the arcs between

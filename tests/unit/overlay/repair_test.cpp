@@ -109,11 +109,14 @@ TEST_P(Repairs, have_the_places_of_an_odd_number_of_sides) {
         ring.push_back({-180 + 360.0 * static_cast<double>(random.below(steps + 1)) / steps,
                         -90 + 180.0 * static_cast<double>(random.below(steps + 1)) / steps});
       }
-      // A side around a pole that is not led there means another way around the globe.
-      for (LonLat& p : ring) {
-        if (p.lat_deg != 0 && std::abs(p.lat_deg) != 90) p.lat_deg *= random.below(2) == 0 ? -1 : 1;
+      // Longer sides would go the other way around the globe.
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const LonLat& from = ring[k];
+        const LonLat& to = ring[(k + 1) % ring.size()];
+        if (std::abs(to.lon_deg - from.lon_deg) <= 180) continue;
+        ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                    {(from.lon_deg + to.lon_deg) / 2, (from.lat_deg + to.lat_deg) / 2});
       }
-      ring.push_back({ring.back().lon_deg, -ring.back().lat_deg});
     }
   }
   const std::string text = planar_polygon(feature[0]);
@@ -186,6 +189,46 @@ TEST(overlay_repair, geodesic_sides_cross_where_great_circles_do) {
   const double area = area_of(twice, geodesic);
   EXPECT_LT(area, areas(parts.cells)[0] + areas(parts.cells)[1] - 0.007);
   EXPECT_GT(area, areas(parts.cells)[0] + areas(parts.cells)[1] - 0.008);
+}
+
+// Files that do not cut polygons at the antimeridian have 170 and then -170.
+TEST(overlay_repair, longer_sides_go_the_shorter_way) {
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    RingInPlane ring;
+    for (std::uint64_t k = 3 + random.below(6); k > 0; --k) {
+      ring.push_back({120 + 120 * random.unit(), -80 + 160 * random.unit()});
+    }
+    ring.push_back({170, ring.front().lat_deg});
+    RingInPlane cut = ring;
+    for (LonLat& p : cut) p.lon_deg = std::remainder(p.lon_deg, 360.0);
+    const std::string box = planar_polygon({planar_box(0, 0, 1, 1)});
+    const auto areas_of = [&](const RingInPlane& any) {
+      return areas(planar_table({{planar_polygon({any}), box, box}}, repairing).cells)[0];
+    };
+    EXPECT_NEAR(areas_of(cut), areas_of(ring), 1e-9);
+  }
+}
+
+// Rings no wider than rounding have no side that is certainly the left one.
+TEST(overlay_repair, slivers_do_not_turn_inside_out) {
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const LonLat place = {-180 + 360 * random.unit(), -90 + 180 * random.unit()};
+    const double width = std::pow(10.0, -static_cast<double>(random.below(15)));
+    const auto near = [&] {
+      return LonLat{place.lon_deg + width * random.unit(),
+                    std::clamp(place.lat_deg + width * random.unit(), -90.0, 90.0)};
+    };
+    const LonLat p = near();
+    const LonLat q = near();
+    const LonLat r = near();
+    const RingInPlane ring = i % 2 == 0 ? RingInPlane{p, q, p, r} : RingInPlane{p, q, r, q, p, r};
+    const FeatureInPlane bow = {{{{0, 0}, {1, 1}, {1, 0}, {0, 1}}}, {ring}};
+    for (const PolygonEdges edges : {PolygonEdges::geodesic, PolygonEdges::lonlat}) {
+      EXPECT_LT(area_of(bow, {.edges = edges, .invalid = InvalidPolygons::repair}), 0.001);
+    }
+  }
 }
 
 TEST(overlay_repair, faults_are_told_without_repair) {
