@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rondel/cell_rings.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
@@ -101,6 +102,18 @@ struct PolygonOptions {
 /// \throws InvalidInput if the tolerance is not positive.
 RONDEL_API CellTable read_polygons(const FileName& file, const PolygonOptions& options = {},
                                    const Execution& execution = {});
+
+/// Polygons as other programs have them: feature i consists of the polygons `offsets[i] ...
+/// offsets[i+1]-1`, each of which has rings, the outer one first. A row has the positions of a ring,
+/// whose last one is the first one again.
+using LonLatMultiPolygons = RowGroups<RowGroups<CompressedRows<LonLat>>>;
+
+/// Makes polygons into cells as read_polygons() does; cell i is feature i.
+/// \throws InvalidInput where read_polygons() throws FileError, with the feature; or if offsets do
+///         not fit
+RONDEL_API CellTable cells_of_polygons(const LonLatMultiPolygons& features,
+                                       const PolygonOptions& options = {},
+                                       const Execution& execution = {});
 
 /// Finds out which polygons are not valid, by the rules of read_polygons(). The text of feature i is
 /// what is wrong with it, as read_polygons() would say, and empty if it is valid.

@@ -16,6 +16,7 @@
 #include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
+#include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -123,6 +124,10 @@ struct LonLatRegions {
 ///         for its form.
 RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg = 0.01,
                                          const Execution& execution = {});
+
+/// Returns the polygons of each cell: feature i has those of cell i.
+/// \throws InvalidInput if an owner is not below the number of cells
+RONDEL_API LonLatMultiPolygons multipolygons(LonLatRegions regions, std::size_t num_cells);
 
 /// True if the format can hold regions: .geojson .gpkg .fgb .parquet.
 RONDEL_API bool can_write_regions(const FileName& file);

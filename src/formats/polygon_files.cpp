@@ -5,8 +5,10 @@
 // lines and points. The rings become cells in overlay/feature_polygons.h; lines are divided here.
 #include "rondel/polygon_files.h"
 
+#include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "rondel/types.h"
 #include "system/job.h"
 #include "system/message_text.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -28,6 +31,17 @@ constexpr double radians_per_degree = std::numbers::pi / 180;
 
 // The remark on a file.
 constexpr const char* no_features = "there are no features";
+
+// Throws InvalidInput if a position is none.
+void require_position(const LonLat& place, std::size_t feature) {
+  const bool is_finite = std::isfinite(place.lon_deg) && std::isfinite(place.lat_deg);
+  if (is_finite && std::abs(place.lat_deg) <= 90) return;
+  throw InvalidInput("feature " + std::to_string(feature) +
+                         (is_finite ? ": latitude " + system::shortest_text(place.lat_deg) +
+                                          " is outside [-90, 90]"
+                                    : ": a position is not finite"),
+                     feature);
+}
 
 // Reads the features of a file, and removes the geometry of those that options.is_taken() rejects.
 map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
@@ -45,6 +59,36 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
     features.lines[f].clear();
   }
   return features;
+}
+
+// Returns polygons in memory as those of a file. Throws InvalidInput.
+map::PolygonFeatures features_of(const LonLatMultiPolygons& features,
+                                 const PolygonOptions& options) {
+  const auto& polygons = features.rows;
+  if (!system::are_offsets(features.offsets, polygons.size()) ||
+      !system::are_offsets(polygons.offsets, polygons.rows.size()) ||
+      !system::are_offsets(polygons.rows.offsets, polygons.rows.values.size())) {
+    throw InvalidInput("the offsets of the polygons do not fit");
+  }
+  map::PolygonFeatures converted;
+  converted.name = "polygons";
+  converted.rings.resize(features.size());
+  converted.lines.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    if (options.is_taken && !options.is_taken(f, {})) continue;
+    std::vector<map::LonLatRing>& rings = converted.rings[f];
+    for (std::uint64_t p = features.offsets[f]; p < features.offsets[f + 1]; ++p) {
+      for (std::uint64_t r = polygons.offsets[p]; r < polygons.offsets[p + 1]; ++r) {
+        const std::span<const LonLat> row = polygons.rows[r];
+        for (const LonLat& place : row) require_position(place, f);
+        rings.push_back(map::ring_of_file({row.begin(), row.end()}, r > polygons.offsets[p]));
+        if (options.invalid == InvalidPolygons::error && !rings.back().fault.empty()) {
+          throw InvalidInput("feature " + std::to_string(f) + ": " + rings.back().fault, f);
+        }
+      }
+    }
+  }
+  return converted;
 }
 
 // Returns the lines of features as arcs of great circles. Lines that are straight in longitude and
@@ -97,6 +141,22 @@ CellTable read_polygons(const FileName& file, const PolygonOptions& options,
   table.cells = overlay::cells_of_features(features, options, table.facts, execution);
   table.facts.name = std::move(features.name);
   table.facts.columns = std::move(features.columns);
+  return table;
+}
+
+CellTable cells_of_polygons(const LonLatMultiPolygons& features, const PolygonOptions& options,
+                            const Execution& execution) {
+  const system::Call call(execution);
+  map::PolygonFeatures converted = features_of(features, options);
+  CellTable table;
+  try {
+    table.cells = overlay::cells_of_features(converted, options, table.facts, execution);
+  } catch (const overlay::FeatureFault& fault) {
+    throw InvalidInput("feature " + std::to_string(fault.feature()) + ": " + fault.fault(),
+                       fault.feature());
+  } catch (const FileError& error) {
+    throw InvalidInput(error.what() + converted.name.size() + 2);
+  }
   return table;
 }
 

@@ -197,6 +197,20 @@ LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
   return formats::polygons_of({cells, {}, tolerance, execution, {}});
 }
 
+LonLatMultiPolygons multipolygons(LonLatRegions regions, std::size_t num_cells) {
+  io::require_fit(regions.owners.size() == regions.polygons.size() &&
+                      std::ranges::is_sorted(regions.owners) &&
+                      (regions.owners.empty() || regions.owners.back() < num_cells),
+                  "owners");
+  LonLatMultiPolygons features;
+  for (std::size_t i = 0; i < num_cells; ++i) {
+    const auto end = std::ranges::upper_bound(regions.owners, i);
+    features.offsets.push_back(static_cast<std::uint64_t>(end - regions.owners.begin()));
+  }
+  features.rows = std::move(regions.polygons);
+  return features;
+}
+
 bool can_write_regions(const FileName& file) {
   return io::ending(file) == formats::region_writers.front().ending ||
          formats::is_format_of_gdal(file);

@@ -120,18 +120,7 @@ class PolygonReader {
     std::vector<LonLat> positions;
     positions.reserve(ring.items.size());
     for (const JsonTree& item : ring.items) positions.push_back(geojson_position(item));
-    const std::size_t size = positions.size();
-    const bool is_closed = size > 0 && positions.front() == positions.back();
-    const bool is_turn =
-        size > 0 && !is_closed && positions.front().lat_deg == positions.back().lat_deg &&
-        std::remainder(positions.front().lon_deg - positions.back().lon_deg, 360.0) == 0;
-    if (is_closed || is_turn) positions.pop_back();
-    map::LonLatRing result{std::move(positions), is_hole, is_turn};
-    if (size < 4) {
-      result.fault = "a ring of " + std::to_string(size) + " positions";
-    } else if (!is_closed && !is_turn) {
-      result.fault = "a ring that is not closed";
-    }
+    map::LonLatRing result = map::ring_of_file(std::move(positions), is_hole);
     if (!result.fault.empty() && faulty_ == FaultyRings::error) throw BadValue(result.fault);
     return result;
   }

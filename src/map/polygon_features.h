@@ -6,7 +6,10 @@
 // index features of a file, or its bare geometries
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondel/io.h"
@@ -26,6 +29,24 @@ struct LonLatRing {
   bool is_left_out = false;  // no wider than rounding
   std::string fault = {};    // what makes it no ring, to be repaired; empty for a ring
 };
+
+// Returns a ring of a file, whose last position is the first one again, without its last position.
+inline LonLatRing ring_of_file(std::vector<LonLat> positions, bool is_hole) {
+  constexpr std::size_t least = 4;
+  const std::size_t size = positions.size();
+  const bool is_closed = size > 0 && positions.front() == positions.back();
+  const bool is_turn =
+      size > 0 && !is_closed && positions.front().lat_deg == positions.back().lat_deg &&
+      std::remainder(positions.front().lon_deg - positions.back().lon_deg, 360.0) == 0;
+  if (is_closed || is_turn) positions.pop_back();
+  LonLatRing ring{std::move(positions), is_hole, is_turn};
+  if (size < least) {
+    ring.fault = "a ring of " + std::to_string(size) + " positions";
+  } else if (!is_closed && !is_turn) {
+    ring.fault = "a ring that is not closed";
+  }
+  return ring;
+}
 
 // Row i belongs to feature i of the file, or to bare geometry i.
 struct PolygonFeatures {

@@ -11,6 +11,7 @@ rondel_add_test(overlay_test
   overlay/inside_test.cpp
   overlay/inside_plane_test.cpp
   overlay/measure_test.cpp
+  formats/arrow_test.cpp
   formats/mesh_blocks_test.cpp
   formats/mesh_faults_test.cpp
   formats/mesh_files_test.cpp
