@@ -78,6 +78,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_diagram(module);
   rondel::python::add_query(module);
   rondel::python::add_contours(module);
+  rondel::python::add_arrow(module);
   rondel::python::add_cell_set(module);
   rondel::python::add_conventions(module);
   rondel::python::add_dynamic(module);

@@ -17,6 +17,7 @@ namespace rondel::python {
 void add_triangulation(nanobind::module_& module);
 void add_diagram(nanobind::module_& module);
 void add_query(nanobind::module_& module);
+void add_arrow(nanobind::module_& module);
 void add_cell_set(nanobind::module_& module);
 void add_contours(nanobind::module_& module);
 void add_conventions(nanobind::module_& module);
