@@ -7,7 +7,9 @@
 /// often as one likes.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "rondel/cell_rings.h"
@@ -65,8 +67,20 @@ RONDEL_API RegionPieces overlay_pieces(const CellRings& first, const CellRings& 
 /// Computes the union of any number of polygons at once: combine() with no second operand.
 RONDEL_API CellRings unite(const CellRings& polygons, const Execution& execution = {});
 
+/// Computes a set operation on pairs of polygons, each pair by itself. Cell k of the result has the
+/// places that combine() says for polygon `pairs[k][0]` of A and polygon `pairs[k][1]` of B, and
+/// the same corners, bit by bit. Cells of the result may overlap.
+/// \param first, second  A and B, as for combine(); they may be the same object
+/// \throws InvalidInput if offsets do not fit, or (the position of the pair) if a polygon does not
+///         exist or is one that combine() refuses. Polygons in no pair are not looked at.
+RONDEL_API CellRings combine_pairs(const CellRings& first, const CellRings& second,
+                                   std::span<const std::array<Index, 2>> pairs,
+                                   SetOperation operation, const Execution& execution = {});
+
 /// Makes each polygon valid: cell i of the result has the places of polygon i, as for combine().
 /// Polygons do not change each other.
+/// \throws InvalidInput if offsets do not fit, or (the position of the polygon) if combine() refuses
+///         a polygon
 RONDEL_API CellRings repaired(const CellRings& polygons, const Execution& execution = {});
 
 }  // namespace rondel

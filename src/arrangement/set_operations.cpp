@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -49,13 +50,13 @@ struct Sides {
     points.insert(points.end(), cells.points.begin(), cells.points.end());
     append_cells(cells, 0, cells.num_cells(), operand, [&](Index p) { return first_point + p; });
   }
-  // Appends one cell and the points of its corners alone.
-  void append_cell(const CellRings& cells, std::size_t cell) {
+  // Appends one cell of an operand and the points of its corners alone.
+  void append_cell(const CellRings& cells, std::size_t cell, std::uint8_t operand) {
     const auto number = [&](Index p) {
       points.push_back(cells.points[p]);
       return static_cast<Index>(points.size() - 1);
     };
-    append_cells(cells, cell, cell + 1, 0, number);
+    append_cells(cells, cell, cell + 1, operand, number);
   }
   // Returns the polygons that have the whole sphere if there is no edge.
   [[nodiscard]] Owners owners_without_edges() const {
@@ -351,6 +352,29 @@ Region joined_region(const Sides& sides, SetOperation operation, const Execution
   return regions.empty() ? Region{} : std::move(regions.front());
 }
 
+// Returns a cell for each of `count` operations on a few polygons; sides_at(k) returns the sides of
+// those of operation k. Throws InvalidInput with the first operation whose sides are refused.
+template <class SidesAt>
+CellRings joined_each(std::size_t count, SetOperation operation, const Execution& execution,
+                      const SidesAt& sides_at) {
+  std::vector<Region> regions(count);
+  std::vector<std::string> refusals(count);
+  constexpr std::size_t grain = 16;
+  system::parallel_for(execution.threads, count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      try {
+        regions[k] = joined_region(sides_at(k), operation, {.threads = 1, .stop = execution.stop});
+      } catch (const InvalidInput& error) {
+        refusals[k] = error.what();
+      }
+    }
+  });
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!refusals[k].empty()) throw InvalidInput(refusals[k], k);
+  }
+  return cells_of(regions);
+}
+
 }  // namespace
 
 std::string_view name_of(SetOperation operation) noexcept {
@@ -395,21 +419,34 @@ CellRings unite(const CellRings& polygons, const Execution& execution) {
   return combine(polygons, {}, SetOperation::unite, execution);
 }
 
+CellRings combine_pairs(const CellRings& first, const CellRings& second,
+                        std::span<const std::array<Index, 2>> pairs, SetOperation operation,
+                        const Execution& execution) {
+  const system::Call call(execution);
+  arrangement::validate_rings(first);
+  arrangement::validate_rings(second);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [a, b] = pairs[k];
+    if (a >= first.num_cells() || b >= second.num_cells()) {
+      throw InvalidInput("a polygon of a pair does not exist", k);
+    }
+  }
+  return joined_each(pairs.size(), operation, execution, [&](std::size_t k) {
+    Sides sides;
+    sides.append_cell(first, pairs[k][0], 0);
+    sides.append_cell(second, pairs[k][1], 1);
+    return sides;
+  });
+}
+
 CellRings repaired(const CellRings& polygons, const Execution& execution) {
   const system::Call call(execution);
   arrangement::validate_rings(polygons);
-  std::vector<Region> regions(polygons.num_cells());
-  constexpr std::size_t grain = 16;
-  system::parallel_for(
-      execution.threads, regions.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t c = begin; c < end; ++c) {
-          Sides sides;
-          sides.append_cell(polygons, c);
-          regions[c] =
-              joined_region(sides, SetOperation::unite, {.threads = 1, .stop = execution.stop});
-        }
-      });
-  return cells_of(regions);
+  return joined_each(polygons.num_cells(), SetOperation::unite, execution, [&](std::size_t cell) {
+    Sides sides;
+    sides.append_cell(polygons, cell, 0);
+    return sides;
+  });
 }
 
 CellRings arrangement::even_odd_union(const CellRings& polygons,

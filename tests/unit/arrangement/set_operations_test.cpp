@@ -270,6 +270,78 @@ TEST(overlay_pieces, divide_the_polygons) {
   }
 }
 
+using Pairs = std::vector<std::array<Index, 2>>;
+
+// All pairs of cells, twice.
+Pairs all_pairs(const CellRings& a, const CellRings& b) {
+  Pairs pairs;
+  for (int times = 0; times < 2; ++times) {
+    for (Index i = 0; i < a.num_cells(); ++i) {
+      for (Index k = 0; k < b.num_cells(); ++k) pairs.push_back({i, k});
+    }
+  }
+  return pairs;
+}
+
+TEST(combine_pairs, has_the_places_of_each_pair) {
+  const std::size_t count = scaled(200);
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Polygons make(seed);
+    const bool are_boxes = seed / 8 % 2 == 0;
+    const CellRings a = make.some(are_boxes);
+    const CellRings b = make.some(are_boxes);
+    const Pairs pairs = all_pairs(a, b);
+    for (const SetOperation operation : operations) {
+      const CellRings result = combine_pairs(a, b, pairs, operation, {1});
+      ASSERT_EQ(result.num_cells(), pairs.size());
+      ASSERT_TRUE(is_equal(combine_pairs(a, b, pairs, operation, {2}), result));
+      ASSERT_TRUE(is_equal(repaired(result, {1}), result));
+      for (int k = 0; k < 10; ++k) {
+        const Point p = make.place_inside();
+        for (std::size_t i = 0; i < pairs.size(); ++i) {
+          ASSERT_EQ(has(result, i, p, make.outside()),
+                    result_of(operation, has(a, pairs[i][0], p, make.outside()),
+                              has(b, pairs[i][1], p, make.outside())));
+        }
+      }
+    }
+  }
+}
+
+// Returns the rings of a cell as points.
+std::vector<Ring> rings_of(const CellRings& cells, std::size_t cell) {
+  std::vector<Ring> rings;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    Ring& ring = rings.emplace_back();
+    for (const Index p : cells.corners_of(r)) ring.push_back(cells.points[p]);
+  }
+  return rings;
+}
+
+TEST(combine_pairs, has_the_corners_of_combine) {
+  const std::size_t count = scaled(50);
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Polygons make(seed);
+    const CellRings a = make.some(seed % 2 == 0);
+    const CellRings b = make.some(seed % 2 == 0);
+    const Pairs pairs = all_pairs(a, b);
+    for (const SetOperation operation : operations) {
+      const CellRings result = combine_pairs(a, b, pairs, operation, {1});
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        CellRings first;
+        first.points = a.points;
+        first.append_cell(a, pairs[i][0]);
+        CellRings second;
+        second.points = b.points;
+        second.append_cell(b, pairs[i][1]);
+        ASSERT_EQ(rings_of(result, i), rings_of(combine(first, second, operation, {1}), 0));
+      }
+    }
+  }
+}
+
 // The corners of a square around the end of an axis.
 Ring square(const Point& middle, double size) {
   const Point right = normalized(cross(Point{1, 2, 3}, middle));
@@ -303,6 +375,64 @@ TEST(combine, knows_the_whole_sphere_and_nothing) {
   EXPECT_TRUE(is_equal(combine(all, none, SetOperation::intersection), none));
   EXPECT_TRUE(is_equal(combine(all, none, SetOperation::difference), all));
   EXPECT_TRUE(is_equal(combine(all, all, SetOperation::symmetric_difference), none));
+}
+
+TEST(combine_pairs, knows_the_whole_sphere_and_nothing) {
+  CellRings cells = cells_of({square({0, 0, 1}, 0.3)});
+  append(reversed(square({0, 0, 1}, 0.3)), cells);  // with points of its own
+  cells.end_cell();
+  cells.whole = {2};
+  cells.end_cell();
+  cells.end_cell();  // empty
+  const auto [cap, rest, all, none] = std::array<Index, 4>{0, 1, 2, 3};
+  const Pairs pairs = {{cap, rest}, {all, cap}, {none, cap}, {all, all}, {none, none}, {cap, cap}};
+  const auto wholes = [&](SetOperation operation) {
+    return combine_pairs(cells, cells, pairs, operation).whole;
+  };
+  const auto nums_of_rings = [&](SetOperation operation) {
+    const CellRings result = combine_pairs(cells, cells, pairs, operation);
+    std::vector<std::uint64_t> nums;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      nums.push_back(result.cells[k + 1] - result.cells[k]);
+    }
+    return nums;
+  };
+  using Nums = std::vector<std::uint64_t>;
+  using Cells = std::vector<Index>;
+  EXPECT_EQ(wholes(SetOperation::unite), (Cells{0, 1, 3}));
+  EXPECT_EQ(nums_of_rings(SetOperation::unite), (Nums{0, 0, 1, 0, 0, 1}));
+  EXPECT_EQ(wholes(SetOperation::intersection), (Cells{3}));
+  EXPECT_EQ(nums_of_rings(SetOperation::intersection), (Nums{0, 1, 0, 0, 0, 1}));
+  EXPECT_EQ(wholes(SetOperation::difference), Cells{});
+  EXPECT_EQ(nums_of_rings(SetOperation::difference), (Nums{1, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(wholes(SetOperation::symmetric_difference), (Cells{0}));
+  EXPECT_EQ(nums_of_rings(SetOperation::symmetric_difference), (Nums{0, 1, 1, 0, 0, 0}));
+  EXPECT_EQ(combine_pairs(cells, cells, {}, SetOperation::unite).num_cells(), 0U);
+}
+
+TEST(combine_pairs, names_the_first_pair_that_it_refuses) {
+  CellRings cells;
+  for (int k = 0; k < 100; ++k) {
+    const bool is_good = k < 60;
+    append(is_good ? square({0, 0, 1}, 0.3) : Ring{{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}, cells);
+    cells.end_cell();
+  }
+  Pairs pairs;
+  for (Index k = 0; k < 100; ++k) pairs.push_back({0, k});
+  for (const unsigned threads : {1U, 2U}) {
+    const auto unite_pairs = [&] {
+      return combine_pairs(cells, cells, pairs, SetOperation::unite, {threads});
+    };
+    EXPECT_EQ(thrown_index(unite_pairs), 60U);
+    EXPECT_EQ(thrown_index([&] { return repaired(cells, {threads}); }), 60U);
+  }
+  pairs[3] = {100, 0};
+  EXPECT_EQ(thrown_index([&] { return combine_pairs(cells, cells, pairs, operations[0]); }), 3U);
+  pairs[3] = {0, 100};
+  EXPECT_EQ(thrown_index([&] { return combine_pairs(cells, cells, pairs, operations[0]); }), 3U);
+  cells.rings.pop_back();
+  EXPECT_EQ(thrown_index([&] { return combine_pairs(cells, cells, {}, operations[0]); }),
+            InvalidInput::no_index);
 }
 
 TEST(unite, keeps_polygons_that_lie_apart_and_in_each_other) {
@@ -380,6 +510,8 @@ TEST(combine, ends_when_it_is_told_to_stop) {
   const Execution execution{.threads = 1, .stop = &stop};
   EXPECT_THROW(unite(cells, execution), Interrupted);
   EXPECT_THROW(repaired(cells, execution), Interrupted);
+  EXPECT_THROW(combine_pairs(cells, cells, Pairs{{0, 0}}, SetOperation::unite, execution),
+               Interrupted);
 }
 
 TEST(set_operation, has_names_of_its_own) {
