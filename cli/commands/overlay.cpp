@@ -105,8 +105,10 @@ ExitStatus run_overlay(const OverlayOptions& options) {
   });
   job.time(Stage::dual, [&] { pieces = pieces_of(first, second, options, job.execution()); });
   job.time(Stage::write, [&] {
+    // Where polygons of one file overlap, pieces do.
+    const bool do_overlap = !overlapping_cells(pieces.rings, job.execution()).empty();
     write_regions(common.target(), pieces.rings, pieces.columns, options.tolerance_deg,
-                  job.execution());
+                  job.execution(), {}, do_overlap ? CellDrawing::apart : CellDrawing::together);
   });
   const std::size_t number = num_not_empty(pieces.rings);
   const double seconds = job.seconds().total;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rondel/cell_rings.h"
@@ -103,6 +104,23 @@ RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
 /// Computes the area of each cell in steradians, whatever its size and form.
 RONDEL_API std::vector<double> areas(const CellRings& cells);
 
+/// Computes the length of each cell's border in radians: the sum of the lengths of all sides of its
+/// rings. It is 0 for a cell without rings.
+RONDEL_API std::vector<double> lengths(const CellRings& cells);
+
+/// What cells have to do with each other when they are drawn.
+enum class CellDrawing : std::uint8_t {
+  /// Cells do not overlap; where they do nevertheless, a place belongs to one of them. Where two
+  /// cells meet, both get the same positions, bit by bit, also where only one of them has a corner.
+  together,
+  /// Cells may overlap: each is drawn as if there were no others. Cells have the same positions
+  /// along a common side as long as it is nowhere nearer to other sides than lines are to arcs.
+  apart,
+};
+
+/// Returns the name of a value: "together", "apart"; empty for other numbers.
+RONDEL_API std::string_view name_of(CellDrawing drawing) noexcept;
+
 /// Cells as polygons with holes in longitude and latitude: the polygons of write_regions().
 struct LonLatRegions {
   /// A group has the rings of a polygon, the outer one first. A row has the positions of a ring,
@@ -115,15 +133,14 @@ struct LonLatRegions {
 /// rondel::geo).
 ///
 /// 1. They are valid in the sense of OGC simple features, exactly, for these doubles.
-/// 2. Where two cells meet, both have the same positions, bit by bit, also where only one of them
-///    has a corner.
+/// 2. What cells have to do with each other is as `drawing` says.
 /// 3. A cell has no polygon where it is no wider than rounding.
 ///
-/// Where cells overlap and their sides cross, a place belongs to the first of them.
 /// \throws InvalidInput if offsets do not fit, or the tolerance is not positive; no cell is refused
 ///         for its form.
 RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg = 0.01,
-                                         const Execution& execution = {});
+                                         const Execution& execution = {},
+                                         CellDrawing drawing = CellDrawing::together);
 
 /// Returns the polygons of each cell: feature i has those of cell i.
 /// \throws InvalidInput if an owner is not below the number of cells
@@ -148,11 +165,13 @@ RONDEL_API void require_region_writer(const FileName& file);
 /// \param columns  one value for each cell; names that are taken change as in free_names()
 /// \param ids  .geojson: the member `id` of each feature, as JSON, empty for none; no cells: there
 ///         are no ids
+/// \param drawing  as for region_polygons()
 /// \throws InvalidInput if columns, ids or offsets do not fit, or the tolerance is not positive
 /// \throws FileError if the file cannot be written, has another ending, or needs a GDAL that is not
 ///         there
 RONDEL_API void write_regions(const FileName& file, const CellRings& cells,
                               std::span<const Column> columns = {}, double tolerance_deg = 0.01,
-                              const Execution& execution = {}, const Column& ids = {});
+                              const Execution& execution = {}, const Column& ids = {},
+                              CellDrawing drawing = CellDrawing::together);
 
 }  // namespace rondel

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@
 #include "map/valid_regions.h"
 #include "rondel/regions.h"
 #include "system/job.h"
+#include "system/message_text.h"
 #include "system/parallel.h"
 #include "system/row_assembly.h"
 
@@ -41,6 +43,7 @@ struct RegionsToWrite {
   double tolerance;  // radians
   const Execution& execution;
   const Column& ids;
+  CellDrawing drawing = CellDrawing::together;
 };
 
 // The number of cells that a thread draws at once.
@@ -93,8 +96,8 @@ map::LoopsOfRegion loops_of_cell(const RegionsToWrite& job, std::size_t cell,
   return std::move(region.loops);
 }
 
-// Returns the polygons of each cell, in degrees.
-std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
+// Returns the polygons of each cell, in degrees, of cells that do not overlap.
+std::vector<map::PolygonsOfRegion> draw_together(const RegionsToWrite& job) {
   const std::vector<Point> points = map::merged_points(job.cells.points);
   const map::CommonCorners common(job.cells, points, job.execution.threads);
   const auto append_ring = [&](std::span<const Index> corners, std::vector<Point>& ring) {
@@ -110,6 +113,36 @@ std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
                          }
                        });
   return map::valid_regions(std::move(loops), job.execution.threads);
+}
+
+// Returns a cell alone, with its own points.
+CellRings single_cell(const CellRings& cells, std::size_t cell) {
+  CellRings single;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    for (const Index corner : ring_of(cells, r)) {
+      single.corners.push_back(static_cast<Index>(single.points.size()));
+      single.points.push_back(cells.points[corner]);
+    }
+    single.end_ring();
+  }
+  if (cells.is_whole(cell)) single.whole = {0};
+  single.end_cell();
+  return single;
+}
+
+// Returns the polygons of each cell, in degrees.
+std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
+  if (job.drawing == CellDrawing::together) return draw_together(job);
+  std::vector<map::PolygonsOfRegion> drawn(job.cells.num_cells());
+  const Execution alone{.threads = 1, .stop = job.execution.stop};
+  system::parallel_for(
+      job.execution.threads, drawn.size(), cells_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const CellRings single = single_cell(job.cells, i);
+          drawn[i] = std::move(draw_together({single, {}, job.tolerance, alone, {}}).front());
+        }
+      });
+  return drawn;
 }
 
 // True if the cell has rings or is the whole sphere.
@@ -189,12 +222,16 @@ void require_rings(const CellRings& cells) {
 
 namespace rondel {
 
+std::string_view name_of(CellDrawing drawing) noexcept {
+  return system::name_in({"together", "apart"}, drawing);
+}
+
 LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
-                              const Execution& execution) {
+                              const Execution& execution, CellDrawing drawing) {
   const system::Call call(execution);
   formats::require_rings(cells);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  return formats::polygons_of({cells, {}, tolerance, execution, {}});
+  return formats::polygons_of({cells, {}, tolerance, execution, {}, drawing});
 }
 
 LonLatMultiPolygons multipolygons(LonLatRegions regions, std::size_t num_cells) {
@@ -217,7 +254,8 @@ bool can_write_regions(const FileName& file) {
 }
 
 void write_regions(const FileName& file, const CellRings& cells, std::span<const Column> columns,
-                   double tolerance_deg, const Execution& execution, const Column& ids) {
+                   double tolerance_deg, const Execution& execution, const Column& ids,
+                   CellDrawing drawing) {
   const system::Call call(execution);
   formats::require_rings(cells);
   io::require_fit(ids.ends.empty() || formats::is_complete(ids, cells.num_cells()), "ids");
@@ -228,7 +266,7 @@ void write_regions(const FileName& file, const CellRings& cells, std::span<const
                   "columns");
   require_region_writer(file);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  const formats::RegionsToWrite job{cells, columns, tolerance, execution, ids};
+  const formats::RegionsToWrite job{cells, columns, tolerance, execution, ids, drawing};
   if (formats::is_format_of_gdal(file)) {
     formats::write_regions_gdal(file, formats::polygons_of(job), areas(cells), columns);
   } else {

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "exact/angles.h"
+#include "exact/vector.h"
 #include "overlay/border_rings.h"
 #include "overlay/cell_set_data.h"
 #include "overlay/cover_triangulation.h"
@@ -351,6 +353,24 @@ std::vector<double> areas(const CellRings& cells) {
   std::vector<double> result;
   result.reserve(cells.num_cells());
   for (std::size_t i = 0; i < cells.num_cells(); ++i) result.push_back(area_of_cell(cells, i));
+  return result;
+}
+
+std::vector<double> lengths(const CellRings& cells) {
+  std::vector<double> result;
+  result.reserve(cells.num_cells());
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    double sum = 0;
+    for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
+      const std::span<const Index> ring = cells.corners_of(r);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point& p = cells.points[ring[k]];
+        const Point& q = cells.points[ring[k + 1 < ring.size() ? k + 1 : 0]];
+        sum += exact::argument(norm(cross(p, q - p)), dot(p, q));
+      }
+    }
+    result.push_back(sum);
+  }
   return result;
 }
 

@@ -75,6 +75,39 @@ CellRings polygons_of(ByteSource& source, const std::vector<Point>& points) {
   return cells;
 }
 
+// Each pair is what it is alone.
+void test_pairs(const CellRings& a, const CellRings& b) {
+  std::vector<std::array<Index, 2>> pairs;
+  for (Index k = 0; k < std::min(a.num_cells(), b.num_cells()); ++k) pairs.push_back({k, k});
+  const CellRings result = combine_pairs(a, b, pairs, SetOperation::symmetric_difference, {1});
+  require(result.num_cells() == pairs.size(), "a cell for each pair");
+  require(is_equal(repaired(result, {1}), result), "cells of pairs are valid");
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    CellRings first;
+    first.points = a.points;
+    first.append_cell(a, k);
+    CellRings second;
+    second.points = b.points;
+    second.append_cell(b, k);
+    CellRings alone;
+    alone.points = result.points;
+    alone.append_cell(result, k);
+    require(is_equal(combine(second, first, SetOperation::symmetric_difference, {1}),
+                     unite(alone, {1})),
+            "a pair is what it is alone");
+  }
+}
+
+// Sides of the union and of the intersection of valid cells are parts of their sides.
+void test_lengths(const CellRings& a, const CellRings& b) {
+  const auto length_of = [&](SetOperation operation) {
+    return lengths(combine(a, b, operation, {1}))[0];
+  };
+  require(length_of(SetOperation::unite) + length_of(SetOperation::intersection) <
+              lengths(a)[0] + lengths(b)[0] + 1e-9,
+          "a union and an intersection have no more sides than their operands");
+}
+
 void test_set_operations(const CellRings& a, const CellRings& b) {
   const CellRings either = combine(a, b, SetOperation::unite, {1});
   require(is_equal(either, combine(b, a, SetOperation::unite, {1})), "the union is symmetric");
@@ -84,6 +117,8 @@ void test_set_operations(const CellRings& a, const CellRings& b) {
   const CellRings first = combine(a, b, SetOperation::difference, {1});
   const CellRings none = combine(first, first, SetOperation::difference, {1});
   require(none.rings.size() == 1 && none.whole.empty(), "a region without itself is empty");
+  test_lengths(unite(a, {1}), unite(b, {1}));
+  test_pairs(a, b);
   const RegionPieces pieces = overlay_pieces(a, b, SetOperation::identity, {1});
   for (std::size_t k = 0; k < pieces.num_pieces(); ++k) {
     require(pieces.cells[k] < a.num_cells(), "pieces are of the first operand");

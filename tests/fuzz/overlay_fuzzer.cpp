@@ -141,6 +141,8 @@ void test_file(const RegionPieces& pieces) {
           "rings have all positions");
   require(drawn.polygons.offsets.back() == drawn.polygons.rows.size(), "and polygons all rings");
   require(drawn.owners.size() == drawn.polygons.size(), "each polygon has an owner");
+  const LonLatRegions apart = region_polygons(pieces.rings, 5, {}, CellDrawing::apart);
+  require(apart.owners.size() == apart.polygons.size(), "so it has where cells are drawn apart");
   const auto document = nlohmann::json::parse(content(path));
   require(document["features"].size() == pieces.num_pieces(), "a feature for each piece");
   require_valid(document, false);  // what is no wider than rounding is left out

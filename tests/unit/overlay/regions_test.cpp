@@ -57,6 +57,47 @@ void expect_simple_rings(const CellRings& cells) {
   }
 }
 
+TEST(overlay_regions, lengths_are_those_of_all_sides) {
+  CellRings cells;
+  cells.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6, 0.8, 0}, {-1, 0, 0}};
+  cells.append_ring(std::vector<Index>{0, 1, 2});
+  cells.end_cell();
+  cells.end_cell();
+  cells.whole = {2};
+  cells.end_cell();
+  cells.append_ring(std::vector<Index>{0, 3, 1, 4, 2});
+  cells.append_ring(std::vector<Index>{0, 2, 1});
+  cells.end_cell();
+  const std::vector<double> found = lengths(cells);
+  constexpr double quarter = std::numbers::pi / 2;
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_NEAR(found[0], 3 * quarter, 1e-15);
+  EXPECT_EQ(found[1], 0);
+  EXPECT_EQ(found[2], 0);
+  EXPECT_NEAR(found[3], 7 * quarter, 1e-15);
+}
+
+TEST(overlay_regions, lengths_of_short_and_long_sides) {
+  const CellRings cells = CellSet::voronoi(triangulation_of("clustered", 1000, 3)).rings();
+  const std::vector<double> found = lengths(cells);
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    long double expected = 0;
+    for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
+      const auto ring = cells.corners_of(r);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point& p = cells.points[ring[k]];
+        const Point& q = cells.points[ring[(k + 1) % ring.size()]];
+        const auto square = [](long double x) { return x * x; };
+        const long double chord = std::sqrt(square(static_cast<long double>(p.x) - q.x) +
+                                            square(static_cast<long double>(p.y) - q.y) +
+                                            square(static_cast<long double>(p.z) - q.z));
+        expected += 2 * std::asin(chord / 2);
+      }
+    }
+    ASSERT_NEAR(found[i], static_cast<double>(expected), 1e-14 * (1e-2 + found[i]));
+  }
+}
+
 // Regions with holes and of many parts, some of the sphere in none.
 CellRings random_regions(std::size_t n, Index num_groups, std::uint64_t seed) {
   const CellSet cells = CellSet::voronoi(triangulation_of("uniform", n, seed));

@@ -103,6 +103,64 @@ TEST(overlay_valid, a_corner_in_one_neighbor_is_one_of_both) {
   EXPECT_EQ(both, count_single_sides(apart));
 }
 
+// Returns the area of a region in the plane, in square degrees.
+double planar_area_of(const PlanarRegion& region) {
+  double sum = 0;
+  for (const PlanarPolygon& polygon : region) {
+    for (const PlanarRing& ring : polygon) {
+      for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+        sum += ring[k].lon_deg * ring[k + 1].lat_deg - ring[k + 1].lon_deg * ring[k].lat_deg;
+      }
+    }
+  }
+  return sum / 2;
+}
+
+TEST(overlay_valid, cells_that_are_drawn_apart_may_overlap) {
+  // Two boxes that overlap, one in another, the same box again, the whole sphere, nothing.
+  const auto box = [](double west, double south, double size) {
+    return std::vector<LonLat>{
+        {west, south}, {west + size, south}, {west + size, south + size}, {west, south + size}};
+  };
+  CellRings cells = cells_of({box(0, 0, 2), box(1, 1, 2), box(0.5, 0.5, 1), box(0, 0, 2)});
+  cells.whole = {4};
+  cells.end_cell();
+  cells.end_cell();
+  const std::array<double, 6> expected = {4, 4, 1, 4, 360.0 * 180, 0};
+  for (const unsigned threads : {1U, 2U}) {
+    const auto regions =
+        regions_of(region_polygons(cells, 0.01, {threads}, CellDrawing::apart), cells.num_cells());
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      EXPECT_NEAR(planar_area_of(regions[i]), expected[i], 1e-2) << i;
+      EXPECT_EQ(why_invalid(regions[i]), "") << i;
+    }
+  }
+  EXPECT_LT(planar_area_of(drawn_regions(cells)[1]), 3.1);
+  EXPECT_EQ(name_of(CellDrawing::apart), "apart");
+  EXPECT_EQ(name_of(CellDrawing::together), "together");
+}
+
+TEST(overlay_valid, shapes_that_are_drawn_apart_are_drawn_as_if_alone) {
+  for (std::uint64_t seed = 0; seed < scaled(5); ++seed) {
+    CellRings cells;
+    std::vector<PlanarRegion> alone;
+    for (std::size_t kind = 0; kind < shape_kinds.size(); ++kind) {
+      const CellRings shape = one_cell_of(hostile_shape(kind, seed, {}));
+      alone.push_back(drawn_regions(shape)[0]);
+      const auto first = static_cast<Index>(cells.points.size());
+      cells.points.insert(cells.points.end(), shape.points.begin(), shape.points.end());
+      for (std::size_t r = 0; r + 1 < shape.rings.size(); ++r) {
+        for (const Index corner : shape.corners_of(r)) cells.corners.push_back(first + corner);
+        cells.end_ring();
+      }
+      cells.end_cell();
+    }
+    const auto apart =
+        regions_of(region_polygons(cells, 0.01, {}, CellDrawing::apart), cells.num_cells());
+    EXPECT_EQ(apart, alone) << seed;
+  }
+}
+
 // Four cells around a corner, which is one point for the two in the west and another one for those in the east.
 TEST(overlay_valid, corners_that_are_one_but_for_rounding) {
   for (const double away : {0.0, 1e-17, 5e-17, 1e-15, 3e-14}) {
