@@ -92,6 +92,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);
   rondel::python::add_remap(module);
+  rondel::python::add_polygons(module);
   rondel::python::add_regions(module);
   rondel::python::add_weight_files(module);
 }

@@ -31,6 +31,7 @@ void add_mesh_make(nanobind::module_& module);
 void add_mesh_parts(nanobind::module_& module);
 void add_out_of_core(nanobind::module_& module);
 void add_distributed(nanobind::module_& module);
+void add_polygons(nanobind::module_& module);
 void add_regions(nanobind::module_& module);
 void add_remap(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);

@@ -25,9 +25,11 @@
 namespace rondel::python {
 namespace {
 
-LonLatRegions polygons_of(const CellRings& rings, double tolerance_deg, unsigned threads) {
+LonLatRegions polygons_of(const CellRings& rings, double tolerance_deg, unsigned threads,
+                          nb::handle drawing) {
+  const auto as_told = named<CellDrawing>("drawing", drawing);
   return watched_quietly(rings.corners.size(), threads, [&](const Execution& execution) {
-    return region_polygons(rings, tolerance_deg, execution);
+    return region_polygons(rings, tolerance_deg, execution, as_told);
   });
 }
 
@@ -104,6 +106,10 @@ void add_regions(nb::module_& module) {
            [](const CellRings& self) {
              return to_array<double>(unlocked([&] { return areas(self); }));
            })
+      .def("lengths",
+           [](const CellRings& self) {
+             return to_array<double>(unlocked([&] { return lengths(self); }));
+           })
       .def(
           "dissolve",
           [](const CellRings& self, const IndicesIn& groups, std::size_t num_groups,
@@ -114,7 +120,8 @@ void add_regions(nb::module_& module) {
           },
           nb::arg("groups").noconvert(), nb::arg("num_groups"), nb::arg("threads"),
           nb::arg("progress").none())
-      .def("polygons", &polygons_of, nb::arg("tolerance_deg"), nb::arg("threads"))
+      .def("polygons", &polygons_of, nb::arg("tolerance_deg"), nb::arg("threads"),
+           nb::arg("drawing") = "together")
       .def(
           "write",
           [](const CellRings& self, const PathOut& path, const std::vector<ColumnIn>& columns,

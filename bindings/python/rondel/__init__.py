@@ -16,6 +16,10 @@ remap
     Conservative weights between two sets of cells.
 lonlat_grid, polygons
     Cells for it: a grid of the whole sphere, and polygons of files and libraries.
+overlay, intersection, union, union_all, difference, symmetric_difference
+    Set operations on polygons, with the names of GeoPandas and shapely.
+area, length
+    Measures of polygons on the sphere.
 interpolate
     Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
@@ -78,6 +82,16 @@ from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
 from ._netcdf import netcdf_library as _netcdf_library
 from ._plot import LonLatTriangles
+from ._polygons import (
+    area,
+    difference,
+    intersection,
+    length,
+    overlay,
+    symmetric_difference,
+    union,
+    union_all,
+)
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
 from ._regions import Regions, feature_cells
@@ -118,18 +132,26 @@ __all__ = [
     "SphericalVoronoi",
     "Weights",
     "Where",
+    "area",
     "convex_hull",
     "delaunay",
     "delaunay_lonlat",
+    "difference",
     "feature_cells",
     "interpolate",
+    "intersection",
+    "length",
     "lonlat",
     "lonlat_grid",
+    "overlay",
     "point_set_hash",
     "polygons",
     "power_diagram",
     "read_weights",
     "remap",
+    "symmetric_difference",
+    "union",
+    "union_all",
     "unit_vectors",
 ]
 

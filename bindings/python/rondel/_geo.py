@@ -263,18 +263,27 @@ def polygon_frame(
     are the offsets of the polygons' rings.
     """
     import geopandas
+
+    row = np.searchsorted(rows, polygons.owners)
+    geometry = polygon_shapes(polygons.positions, polygons.rings, parts, row, len(rows))
+    return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
+
+
+def polygon_shapes(
+    positions: FloatArray, rings: Any, parts: Any, owners: IntArray, number: int
+) -> np.ndarray[Any, Any]:
+    """A polygon or multipolygon of shapely for each owner of polygons, None for those of `number`
+    that have none; `rings` are offsets of positions, `parts` those of the polygons' rings.
+    """
     import shapely
 
-    made = shapely.from_ragged_array(
-        shapely.GeometryType.POLYGON, polygons.positions, (polygons.rings, parts)
-    )
-    row = np.searchsorted(rows, polygons.owners)
-    is_single = np.bincount(row, minlength=len(rows))[row] == 1
-    geometry = np.full(len(rows), None)
-    geometry[row[is_single]] = made[is_single]
-    several, part = np.unique(row[~is_single], return_inverse=True)
-    geometry[several] = shapely.multipolygons(made[~is_single], indices=part)
-    return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
+    made = shapely.from_ragged_array(shapely.GeometryType.POLYGON, positions, (rings, parts))
+    is_single = np.bincount(owners, minlength=number)[owners] == 1
+    shapes = np.full(number, None)
+    shapes[owners[is_single]] = made[is_single]
+    several, part = np.unique(owners[~is_single], return_inverse=True)
+    shapes[several] = shapely.multipolygons(made[~is_single], indices=part)
+    return shapes
 
 
 def _mesh_of(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:

@@ -65,7 +65,7 @@ def features_of(
     return _of_objects(features, edges, lambda file: read(file, *rules))
 
 
-def _is_geodesic(edges: Edges) -> bool:
+def is_geodesic(edges: Edges) -> bool:
     if edges not in ("lonlat", "geodesic"):
         raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
     return edges == "geodesic"
@@ -117,8 +117,8 @@ def _collection(geometries: Any, edges: Edges) -> dict[str, Any]:
     geometries = in_degrees(geometries, edges)
     properties = _properties(geometries)
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
-    if _is_box(geometries):
-        return _box(*map(float, geometries))
+    if is_box(geometries):
+        return box_of(*map(float, geometries))
     known = _without_box(_interface(geometries))
     if properties:
         return {**known, "features": [*map(_with_properties, known["features"], properties)]}
@@ -127,7 +127,7 @@ def _collection(geometries: Any, edges: Edges) -> dict[str, Any]:
     if not isinstance(geometries, Iterable):
         kind = type(geometries).__name__
         raise TypeError(f"polygons must be geometries, a file, or a CellSet, not {kind}")
-    return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
+    return {"type": "FeatureCollection", "features": [feature_of(g) for g in geometries]}
 
 
 def in_degrees(geometries: Any, edges: Edges = "lonlat") -> Any:
@@ -135,14 +135,14 @@ def in_degrees(geometries: Any, edges: Edges = "lonlat") -> Any:
 
     `edges` will join their positions.
     """
-    is_geodesic = _is_geodesic(edges)
+    are_arcs = is_geodesic(edges)
     crs = getattr(geometries, "crs", None)
     if crs is None or crs.equals(4326, ignore_axis_order=True):
         return geometries
     from pyproj.exceptions import ProjError
 
     try:
-        return in_lonlat(geometries, crs, 4326, is_geodesic)
+        return in_lonlat(geometries, crs, 4326, are_arcs)
     except ProjError as error:
         sphere = crs.geodetic_crs  # of the Moon, say, of which there is no way to WGS 84
         if sphere is None or not _has_degrees(sphere):
@@ -151,7 +151,7 @@ def in_degrees(geometries: Any, edges: Edges = "lonlat") -> Any:
             ) from None
         if crs.equals(sphere):
             return geometries
-        return in_lonlat(geometries, crs, sphere, is_geodesic)
+        return in_lonlat(geometries, crs, sphere, are_arcs)
 
 
 def _has_degrees(crs: Any) -> bool:
@@ -193,7 +193,7 @@ def _with_properties(feature: Mapping[str, Any], properties: dict[str, Any]) -> 
     return {**feature, "properties": properties}
 
 
-def _is_box(bounds: Any) -> bool:
+def is_box(bounds: Any) -> bool:
     """Whether it is west, south, east and north, as of shapely's and GeoPandas' bounds."""
     return (
         isinstance(bounds, (tuple, list, np.ndarray))
@@ -202,7 +202,7 @@ def _is_box(bounds: Any) -> bool:
     )
 
 
-def _box(west: float, south: float, east: float, north: float) -> dict[str, Any]:
+def box_of(west: float, south: float, east: float, north: float) -> dict[str, Any]:
     """A box, which crosses the antimeridian if its west is east of its east (RFC 7946, 5.2)."""
     if east < west:
         east += 360
@@ -233,7 +233,7 @@ def _interface(geometry: Any) -> Any:
     return getattr(geometry, "__geo_interface__", None)
 
 
-def _feature(geometry: Any) -> dict[str, Any]:
+def feature_of(geometry: Any) -> dict[str, Any]:
     known = None if geometry is None else _interface(geometry)
     if known is None and geometry is not None:
         raise TypeError(f"{type(geometry).__name__} is no geometry: it has no __geo_interface__")

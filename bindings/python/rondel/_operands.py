@@ -1,0 +1,269 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Arguments of functions on polygons: what is given becomes cells, and cells become its kind."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_threads
+from ._cell_set import CellSet
+from ._errors import warn_caller
+from ._geometries import (
+    Edges,
+    box_of,
+    feature_of,
+    features_of,
+    in_degrees,
+    is_box,
+    is_file,
+    is_geodesic,
+)
+from ._pickled import with_arrays
+from ._regions import Regions
+from ._types import ArrayLike, BoolArray, IntArray
+
+
+@dataclass
+class Operand:
+    """The polygons of one argument: cells, or features that will be read as cells.
+
+    Attributes
+    ----------
+    name : str
+        The name of the argument.
+    shape : tuple of int
+        The shape of the array; () for one geometry.
+    features : sequence of mapping
+        The polygons as GeoJSON, none if cells are given.
+    source : GeoSeries, GeoDataFrame or None
+        What has the polygons, in degrees.
+    encoding : str or None
+        The encoding of the arrays of Arrow that are given.
+    cells : CellRings
+        The polygons as cells.
+    first : int
+        The cell of the first polygon.
+
+    """
+
+    name: str
+    shape: tuple[int, ...]
+    features: Sequence[Mapping[str, Any]] = ()
+    is_of_cells: bool = False
+    source: Any = None
+    encoding: str | None = None
+    cells: _core.CellRings = field(default_factory=_core.CellRings)
+    first: int = 0
+
+    @property
+    def is_single(self) -> bool:
+        """Whether it is one geometry."""
+        return self.shape == ()
+
+    @property
+    def num_polygons(self) -> int:
+        """How many polygons there are."""
+        return int(np.prod(self.shape))
+
+    @property
+    def is_frame(self) -> bool:
+        """Whether polygons have attributes."""
+        return hasattr(self.source, "columns")
+
+    @property
+    def is_missing(self) -> BoolArray:
+        """Which polygons are None."""
+        if self.is_of_cells:
+            return np.zeros(self.num_polygons, bool)
+        return np.array([feature.get("geometry") is None for feature in self.features], bool)
+
+    def rings(self) -> _core.CellRings:
+        """The polygons of this argument alone."""
+        return cells_from(self.cells, self.first, self.num_polygons)
+
+
+def operands(given: Mapping[str, Any], edges: Edges, threads: int | None) -> list[Operand]:
+    """The arguments by their names. Polygons of all of them are read together, so that they have
+    the same corners along sides that they share.
+    """
+    is_geodesic(edges)  # refuses other words, also where no polygons are read
+    made = [_operand(name, polygons, edges) for name, polygons in given.items()]
+    bodies = [operand for operand in made if getattr(operand.source, "crs", None) is not None]
+    for other in bodies[1:]:
+        if other.source.crs != bodies[0].source.crs:
+            raise ValueError(
+                f"{bodies[0].name} and {other.name} are on different bodies, "
+                f"{bodies[0].source.crs.name!r} and {other.source.crs.name!r}"
+            )
+    read = [operand for operand in made if not operand.is_of_cells]
+    cells = _read(read, edges, as_threads(threads))
+    first = 0
+    for operand in read:
+        operand.cells, operand.first = cells, first
+        first += operand.num_polygons
+    return made
+
+
+def _operand(name: str, given: Any, edges: Edges) -> Operand:
+    if isinstance(given, (CellSet, Regions)):
+        rings = given._rings if isinstance(given, Regions) else given._cells.rings()
+        return Operand(name, (rings.num_cells,), is_of_cells=True, cells=rings)
+    if is_file(given):
+        raise TypeError(f"{name} is the name of a file; rondel.CellSet.read() reads its polygons")
+    try:
+        source, encoding = _frame_of(given)
+    except ValueError as error:  # of Arrow
+        raise ValueError(f"{name}: {error}") from None
+    if source is not None:
+        source = in_degrees(source, edges)
+        features = [feature_of(shape) for shape in source.geometry]
+        return Operand(name, (len(features),), features, source=source, encoding=encoding)
+    if is_box(given):
+        given = box_of(*map(float, given))
+    known = given if isinstance(given, Mapping) else getattr(given, "__geo_interface__", None)
+    if known is not None:
+        return _operand_of_mapping(name, known)
+    if given is None:
+        return Operand(name, (), [feature_of(None)])
+    if not isinstance(given, Iterable):
+        raise TypeError(f"{name} must be polygons or a CellSet, not {type(given).__name__}")
+    flat = given.ravel() if isinstance(given, np.ndarray) else list(given)
+    shape = given.shape if isinstance(given, np.ndarray) else (len(flat),)
+    return Operand(name, shape, [feature_of(geometry) for geometry in flat])
+
+
+def _operand_of_mapping(name: str, known: Mapping[str, Any]) -> Operand:
+    if "crs" in known:  # refused if it is not in degrees
+        nothing = {"type": "FeatureCollection", "features": [], "crs": known["crs"]}
+        features_of(
+            nothing, "lonlat", "keep", lambda file, *_: _core.read_polygons(file, "lonlat", 1)
+        )
+    if known.get("type") == "FeatureCollection":
+        features = [feature_of(feature) for feature in known["features"]]
+        return Operand(name, (len(features),), features)
+    return Operand(name, (), [feature_of(known)])
+
+
+def _frame_of(given: Any) -> tuple[Any, str | None]:
+    """A GeoSeries or GeoDataFrame of the same polygons, if it is one or of Arrow; how it is of
+    Arrow.
+    """
+    geopandas: Any = sys.modules.get("geopandas")
+    if geopandas is not None:
+        if isinstance(given, (geopandas.GeoSeries, geopandas.GeoDataFrame)):
+            return given, None
+        if isinstance(given, geopandas.array.GeometryArray):
+            return geopandas.GeoSeries(given), None
+    if hasattr(given, "__geo_interface__"):
+        return None, None
+    if not (hasattr(given, "__arrow_c_array__") or hasattr(given, "__arrow_c_stream__")):
+        return None, None
+    import pyarrow
+
+    geopandas = importlib.import_module("geopandas")
+    if hasattr(given, "__arrow_c_array__"):
+        fields = [pyarrow.Field._import_from_c_capsule(given.__arrow_c_array__()[0])]
+        made = geopandas.GeoSeries.from_arrow(given)
+    else:
+        given = pyarrow.table(given)
+        fields = given.schema
+        made = geopandas.GeoDataFrame.from_arrow(given)
+    is_wkb = any("geoarrow.wkb" in f"{field.metadata} {field.type}" for field in fields)
+    return made, "WKB" if is_wkb else "geoarrow"
+
+
+def _read(read: list[Operand], edges: Edges, threads: int) -> _core.CellRings:
+    features = [feature for operand in read for feature in operand.features]
+    if not features:
+        return _core.CellRings()
+
+    def owner(match: re.Match[str]) -> str:
+        number = int(match[1])
+        for operand in read:
+            if number < operand.num_polygons:
+                return operand.name if operand.is_single else f"{operand.name}: geometry {number}"
+            number -= operand.num_polygons
+        return match[0]
+
+    def named(text: str) -> str:
+        return re.sub(r"^(?:geometries: )?(?:geometry|feature) ([0-9]+)", owner, text)
+
+    try:
+        cells, remarks = features_of(
+            {"type": "FeatureCollection", "features": features},
+            edges,
+            "keep",
+            lambda file, *_: _core.read_polygons(file, edges, threads),
+        )
+    except ValueError as error:
+        raise ValueError(named(str(error))) from None
+    for remark in remarks:
+        warn_caller(named(remark))
+    return cells
+
+
+def cells_from(cells: _core.CellRings, first: int, number: int) -> _core.CellRings:
+    """Some cells in a row."""
+    of_cells = cells.cells[first : first + number + 1]
+    of_rings = cells.rings[of_cells[0] : of_cells[-1] + 1]
+    whole = cells.whole[(cells.whole >= first) & (cells.whole < first + number)]
+    arrays = {
+        "cells": of_cells - of_cells[0],
+        "rings": of_rings - of_rings[0],
+        "corners": cells.corners[of_rings[0] : of_rings[-1]],
+        "points": cells.points,
+        "whole": whole - np.int32(first),
+    }
+    return with_arrays(_core.CellRings(), arrays)
+
+
+def cells_at(cells: _core.CellRings, places: IntArray, number: int) -> _core.CellRings:
+    """So many cells, of which those at `places` are given, and others are empty."""
+    sizes = np.zeros(number, np.int64)
+    sizes[places] = np.diff(cells.cells)
+    arrays = {
+        "cells": np.concatenate([[0], np.cumsum(sizes)]),
+        "rings": cells.rings,
+        "corners": cells.corners,
+        "points": cells.points,
+        "whole": places[cells.whole].astype(np.int32),
+    }
+    return with_arrays(_core.CellRings(), arrays)
+
+
+def cell_set(cells: _core.CellRings, threads: int | None) -> CellSet:
+    return CellSet._of(_core.CellSet.polygons(cells, as_threads(threads)))
+
+
+def like(operand: Operand, shapes: np.ndarray[Any, Any], rows: Any, index: Any) -> Any:
+    """The shapes as the kind of an argument, of which they have these rows; `index` is that of a
+    GeoSeries or GeoDataFrame.
+    """
+    if operand.source is None:
+        return shapes
+    import geopandas
+
+    series = geopandas.GeoSeries(shapes, index=index, crs=operand.source.crs)
+    if operand.is_frame:
+        series = rows_at(operand.source, rows).set_index(index).set_geometry(series.array)
+    return encoded(series, operand.encoding)
+
+
+def encoded(made: Any, encoding: str | None) -> Any:
+    """The same for Arrow, if there is an encoding."""
+    return made if encoding is None else made.to_arrow(geometry_encoding=encoding)
+
+
+def rows_at(frame: Any, rows: ArrayLike) -> Any:
+    """Rows of a table by their numbers, with missing values for -1."""
+    plain = frame.reset_index(drop=True)
+    return plain.reindex(rows) if np.any(np.less(rows, 0)) else plain.take(rows)

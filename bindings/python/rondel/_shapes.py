@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Cells as polygons of shapely, whose positions are joined by lines or by great circles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_threads, unit_vectors
+from ._geo import polygon_shapes
+from ._geometries import Edges, is_geodesic
+from ._pickled import with_arrays
+from ._types import FloatArray
+
+UNSURE_AREA = 1e-10  # steradians, of rounding
+ROUNDING = 8  # of a coordinate that became a unit vector and is computed from it, in ulps
+
+
+def shapes_of(
+    cells: _core.CellRings,
+    edges: Edges,
+    tolerance_deg: float,
+    threads: int | None,
+    drawing: str,
+) -> np.ndarray[Any, Any]:
+    """Polygons and multipolygons of shapely; those of cells without a place are empty."""
+    import shapely
+
+    are_arcs = is_geodesic(edges)
+    # Arcs stay what they are between positions that will be joined by arcs.
+    tolerance = 180.0 if are_arcs else float(tolerance_deg)
+    drawn = cells.polygons(tolerance, as_threads(threads), drawing)
+    positions, rings = drawn.positions, drawn.rings
+    if are_arcs:
+        positions, rings = _with_ends_of_arcs(positions, rings)
+        _require_smaller_sides(positions, rings, drawn, cells.areas())
+    shapes = _shapes_at(_rounded(positions), rings, drawn, cells.num_cells)
+    if not shapely.is_valid(shapes).all():
+        shapes = _shapes_at(positions, rings, drawn, cells.num_cells)
+    return shapes
+
+
+def _shapes_at(positions: Any, rings: Any, drawn: Any, number: int) -> np.ndarray[Any, Any]:
+    import shapely
+
+    shapes = polygon_shapes(positions, rings, drawn.polygons, drawn.owners, number)
+    shapes[np.bincount(drawn.owners, minlength=number) == 0] = shapely.Polygon()
+    return shapes
+
+
+def _rounded(positions: FloatArray) -> FloatArray:
+    """Positions with the decimals that were meant: what is but for rounding of unit vectors a
+    number with 13 decimals is that number.
+    """
+    short = np.rint(positions * 1e13) / 1e13  # exact below 2^53
+    is_meant = np.abs(short - positions) <= ROUNDING * np.spacing(np.abs(positions))
+    return np.where(is_meant, short, positions)
+
+
+def _with_ends_of_arcs(positions: Any, rings: Any) -> tuple[Any, Any]:
+    """Rings with a position at the equator, where they run along the antimeridian from pole to
+    pole, or nearly so.
+    """
+    step = np.abs(np.diff(positions[:, 1], append=0))
+    step[rings[1:] - 1] = 0
+    after = np.flatnonzero(step > 90)
+    after = after[np.abs(positions[after, 0]) == 180]
+    after = after[positions[after, 0] == positions[after + 1, 0]]
+    added = np.column_stack([positions[after, 0], np.zeros(len(after))])
+    more = np.searchsorted(after, rings, side="left")
+    return np.insert(positions, after + 1, added, axis=0), rings + more
+
+
+def _require_smaller_sides(positions: Any, rings: Any, drawn: Any, areas: FloatArray) -> None:
+    """Refuses polygons that are others if each ring is around the smaller side of the sphere, as it
+    is between geodesic edges.
+    """
+    is_last = np.zeros(len(positions), bool)  # which is the first position again
+    is_last[rings[1:] - 1] = True
+    points = unit_vectors(positions[~is_last, 0], positions[~is_last, 1])
+    arrays = {
+        "cells": np.arange(len(rings)),
+        "rings": rings - np.arange(len(rings)),
+        "corners": np.arange(len(points), dtype=np.int32),
+        "points": points,
+    }
+    sizes = with_arrays(_core.CellRings(), arrays).areas()
+    sizes = np.minimum(sizes, 4 * np.pi - sizes)
+    is_shell = np.zeros(len(sizes), bool)
+    is_shell[drawn.polygons[:-1]] = True
+    owners = drawn.owners[np.cumsum(is_shell) - 1]
+    read = np.bincount(owners, np.where(is_shell, sizes, -sizes), minlength=len(areas))
+    is_other = np.abs(read - areas) > UNSURE_AREA
+    if is_other.any():
+        raise ValueError(
+            f"geometry {np.argmax(is_other)} of the result goes around more than a hemisphere, or "
+            "has both poles inside, which geodesic edges cannot say; take edges='lonlat', or cells"
+        )
