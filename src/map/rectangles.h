@@ -38,14 +38,33 @@ struct Rectangle {
   }
 };
 
+// Two lines, the earlier one first.
+struct LinePair {
+  std::size_t first;
+  std::size_t second;
+};
+
+// Returns an order of lines in which lines that are near each other follow each other: along a
+// curve through the plane. It is empty if the lines come in few runs of lines that begin where the
+// line before them ends, which are in such an order already.
+std::vector<std::size_t> order_along_curve(const std::vector<Line>& lines);
+
+// Sorts pairs as a tree of the lines in their given order finds them: those of the first half, those
+// of the second half, and those of both.
+void sort_as_in_tree(std::vector<LinePair>& pairs);
+
 // A tree of rectangles: level 0 has the rectangles around the lines, level 1 those around the lines
 // 2i and 2i + 1, and so on up to one around all. Lines that follow each other are near each other,
-// so the rectangles are small. A sweep would compare all lines along a meridian with each other.
+// so the rectangles are small; where they are not, the tree has them in another order. A sweep would
+// compare all lines along a meridian with each other.
 class Rectangles {
  public:
-  explicit Rectangles(const std::vector<Line>& lines) : lines_(lines) {
+  explicit Rectangles(const std::vector<Line>& lines)
+      : lines_(lines), order_(order_along_curve(lines)) {
     all_.reserve(2 * lines.size() + std::numeric_limits<std::size_t>::digits);
-    for (const Line& line : lines) all_.push_back(Rectangle::around(line));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      all_.push_back(Rectangle::around(lines[line_at(i)]));
+    }
     for (std::size_t first = 0; all_.size() - first > 1;) {
       const std::size_t past = all_.size();
       firsts_.push_back(past);
@@ -57,19 +76,42 @@ class Rectangles {
     firsts_.push_back(all_.size());
   }
 
-  // Calls `report` with each line whose rectangle overlaps the given one.
+  // Calls `report` with each line whose rectangle overlaps the given one, in their order.
   template <typename Report>
   void find_overlapping(const Rectangle& rectangle, const Report& report) const {
-    if (!lines_.empty()) around(firsts_.size() - 2, 0, rectangle, report);
+    if (lines_.empty()) return;
+    if (order_.empty()) {
+      around(firsts_.size() - 2, 0, rectangle, [&](std::size_t i) { report(lines_[i]); });
+      return;
+    }
+    std::vector<std::size_t> found;
+    around(firsts_.size() - 2, 0, rectangle, [&](std::size_t i) { found.push_back(order_[i]); });
+    std::ranges::sort(found);
+    for (const std::size_t i : found) report(lines_[i]);
   }
 
-  // Calls `report` with each pair of lines whose rectangles overlap.
+  // Calls `report` with each pair of lines whose rectangles overlap, as in sort_as_in_tree().
   template <typename Report>
   void find_overlapping(const Report& report) const {
-    if (lines_.size() > 1) within(firsts_.size() - 2, 0, report);
+    if (lines_.size() < 2) return;
+    if (order_.empty()) {
+      within(firsts_.size() - 2, 0,
+             [&](std::size_t i, std::size_t j) { report(lines_[i], lines_[j]); });
+      return;
+    }
+    std::vector<LinePair> pairs;
+    within(firsts_.size() - 2, 0, [&](std::size_t i, std::size_t j) {
+      const auto [first, second] = std::minmax(order_[i], order_[j]);
+      pairs.push_back({first, second});
+    });
+    sort_as_in_tree(pairs);
+    for (const auto& [first, second] : pairs) report(lines_[first], lines_[second]);
   }
 
  private:
+  // Returns the line of a rectangle of level 0.
+  [[nodiscard]] std::size_t line_at(std::size_t i) const { return order_.empty() ? i : order_[i]; }
+
   static Rectangle joined(const Rectangle& a, const Rectangle& b) {
     return {std::min(a.west, b.west), std::max(a.east, b.east), std::min(a.south, b.south),
             std::max(a.north, b.north)};
@@ -88,7 +130,7 @@ class Rectangles {
               const Report& report) const {
     if (!at(level, i).overlaps(rectangle)) return;
     if (level == 0) {
-      report(lines_[i]);
+      report(i);
       return;
     }
     for (std::size_t k = 2 * i; k < std::min(2 * i + 2, size(level - 1)); ++k)
@@ -111,7 +153,7 @@ class Rectangles {
   void between(std::size_t level, std::size_t i, std::size_t j, const Report& report) const {
     if (!at(level, i).overlaps(at(level, j))) return;
     if (level == 0) {
-      report(lines_[i], lines_[j]);
+      report(i, j);
       return;
     }
     const std::size_t past = size(level - 1);
@@ -123,6 +165,7 @@ class Rectangles {
   }
 
   const std::vector<Line>& lines_;
+  std::vector<std::size_t> order_;      // the line of each rectangle of level 0; empty: as they are
   std::vector<Rectangle> all_;          // of all levels, from the lowest on
   std::vector<std::size_t> firsts_{0};  // where each level begins, and the end of the last
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "arrangement/box_tree.h"
 #include "arrangement/ring_arrays.h"
 #include "exact/vector.h"
+#include "order/along_the_curve.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"
 #include "system/job.h"
@@ -64,6 +66,15 @@ std::vector<CellSide> sides_of_cells(const CellRings& cells) {
   return sides;
 }
 
+// Returns the sides along the spatial order: cells that are near each other may come in any order.
+std::vector<Index> order_of(const std::vector<CellSide>& sides, unsigned threads) {
+  std::vector<Index> indices(sides.size());
+  std::iota(indices.begin(), indices.end(), Index{0});
+  return order::along_the_curve(std::move(indices), Model::projected, {}, threads,
+                                [&](Index i) { return sides[i].a; })
+      .indices;
+}
+
 // Orders crossings by the pair of cells, and then by place.
 auto key_of(const CrossingCells& pair) {
   return std::tuple(pair.first, pair.second, pair.place.x, pair.place.y, pair.place.z);
@@ -74,16 +85,18 @@ auto key_of(const CrossingCells& pair) {
 std::vector<CrossingCells> crossing_cells(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   const std::vector<CellSide> sides = sides_of_cells(cells);
+  const std::vector<Index> order = order_of(sides, execution.threads);
   std::vector<arrangement::SpaceBox> boxes;
   boxes.reserve(sides.size());
-  for (const CellSide& side : sides) boxes.push_back(arrangement::box_of(side.a, side.b));
+  for (const Index i : order) boxes.push_back(arrangement::box_of(sides[i].a, sides[i].b));
   const arrangement::BoxTree tree(std::move(boxes), execution.threads);
   std::vector<std::vector<CrossingCells>> pieces(
       system::num_pieces(tree.num_blocks(), blocks_per_piece));
   system::parallel_for(execution.threads, tree.num_blocks(), blocks_per_piece,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t block = begin; block < end; ++block) {
-                           tree.visit_pairs(block, [&](Index i, Index k) {
+                           tree.visit_pairs(block, [&](Index in_tree, Index other_in_tree) {
+                             const auto [i, k] = std::minmax(order[in_tree], order[other_in_tree]);
                              if (const auto place = crossing_of(sides[i], sides[k])) {
                                const auto [first, second] =
                                    std::minmax(sides[i].cell, sides[k].cell);

@@ -157,6 +157,66 @@ bool have_overlap(const map::Line& a, const map::Line& b) {
          meets(a.from.lat_deg, a.to.lat_deg, b.from.lat_deg, b.to.lat_deg);
 }
 
+// The pairs of overlapping lines i in [begin, begin + size) and j in [other, other + size), quarter
+// by quarter.
+void append_between(const std::vector<map::Line>& lines, std::size_t begin, std::size_t other,
+                    std::size_t size, std::vector<NamePair>& pairs) {
+  if (other >= lines.size()) return;
+  if (size == 1) {
+    if (have_overlap(lines[begin], lines[other])) pairs.push_back({begin, other});
+    return;
+  }
+  const std::size_t half = size / 2;
+  for (const std::size_t i : {begin, begin + half}) {
+    for (const std::size_t j : {other, other + half}) append_between(lines, i, j, half, pairs);
+  }
+}
+
+// Those of [begin, begin + size): of each half, then of both.
+void append_within(const std::vector<map::Line>& lines, std::size_t begin, std::size_t size,
+                   std::vector<NamePair>& pairs) {
+  if (size == 1) return;
+  const std::size_t half = size / 2;
+  append_within(lines, begin, half, pairs);
+  append_within(lines, begin + half, half, pairs);
+  append_between(lines, begin, begin + half, half, pairs);
+}
+
+// Few lines, many in a run, and many anywhere, which the tree has in an order of its own.
+TEST(rectangles, are_found_in_an_order_that_the_lines_alone_decide) {
+  Random random(72);
+  for (const std::size_t n : {30U, 63U, 64U, 65U, 127U, 256U, 300U}) {
+    for (const bool is_run : {false, true}) {
+      std::vector<map::Line> lines;
+      const auto coordinate = [&] { return static_cast<double>(random.below(1000)); };
+      LonLat from{coordinate(), coordinate()};
+      for (std::size_t i = 0; i < n; ++i) {
+        const LonLat to{from.lon_deg + static_cast<double>(random.below(100)),
+                        from.lat_deg + static_cast<double>(random.below(100))};
+        lines.push_back({from, to, i});
+        from = is_run ? to : LonLat{coordinate(), coordinate()};
+      }
+      EXPECT_EQ(map::order_along_curve(lines).empty(), is_run || n < 64);
+      std::vector<NamePair> found;
+      const map::Rectangles tree(lines);
+      tree.find_overlapping([&](const map::Line& a, const map::Line& b) {
+        found.push_back({a.name, b.name});
+      });
+      std::vector<NamePair> expected;
+      append_within(lines, 0, 512, expected);
+      EXPECT_EQ(found, expected) << n;
+      std::vector<std::size_t> inside;
+      tree.find_overlapping({200, 500, 300, 700},
+                            [&](const map::Line& line) { inside.push_back(line.name); });
+      std::vector<std::size_t> expected_inside;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (have_overlap(lines[i], {{200, 300}, {500, 700}, 0})) expected_inside.push_back(i);
+      }
+      EXPECT_EQ(inside, expected_inside) << n;
+    }
+  }
+}
+
 // Each pair once, the earlier line first; whole numbers make rectangles touch.
 TEST(rectangles, find_what_all_pairs_say) {
   Random random(71);
