@@ -147,7 +147,7 @@ def _operand_of_mapping(name: str, known: Mapping[str, Any]) -> Operand:
         features_of(
             nothing, "lonlat", "keep", lambda file, *_: _core.read_polygons(file, "lonlat", 1)
         )
-    if known.get("type") == "FeatureCollection":
+    if known.get("type") == "FeatureCollection" and "features" in known:
         features = [feature_of(feature) for feature in known["features"]]
         return Operand(name, (len(features),), features)
     return Operand(name, (), [feature_of(known)])

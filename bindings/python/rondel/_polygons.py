@@ -381,10 +381,10 @@ def overlay(
     -------
     pieces : ndarray of shapely geometries, GeoSeries, GeoDataFrame, GeoArrow or CellSet
         The kind of `a`, an array for one geometry, sorted by the polygon of `a` and then by that of
-        `b`; none comes last. Pieces that are no wider than rounding are left out. A GeoDataFrame
-        has the columns of `a` and, but for 'difference', those of `b`, if it is one, too: names
-        that both have end in ``_1`` and ``_2``, and values are missing where a piece has no
-        polygon.
+        `b`; none comes last. Pieces that are no wider than rounding are left out, unless they are
+        cells. A GeoDataFrame has the columns of `a` and, but for 'difference', those of `b`, if it
+        is one, too: names that both have end in ``_1`` and ``_2``, and values are missing where a
+        piece has no polygon.
     first, second : ndarray of int32
         With `return_indices`: the polygons of each piece, as positions in `a` and `b`; -1 for none.
 
@@ -422,9 +422,11 @@ def overlay(
     if first.is_of_cells:
         pieces = cell_set(cells, threads)
     else:
+        import shapely
+
         drawing = "apart" if do_overlap else "together"
         shapes = shapes_of(cells, edges, tolerance_deg, threads, drawing)
-        is_there = np.array([not shape.is_empty for shape in shapes], bool)
+        is_there = ~shapely.is_empty(shapes)
         shapes, rows, others = shapes[is_there], rows[is_there], others[is_there]
         pieces = _with_attributes(first, second, how, shapes, rows, others)
     return (pieces, rows, others) if return_indices else pieces

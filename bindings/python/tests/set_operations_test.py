@@ -314,6 +314,7 @@ ERRORS = [
     (lambda: rondel.union(A, [A, NAN]), ValueError, "^b: geometry 1 has a position that is not f"),
     (lambda: rondel.area(shapely.box(0, 0, 1, 91)), ValueError, r"latitude 91 is outside \[-90"),
     (lambda: rondel.union([A, A, A], [A, A]), ValueError, r"shapes of a and b do not fit: \(3,\)"),
+    (lambda: rondel.area({"type": "FeatureCollection"}), ValueError, '^geometries: type "FeatureC'),
     (lambda: rondel.union(A, "b.geojson"), TypeError, "^b is the name of a file; rondel.CellSet"),
     (lambda: rondel.union(3, A), TypeError, "^a must be polygons or a CellSet, not int"),
     (lambda: rondel.union(A, [1]), TypeError, "int is no geometry"),
