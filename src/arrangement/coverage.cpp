@@ -178,9 +178,9 @@ void Coverage::traverse_component(Index start, const Visit& visit) {
 // Finds which polygons have the face where a traversal begins. Where no place is known, the interior
 // of a polygon is to the left of its sides.
 void Coverage::find_insides(std::span<const std::optional<KnownPlace>> known) {
-  std::vector<Index> undecided = decide_by_sides();
-  std::erase_if(undecided, [&](Index p) { return p < known.size() && known[p]; });
-  std::vector<KnownSector> sectors = outsides_of(undecided);
+  contradictory_ = decide_by_sides();
+  std::erase_if(contradictory_, [&](Index p) { return p < known.size() && known[p]; });
+  std::vector<KnownSector> sectors = outsides_of(contradictory_);
   std::vector<Index> all(known.size());
   std::iota(all.begin(), all.end(), Index{0});
   const std::vector<std::vector<Index>> edges = edges_of(all);

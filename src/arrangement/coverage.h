@@ -53,6 +53,10 @@ class Coverage {
            const std::vector<std::uint8_t>& operands, Owners whole,
            std::span<const std::optional<KnownPlace>> known, unsigned threads);
 
+  // Returns the polygons whose rings contradict each other on what is inside. What was decided for
+  // them depends on how other polygons divide their sides.
+  [[nodiscard]] const std::vector<Index>& contradictory() const { return contradictory_; }
+
   // Calls visit(h, owners) for each halfedge with the polygons that have its face.
   void visit(const std::function<void(Index, const Owners&)>& visit);
 
@@ -97,6 +101,7 @@ class Coverage {
   std::vector<ComponentLink> links_;
   std::vector<std::uint8_t> is_visited_;  // each halfedge, in a traversal
   std::vector<Index> places_;  // of each polygon among the owners; no_index if it is none of them
+  std::vector<Index> contradictory_;
   std::vector<std::uint8_t> is_inside_first_;  // each polygon: the same where a traversal begins
   Owners owners_;                              // of the current face
 };

@@ -43,6 +43,7 @@ struct Sides {
   std::vector<std::uint8_t> operands;  // of each polygon
   Owners whole;
   std::vector<std::optional<KnownPlace>> known = {};  // of each polygon, or none
+  bool are_mended = false;  // the rings of a polygon do not contradict each other
 
   // Appends the cells of an operand, with all of its points.
   void append(const CellRings& cells, std::uint8_t operand) {
@@ -57,6 +58,17 @@ struct Sides {
       return static_cast<Index>(points.size() - 1);
     };
     append_cells(cells, cell, cell + 1, operand, number);
+  }
+  // Appends the sides of a polygon that is there already.
+  void append_rings(const std::vector<std::vector<Point>>& rings, Index polygon) {
+    for (const std::vector<Point>& ring : rings) {
+      const auto first = static_cast<Index>(points.size());
+      points.insert(points.end(), ring.begin(), ring.end());
+      for (Index k = 0; k < ring.size(); ++k) {
+        arcs.push_back({first + k, k + 1 < ring.size() ? first + k + 1 : first});
+        polygons.push_back(polygon);
+      }
+    }
   }
   // Returns the polygons that have the whole sphere if there is no edge.
   [[nodiscard]] Owners owners_without_edges() const {
@@ -250,6 +262,40 @@ struct Region {
   bool is_whole = false;
 };
 
+Region joined_region(const Sides& sides, SetOperation operation, const Execution& execution);
+
+// Returns the sides with some polygons replaced by what they are alone, so that it does not depend on
+// the others.
+Sides mended(const Sides& sides, const std::vector<Index>& polygons, const Execution& execution) {
+  std::vector<Index> places(sides.operands.size(), no_index);  // among those that are replaced
+  for (Index k = 0; k < polygons.size(); ++k) places[polygons[k]] = k;
+  std::vector<Sides> alone(polygons.size());
+  Sides result = sides;
+  result.are_mended = true;
+  result.arcs.clear();
+  result.polygons.clear();
+  for (std::size_t arc = 0; arc < sides.arcs.size(); ++arc) {
+    const Index polygon = sides.polygons[arc];
+    const bool is_replaced = places[polygon] != no_index;
+    Sides& target = is_replaced ? alone[places[polygon]] : result;
+    if (is_replaced) {
+      for (const Index end : sides.arcs[arc]) target.points.push_back(sides.points[end]);
+      const auto size = static_cast<Index>(target.points.size());
+      target.arcs.push_back({size - 2, size - 1});
+    } else {
+      target.arcs.push_back(sides.arcs[arc]);
+    }
+    target.polygons.push_back(is_replaced ? 0 : polygon);
+  }
+  for (std::size_t k = 0; k < polygons.size(); ++k) {
+    alone[k].operands = {0};
+    const Region region = joined_region(alone[k], SetOperation::unite, execution);
+    if (region.is_whole) result.whole[sides.operands[polygons[k]]].push_back(polygons[k]);
+    result.append_rings(region.rings, polygons[k]);
+  }
+  return result;
+}
+
 // Returns the regions that are not empty, sorted by their keys.
 std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule,
                                const Execution& execution) {
@@ -262,20 +308,21 @@ std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule,
     rule.append_keys(sides.owners_without_edges(), keys_of_first_face);
   } else {
     const CompressedRows<EdgeOfPolygon> polygons = polygons_of_edges(arranged, sides.polygons);
+    Coverage coverage(halfedges, polygons, sides.operands, sides.whole, sides.known, threads);
+    if (!sides.are_mended && sides.operands.size() > 1 && !coverage.contradictory().empty()) {
+      return regions_of(mended(sides, coverage.contradictory(), execution), rule, execution);
+    }
     bool is_first = true;
     std::vector<RegionKey> keys;
-    Coverage(halfedges, polygons, sides.operands, sides.whole, sides.known, threads)
-        .visit([&](Index h, const Owners& owners) {
-          keys.clear();
-          rule.append_keys(owners, keys);
-          if (is_first) keys_of_first_face = keys;
-          is_first = false;
-          for (const RegionKey& key : keys) {
-            if (rule.ends_at(key, owners, polygons[h / 2], sides.operands)) {
-              border.push_back({key, h});
-            }
-          }
-        });
+    coverage.visit([&](Index h, const Owners& owners) {
+      keys.clear();
+      rule.append_keys(owners, keys);
+      if (is_first) keys_of_first_face = keys;
+      is_first = false;
+      for (const RegionKey& key : keys) {
+        if (rule.ends_at(key, owners, polygons[h / 2], sides.operands)) border.push_back({key, h});
+      }
+    });
     std::ranges::sort(border);
   }
   std::vector<Region> regions;

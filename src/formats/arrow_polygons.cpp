@@ -22,7 +22,7 @@
 namespace rondel {
 namespace {
 
-constexpr std::int64_t longest = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t max_positions = std::numeric_limits<std::int32_t>::max();
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("the array of Arrow " + what);
@@ -212,7 +212,7 @@ std::vector<std::int32_t> short_offsets(const std::vector<std::uint64_t>& offset
   if (!system::are_offsets(offsets, num_elements)) {
     throw InvalidInput("the offsets of the polygons do not fit");
   }
-  if (num_elements > static_cast<std::size_t>(longest)) {
+  if (num_elements > static_cast<std::size_t>(max_positions)) {
     throw InvalidInput("an array of Arrow has at most 2147483647 positions");
   }
   return {offsets.begin(), offsets.end()};

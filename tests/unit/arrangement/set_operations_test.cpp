@@ -160,6 +160,12 @@ class Polygons {
     };
     return {corner(0, 0), corner(width, 0), corner(width, height), corner(0, height)};
   }
+  // A ring whose sides cross.
+  CellRings crossed() {
+    Ring ring = star();
+    std::shuffle(ring.begin(), ring.end(), random_);
+    return test::of_set_operations::cells_of({ring});
+  }
   CellRings some(bool are_boxes) {
     std::vector<Ring> rings(1 + random_() % 4);
     for (Ring& ring : rings) ring = are_boxes ? box() : star();
@@ -223,6 +229,20 @@ TEST(combine, can_be_chained) {
       is_in = result_of(operation, is_in, any_has(other, p, make.outside()));
       ASSERT_NO_FATAL_FAILURE(expect_valid(region));
       ASSERT_EQ(has(region, 0, p, make.outside()), is_in);
+    }
+  }
+}
+
+// What a polygon means whose rings contradict each other does not depend on others.
+TEST(combine, takes_polygons_as_they_are_alone) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Polygons polygons(seed);
+    const CellRings first = polygons.crossed();
+    const CellRings second = polygons.crossed();
+    for (const SetOperation operation : operations) {
+      ASSERT_TRUE(is_equal(combine(first, second, operation, {1}),
+                           combine(repaired(first, {1}), repaired(second, {1}), operation, {1})))
+          << seed;
     }
   }
 }
