@@ -13,10 +13,10 @@
 #include <cstddef>
 #include <iterator>
 
+#include "arrangement/sided_arc.h"
 #include "exact/ball.h"
 #include "exact/eft.h"
 #include "exact/exact_sign.h"
-#include "predicates/bounds.h"
 #include "rondel/arrangement.h"
 #include "rondel/predicates.h"
 
@@ -28,37 +28,6 @@ using exact::to_vector;
 // How far beyond an arc its box reaches: more than the radius, and the lengths of two points on one
 // ray may differ by 2e-14.
 constexpr double margin = 0x1p-43;
-
-// A bound for dot(normal, p - a) of points p within the radius of the great circle of ab, and for
-// the error of that, relative to the length of the step from a to b. The normal a x (b - a) is off
-// by u (1 + 2 sqrt(2)) |b - a|, and the product by 3 u more, each times |p - a| <= 2: 13.7 u and terms
-// of higher order. It is multiplied by the sum of the sizes of coordinates, which is not below the
-// length.
-constexpr double side_bound = 18 * predicates::unit_roundoff + 2 * arrangement_radius;
-
-// An arc, and on which side of it points are.
-class SidedArc {
- public:
-  SidedArc(const Point& a, const Point& b) : a_(to_vector(a)) {
-    const Vec step = to_vector(b) - a_;
-    normal_ = cross(a_, step);
-    // Steps whose products may underflow are never sure.
-    constexpr double min_step = 0x1p-400;
-    const double size = std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
-    limit_ = size > min_step ? side_bound * size : 1;
-  }
-  // Returns the side of a point, positive to the left; zero if the point may be within the radius
-  // of the great circle.
-  [[nodiscard]] int side(const Point& p) const {
-    const double value = dot(normal_, to_vector(p) - a_);
-    return static_cast<int>(value > limit_) - static_cast<int>(value < -limit_);
-  }
-
- private:
-  Vec a_;
-  Vec normal_{};
-  double limit_ = 0;
-};
 
 // Collects the contacts of pairs of arcs whose boxes overlap.
 class ContactFinder {
@@ -168,7 +137,7 @@ SpaceBox box_of(const Point& a, const Point& b) {
   const Vec chord = to_vector(b) - to_vector(a);
   // The direction to the middle of a longer arc is not known well enough.
   constexpr double max_squared_chord = 3.5;
-  if (dot(chord, chord) > max_squared_chord) return {{-2, -2, -2}, {2, 2, 2}};
+  if (dot(chord, chord) > max_squared_chord) return whole_box;
   const double sagitta = 1 - std::sqrt(std::max(0.0, 1 - dot(chord, chord) / 4));
   const Vec bulge = sagitta * normalized(to_vector(a) + to_vector(b));
   const auto range = [](double from, double to, double beyond) {

@@ -5,7 +5,6 @@
 // each given arc through these steps.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "arrangement/arc_checks.h"
 #include "arrangement/snapping.h"
-#include "exact/vector.h"
 #include "rondel/arrangement.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -26,34 +25,15 @@ using arrangement::NodedArc;
 
 using Ends = std::array<Index, 2>;
 
-// Where coordinates are smaller, products of differences lose bits to underflow.
-constexpr double least_coordinate = 0x1p-150;
-
-// True if rounding may decide the direction of the arc between two points.
-bool are_opposite(const Point& p, const Point& q) {
-  constexpr double least_distance = 0x1p-45;
-  return norm(p + q) < least_distance;
-}
-
 // Throws InvalidInput with the first point or arc that is not as arrange() wants it.
 void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
-  constexpr double max_deviation = 1e-14;
-  const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    if (!(std::abs(norm(p) - 1) <= max_deviation)) throw InvalidInput("no unit vector", i);
-    if (is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z)) {
-      throw InvalidInput("a coordinate is below 2^-150 and not 0", i);
-    }
-  }
+  arrangement::validate_points(points);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const auto [a, b] = arcs[i];
     if (a >= points.size() || b >= points.size()) {
       throw InvalidInput("an end of an arc does not exist", i);
     }
-    if (are_opposite(points[a], points[b])) {
-      throw InvalidInput("the ends of an arc are opposite to each other up to rounding", i);
-    }
+    arrangement::validate_ends(points[a], points[b], i);
   }
 }
 

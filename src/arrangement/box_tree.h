@@ -34,7 +34,20 @@ struct SpaceBox {
       high[i] = std::max(high[i], other.high[i]);
     }
   }
+  // Returns the squared distance of a place from the box.
+  [[nodiscard]] double squared_distance(const std::array<double, 3>& place) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double beyond = std::max({low[i] - place[i], place[i] - high[i], 0.0});
+      sum += beyond * beyond;
+    }
+    return sum;
+  }
 };
+
+// A box that overlaps none, and one that contains the sphere.
+inline constexpr SpaceBox empty_box = {{4, 4, 4}, {-4, -4, -4}};
+inline constexpr SpaceBox whole_box = {{-2, -2, -2}, {2, 2, 2}};
 
 class BoxTree {
  public:
@@ -63,6 +76,23 @@ class BoxTree {
     return levels_.size() > 1 ? levels_[1].size() : 0;
   }
   [[nodiscard]] const SpaceBox& box(Index i) const { return levels_[0][i]; }
+  // Returns a box near to a place, which need not be the nearest one. There must be a box.
+  [[nodiscard]] Index near(const std::array<double, 3>& place) const {
+    std::size_t node = 0;
+    for (std::size_t level = levels_.size() - 1; level-- > 0;) {
+      const std::vector<SpaceBox>& boxes = levels_[level];
+      std::size_t nearest = node * fan_out;
+      double least = boxes[nearest].squared_distance(place);
+      for (std::size_t i = 1; i < size_of(boxes, node); ++i) {
+        const double distance = boxes[node * fan_out + i].squared_distance(place);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = node * fan_out + i;
+      }
+      node = nearest;
+    }
+    return static_cast<Index>(node);
+  }
 
   // Calls visit(i, j) for each pair i < j of boxes that overlap, of which i is in the block.
   template <class Visit>

@@ -35,19 +35,14 @@ class Halfedges {
   // Returns the next halfedge around the face.
   [[nodiscard]] Index next(Index h) const { return next_[h]; }
 
-  // A path leads along an arc, infinitesimally to its right, so that it meets no nodes between its
-  // ends. These are its sectors at an end, of which `target` is the other one. Both ends must have
-  // edges, and must not be opposite to each other.
+  // The sectors of a path (directions.h) at an end, of which `target` is the other one. Both ends
+  // must have edges, and must not be opposite to each other.
   [[nodiscard]] Index sector_towards(Index node, const Point& target) const;
   [[nodiscard]] Index sector_from(Index node, const Point& target) const;
   // True if the path along the arc from p to q crosses an edge of which neither is an end.
   [[nodiscard]] bool is_crossed(Index edge, const Point& p, const Point& q) const;
 
  private:
-  // Compares two directions by the angle from the first halfedge around a node. Returns -1 if p is
-  // before q, 0 if both are on one great circle half.
-  [[nodiscard]] int compare(Index node, const Point& reference, const Point& p,
-                            const Point& q) const;
   void sort_around(Index node);
 
   const Arrangement& arrangement_;

@@ -5,6 +5,8 @@ rondel_add_test(arrangement_test
   arrangement/arrange_test.cpp
   arrangement/exact_places_test.cpp
   arrangement/halfedges_test.cpp
+  arrangement/relate_test.cpp
+  arrangement/relation_oracle.cpp
   arrangement/set_operations_test.cpp
   arrangement/steps_test.cpp
   LIBS rondel_geo rondel_test_support)

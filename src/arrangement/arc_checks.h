@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The checks of points and arcs that come from outside.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "exact/vector.h"
+#include "rondel/error.h"
+#include "rondel/types.h"
+
+namespace rondel::arrangement {
+
+// Throws InvalidInput with the first point that is not as arrange() wants it.
+inline void validate_points(std::span<const Point> points) {
+  constexpr double max_deviation = 1e-14;
+  // Where coordinates are smaller, products of differences lose bits to underflow.
+  constexpr double least_coordinate = 0x1p-150;
+  const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& p = points[i];
+    if (!(std::abs(norm(p) - 1) <= max_deviation)) throw InvalidInput("no unit vector", i);
+    if (is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z)) {
+      throw InvalidInput("a coordinate is below 2^-150 and not 0", i);
+    }
+  }
+}
+
+// Throws InvalidInput with the position of an arc if rounding may decide its direction.
+inline void validate_ends(const Point& p, const Point& q, std::size_t position) {
+  constexpr double least_distance = 0x1p-45;
+  if (norm(p + q) < least_distance) {
+    throw InvalidInput("the ends of an arc are opposite to each other up to rounding", position);
+  }
+}
+
+}  // namespace rondel::arrangement
