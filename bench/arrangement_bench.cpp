@@ -3,7 +3,8 @@
 
 // arrangement_bench N [THREADS] [--seed S]: measures the arrangement of N arcs of random places and
 // directions, which cross each other about N times, in nanoseconds a crossing; and the union of
-// triangles between three such places each. Prints one JSON object.
+// triangles between three such places each, and their relations to each other, in nanoseconds a pair
+// of triangles that intersect. Prints one JSON object.
 
 #include <array>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "inputs.h"
 #include "measure.h"
 #include "rondel/arrangement.h"
+#include "rondel/relate.h"
 #include "rondel/rondel.h"
 #include "rondel/set_operations.h"
 
@@ -82,12 +84,20 @@ int main(int argc, char** argv) {
   const auto united = rondel::bench::measure(
       [&] { return make_triangles(n, seed++); },
       [&](const rondel::CellRings& triangles) { return rondel::unite(triangles, execution); });
+  const auto joined = rondel::bench::measure([&] { return make_triangles(n, seed++); },
+                                             [&](const rondel::CellRings& triangles) {
+                                               return rondel::related_pairs(
+                                                   triangles, triangles,
+                                                   rondel::SpatialPredicate::intersects, execution);
+                                             });
+  const auto pairs = static_cast<double>(joined.result->size());
   const auto crossings = static_cast<double>(arranged.result->nodes.size() - 2 * n);
-  rondel::bench::print_json(
-      {{"arcs", static_cast<double>(n)},
-       {"threads", static_cast<double>(threads)},
-       {"crossings", crossings},
-       {"ns_a_crossing", arranged.seconds / crossings * 1e9},
-       {"union_ns_a_triangle", united.seconds / static_cast<double>(n) * 1e9},
-       {"union_corners", static_cast<double>(united.result->corners.size())}});
+  rondel::bench::print_json({{"arcs", static_cast<double>(n)},
+                             {"threads", static_cast<double>(threads)},
+                             {"crossings", crossings},
+                             {"ns_a_crossing", arranged.seconds / crossings * 1e9},
+                             {"union_ns_a_triangle", united.seconds / static_cast<double>(n) * 1e9},
+                             {"union_corners", static_cast<double>(united.result->corners.size())},
+                             {"related_pairs", pairs},
+                             {"relate_ns_a_pair", joined.seconds / pairs * 1e9}});
 }

@@ -90,29 +90,32 @@ class PairRelater {
     return polygons_[i.polygon]->sides()[i.side];
   }
 
-  // Asks the polygon with more sides for the sides near to each side of the other one.
+  // Asks the polygon with more sides for the sides near to those of the other one.
   void find_meetings() {
     const Index few = polygons_[0]->sides().size() <= polygons_[1]->sides().size() ? 0 : 1;
     const PreparedPolygon& one = *polygons_[few];
     const PreparedPolygon& other = *polygons_[1 - few];
-    for (Index s = 0; s < one.sides().size(); ++s) {
-      const PolygonSide& side = one.sides()[s];
-      other.boxes().visit(one.boxes().box(s), [&](Index t) {
-        const PolygonSide& met = other.sides()[t];
-        const arrangement::SideMeeting meeting =
-            arrangement::meeting_of(points_, side.from, side.to, met.from, met.to);
-        if (meeting.is_crossing) {
-          facts_.are_inside = facts_.are_outside = {true, true};
-          facts_.do_meet = true;
-        }
-        for (std::size_t k = 0; k < meeting.num_nodes; ++k) {
-          incidences_.push_back({meeting.nodes[k], few, s});
-          incidences_.push_back({meeting.nodes[k], 1 - few, t});
-        }
-      });
-    }
+    one.boxes().visit(other.extent(), [&](Index s) {
+      other.boxes().visit(one.boxes().box(s), [&](Index t) { meet(few, s, t); });
+    });
     std::ranges::sort(incidences_);
     incidences_.erase(std::unique(incidences_.begin(), incidences_.end()), incidences_.end());
+  }
+
+  // Looks at side s of polygon k and side t of the other one.
+  void meet(Index k, Index s, Index t) {
+    const PolygonSide& one = polygons_[k]->sides()[s];
+    const PolygonSide& other = polygons_[1 - k]->sides()[t];
+    const arrangement::SideMeeting meeting =
+        arrangement::meeting_of(points_, one.from, one.to, other.from, other.to);
+    if (meeting.is_crossing) {
+      facts_.are_inside = facts_.are_outside = {true, true};
+      facts_.do_meet = true;
+    }
+    for (std::size_t m = 0; m < meeting.num_nodes; ++m) {
+      incidences_.push_back({meeting.nodes[m], k, s});
+      incidences_.push_back({meeting.nodes[m], 1 - k, t});
+    }
   }
 
   void look_around_nodes() {
@@ -136,13 +139,14 @@ class PairRelater {
 
   // Looks where a side of polygon k runs.
   void look_along(Index node, const SideDirection& direction, std::size_t k) {
+    const std::vector<SideDirection>& others = directions_[1 - k];
+    const auto same = std::ranges::find(others, direction.target, &SideDirection::target);
     const Point& target = points_[direction.target];
     const SideDirection& before =
-        arrangement::direction_before(points_, node, target, directions_[1 - k], true);
-    const bool is_shared =
-        before.target == direction.target ||
-        arrangement::part_of_turn(points_[node], target, points_[before.target]) == 0;
-    if (is_shared) {
+        same != others.end() ? *same
+                             : arrangement::direction_before(points_, node, target, others, true);
+    if (same != others.end() ||
+        arrangement::part_of_turn(points_[node], target, points_[before.target]) == 0) {
       (before.is_out == direction.is_out ? facts_.are_along : facts_.are_against) = true;
     } else {
       (before.is_out ? facts_.are_inside : facts_.are_outside)[k] = true;

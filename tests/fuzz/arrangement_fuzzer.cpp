@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/arrangement.h and rondel/set_operations.h: what they promise of any arcs and rings.
+// rondel/arrangement.h, rondel/set_operations.h and rondel/relate.h: what they promise of any arcs
+// and rings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/arrangement.h"
 #include "rondel/predicates.h"
+#include "rondel/relate.h"
 #include "rondel/set_operations.h"
 
 namespace rondel::fuzz {
@@ -126,6 +128,36 @@ void test_set_operations(const CellRings& a, const CellRings& b) {
   }
 }
 
+// A coordinate of a result may be smaller than operands may have.
+bool can_be_operand(const CellRings& cells) {
+  constexpr double least = 0x1p-150;
+  const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least; };
+  return std::ranges::none_of(
+      cells.points, [&](const Point& p) { return is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z); });
+}
+
+void test_relations(const CellRings& a, const CellRings& b) {
+  const CellRings one = unite(a, {1});
+  const CellRings two = repaired(b, {1});
+  const RegionPieces pieces = overlay_pieces(one, b, SetOperation::unite, {1});
+  if (!can_be_operand(one) || !can_be_operand(two) || !can_be_operand(pieces.rings)) return;
+  const std::vector<Relation> rows = relate(one, two, {1});
+  const std::vector<Relation> columns = relate(two, one, {1});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    require(rows[k] == columns[k].transposed(), "polygons may be exchanged");
+  }
+  for (const RelatedPair& pair : related_pairs(one, two, SpatialPredicate::intersects, {1})) {
+    require(pair.relation == rows[pair.second], "a join has the relations of pairs");
+    require(!pair.relation.is(SpatialPredicate::disjoint), "and none that is disjoint");
+  }
+  if (pieces.num_pieces() == 0 || b.num_cells() > 1) return;
+  for (const RelatedPair& pair :
+       related_pairs(pieces.rings, pieces.rings, SpatialPredicate::intersects, {1})) {
+    require(pair.relation.matches(pair.first == pair.second ? "T*F**FFF*" : "FF*F*****"),
+            "pieces have no interior in common");
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -141,8 +173,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (are_polygons) {
     const std::size_t half = points.size() / 2;
     const auto middle = points.begin() + static_cast<std::ptrdiff_t>(half);
-    test_set_operations(polygons_of(source, {points.begin(), middle}),
-                        polygons_of(source, {middle, points.end()}));
+    const CellRings a = polygons_of(source, {points.begin(), middle});
+    const CellRings b = polygons_of(source, {middle, points.end()});
+    test_set_operations(a, b);
+    test_relations(a, b);
     return 0;
   }
   std::vector<std::array<Index, 2>> arcs;
