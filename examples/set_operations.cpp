@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two boxes, one across the date line and one around it: their union, and what only one of them has.
+// Two boxes, one across the date line and one around it: their union, what only one of them has, and
+// how they lie to each other.
 
 #include "rondel/set_operations.h"
 
@@ -9,6 +10,7 @@
 #include <exception>
 
 #include "rondel/regions.h"
+#include "rondel/relate.h"
 #include "rondel/rondel.h"
 
 namespace {
@@ -42,11 +44,28 @@ void combine_boxes() {
   print("one", one);
 }
 
+void relate_boxes() {
+  const rondel::CellRings wide = box(160, -10, 200, 10);
+  const rondel::CellRings high = box(170, -40, 190, 40);
+  const rondel::Relation relation = rondel::relate(wide, high)[0];
+  std::printf("wide and high: %.9s\n", relation.text().data());
+  if (relation.is(rondel::SpatialPredicate::overlaps)) std::printf("they overlap\n");
+  if (relation.matches("****0****")) std::printf("their sides meet in points\n");
+
+  const rondel::RegionPieces pieces =
+      rondel::overlay_pieces(wide, high, rondel::SetOperation::unite);
+  for (const auto& [first, second, how] :
+       rondel::related_pairs(pieces.rings, pieces.rings, rondel::SpatialPredicate::touches)) {
+    if (first < second) std::printf("pieces %u and %u: %.9s\n", first, second, how.text().data());
+  }
+}
+
 }  // namespace
 
 int main() {
   try {
     combine_boxes();
+    relate_boxes();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "set_operations: %s\n", error.what());
     return 1;
