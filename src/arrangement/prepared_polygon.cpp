@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -157,16 +158,16 @@ void PreparedPolygon::divide_sides() {
 
 // Leaves out sides that lead back and forth between two nodes.
 void PreparedPolygon::cancel_sides() {
-  struct Place {
-    std::pair<Index, Index> nodes;
+  struct SideBetween {
+    std::pair<Index, Index> nodes;  // the lower one first
     Index side;
   };
-  std::vector<Place> places;
+  std::vector<SideBetween> places;
   places.reserve(sides_.size());
   for (Index s = 0; s < sides_.size(); ++s) {
     places.push_back({std::minmax({sides_[s].from, sides_[s].to}), s});
   }
-  std::ranges::sort(places, {}, [](const Place& p) { return std::tuple(p.nodes, p.side); });
+  std::ranges::sort(places, {}, [](const SideBetween& s) { return std::tuple(s.nodes, s.side); });
   std::vector<Index> kept;
   for (std::size_t begin = 0; begin < places.size();) {
     std::size_t end = begin;
@@ -276,26 +277,27 @@ bool PreparedPolygon::has(const Point& place) const {
 // A coordinate is largest on a side, or at the end of its axis. Ends of axes that are outside of a
 // ball around all sides are in one face.
 void PreparedPolygon::find_extent() {
+  SpaceBox border = empty_box;
   for (std::size_t c = 0; c < num_components(); ++c) {
-    extent_.include(component_boxes_.box(static_cast<Index>(c)));
+    border.include(component_boxes_.box(static_cast<Index>(c)));
   }
-  const SpaceBox border = extent_;
-  Point middle = {(border.low[0] + border.high[0]) / 2, (border.low[1] + border.high[1]) / 2,
-                  (border.low[2] + border.high[2]) / 2};
-  const double radius = norm(Point{border.high[0], border.high[1], border.high[2]} - middle);
-  enum class Place : std::uint8_t { unknown, in, out };
-  Place far_away = Place::unknown;
-  const auto is_in = [&](const Point& place) { return has(place) ? Place::in : Place::out; };
+  extent_ = border;
+  const Point low = {border.low[0], border.low[1], border.low[2]};
+  const Point high = {border.high[0], border.high[1], border.high[2]};
+  const Point middle = 0.5 * (low + high);
+  constexpr double rounding = 1e-9;
+  const double radius = norm(high - middle) + rounding;
+  std::optional<bool> has_far_ends;
   for (std::size_t i = 0; i < 3; ++i) {
     for (const double end : {-1.0, 1.0}) {
-      if (end < 0 ? border.low[i] <= end : border.high[i] >= end) continue;
-      const Point place = {i == 0 ? end : 0, i == 1 ? end : 0, i == 2 ? end : 0};
-      constexpr double rounding = 1e-9;
-      const bool is_far = norm(place - middle) > radius + rounding;
-      if (is_far && far_away == Place::unknown) far_away = is_in(place);
-      if ((is_far ? far_away : is_in(place)) == Place::in) {
-        extent_.include({{place.x, place.y, place.z}, {place.x, place.y, place.z}});
-      }
+      if (border.low[i] <= end && end <= border.high[i]) continue;
+      std::array<double, 3> place = {0, 0, 0};
+      place[i] = end;
+      const Point axis_end = {place[0], place[1], place[2]};
+      const bool is_far = norm(axis_end - middle) > radius;
+      const bool is_inside = is_far && has_far_ends ? *has_far_ends : has(axis_end);
+      if (is_far) has_far_ends = is_inside;
+      if (is_inside) extent_.include({place, place});
     }
   }
 }

@@ -145,6 +145,7 @@ void test_relations(const CellRings& a, const CellRings& b) {
   const std::vector<Relation> columns = relate(two, one, {1});
   for (std::size_t k = 0; k < rows.size(); ++k) {
     require(rows[k] == columns[k].transposed(), "polygons may be exchanged");
+    require(rows[k].matches(rows[k].text()), "a relation is its own pattern");
   }
   for (const RelatedPair& pair : related_pairs(one, two, SpatialPredicate::intersects, {1})) {
     require(pair.relation == rows[pair.second], "a join has the relations of pairs");
