@@ -34,6 +34,7 @@ COMMANDS = {
     "regions": ("{INPUT} --clip {--clip}", ["INPUT", "--clip"], {"--output": ".geojson"}),
     "overlay": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".geojson"}),
     "repair": ("{INPUT}", ["INPUT"], {"--output": ".geojson"}),
+    "relate": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".csv"}),
     "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),
     "contours": ("{INPUT} --value v --step 1", ["INPUT"], {"--output": ".geojson"}),
