@@ -4,6 +4,7 @@
 // Directions are compared first by the part of a turn from a reference, then with each other.
 #include "arrangement/directions.h"
 
+#include "exact/vector.h"
 #include "rondel/predicates.h"
 
 namespace rondel::arrangement {

@@ -14,6 +14,7 @@
 #include "arrangement/arc_contacts.h"
 #include "arrangement/directions.h"
 #include "arrangement/side_meeting.h"
+#include "arrangement/sided_arc.h"
 #include "exact/vector.h"
 #include "rondel/predicates.h"
 #include "system/disjoint_sets.h"
@@ -233,8 +234,12 @@ void PreparedPolygon::find_components() {
 
 PreparedPolygon::Path PreparedPolygon::path(const Point& from, Index start, Index end) const {
   Path result;
+  const SidedArc way(from, points_[end]);
   boxes_.visit(box_of(from, points_[end]), [&](Index s) {
     const PolygonSide& side = sides_[s];
+    // Doubles show that most sides do not come near.
+    const int of_from = way.side(points_[side.from]);
+    if (of_from != 0 && of_from == way.side(points_[side.to])) return;
     bool has_end = false;
     const auto look_at = [&](Index node, std::vector<SideDirection>& directions) {
       if (side.from != node && side.to != node) return;
