@@ -81,6 +81,7 @@ struct RelatedPair {
   Index first = no_index;   ///< a polygon of A
   Index second = no_index;  ///< a polygon of B
   Relation relation;
+  friend bool operator==(const RelatedPair&, const RelatedPair&) = default;
 };
 
 /// Finds all pairs of a polygon of A and a polygon of B for which the answer to a question is yes: a
@@ -88,9 +89,9 @@ struct RelatedPair {
 ///
 /// Pairs whose boxes in space overlap are looked at.
 /// \param first, second  as for relate(), with any numbers of polygons. Polygons of one operand may
-///        overlap. To join polygons with themselves, give the same object twice.
+///        overlap. The same object twice joins polygons with themselves, in half of the time.
 /// \return pairs in lexicographic order
-/// \throws InvalidInput as relate(); if the predicate is `disjoint`, or there are too many pairs
+/// \throws InvalidInput as relate(); if the predicate is `disjoint`
 RONDEL_API std::vector<RelatedPair> related_pairs(
     const CellRings& first, const CellRings& second,
     SpatialPredicate predicate = SpatialPredicate::intersects, const Execution& execution = {});

@@ -390,9 +390,11 @@ TEST(related_pairs, are_those_of_which_the_answer_is_yes) {
       for (std::size_t k = 0; k < row.size(); ++k) ASSERT_EQ(column[k], row[k].transposed());
       all.insert(all.end(), row.begin(), row.end());
     }
+    const CellRings copy = b;
     for (const std::string_view name : names_of<SpatialPredicate>()) {
       const SpatialPredicate predicate = *from_name<SpatialPredicate>(name);
       if (predicate == SpatialPredicate::disjoint) continue;
+      ASSERT_EQ(related_pairs(b, b, predicate, {1}), related_pairs(b, copy, predicate, {2}));
       const std::vector<RelatedPair> pairs = related_pairs(a, b, predicate, {2});
       std::size_t next = 0;
       for (Index i = 0; i < a.num_cells(); ++i) {
