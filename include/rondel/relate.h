@@ -67,7 +67,8 @@ struct Relation {
 ///    is. Rings may touch each other and themselves. Results of repaired(), combine(), unite(),
 ///    overlay_pieces() and read_polygons() are so.
 ///
-/// Polygons with n and m sides take O(min(n, m) log(n + m)), and as many steps as sides meet.
+/// Each polygon is prepared once, in O(n log n) for n sides. A pair with n and m sides takes
+/// O(min(n, m) log(n + m)), and as many steps as sides meet.
 /// \param first, second  the polygons of A and of B; corners as arrange() wants them
 ///        (rondel/arrangement.h)
 /// \throws InvalidInput if offsets do not fit, or the numbers of polygons; (the position of the side
@@ -87,7 +88,7 @@ struct RelatedPair {
 /// Finds all pairs of a polygon of A and a polygon of B for which the answer to a question is yes: a
 /// spatial join. Relations are those of relate(). An empty polygon is in no pair.
 ///
-/// Pairs whose boxes in space overlap are looked at.
+/// Pairs are looked at whose boxes in space overlap, with their interiors; a tree finds them.
 /// \param first, second  as for relate(), with any numbers of polygons. Polygons of one operand may
 ///        overlap. The same object twice joins polygons with themselves, in half of the time.
 /// \return pairs in lexicographic order
