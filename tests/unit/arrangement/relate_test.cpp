@@ -253,9 +253,9 @@ class Polygons {
     return {corner(0, 0), corner(width, 0), corner(width, height), corner(0, height)};
   }
   // A ring of corners of a lattice in the plane x = 1, which are on lines exactly.
-  Ring exact_lattice_ring(double size) {
+  Ring exact_lattice_ring(double size, std::size_t count) {
     const auto integer = [&] { return static_cast<double>(below(5)) - 2; };
-    Ring ring(3 + below(3));
+    Ring ring(count);
     for (Point& p : ring) p = {1, size * integer(), size * integer()};
     return ring;
   }
@@ -276,20 +276,38 @@ class Polygons {
       case 3:
         return lattice_box(1e-9);
       case 4:
-        return exact_lattice_ring(0x1p-25);
+        return exact_lattice_ring(0x1p-25, 3 + below(3));
       case 5:
-        return exact_lattice_ring(0x1p-53);
-      case 6:
-        return exact_lattice_ring(0x1p-70);
-      default:
         return nearly_half_ring();
+      case 7:
+        return exact_lattice_ring(0x1p-53, 3);
+      default:
+        return exact_lattice_ring(0x1p-140, 3);
     }
   }
-  static constexpr std::size_t num_kinds = 8;
+  // A union of halves of squares of a lattice: holes and parts that touch in corners.
+  CellRings halves() {
+    const auto corner = [](double y, double z) { return Point{1, 0x1p-25 * y, 0x1p-25 * z}; };
+    CellRings cells;
+    for (std::size_t count = 1 + below(30); count > 0; --count) {
+      const double y = static_cast<double>(below(4)) - 2;
+      const double z = static_cast<double>(below(4)) - 2;
+      const Ring square = {corner(y, z), corner(y + 1, z), corner(y + 1, z + 1), corner(y, z + 1)};
+      const std::size_t first = below(2) * 2 + static_cast<std::size_t>(y + z + 4) % 2;
+      add_ring({square[first], square[(first + 1) % 4], square[(first + 2) % 4]}, cells);
+      cells.end_cell();
+    }
+    return unite(cells, {1});
+  }
+  // Kinds from num_overlay_kinds on are no wider than rounding; they are not combined, since
+  // rounding of the places where their sides cross need not end.
+  static constexpr std::size_t num_kinds = 9;
+  static constexpr std::size_t num_overlay_kinds = 7;
   // A valid polygon: one ring, or a union or a difference, or all but that.
   CellRings some(std::size_t kind) {
-    CellRings one = repaired(polygon({ring(kind)}), {1});
-    const std::size_t how = below(6);
+    const bool are_halves = kind == 6;
+    CellRings one = are_halves ? halves() : repaired(polygon({ring(kind)}), {1});
+    const std::size_t how = kind < 6 ? below(6) : 0;
     if (how >= 3) {
       const CellRings other = polygon({ring(kind)});
       one = combine(one, other,
@@ -308,7 +326,7 @@ class Polygons {
 };
 
 TEST(relate, is_what_places_tell) {
-  const std::size_t count = scaled(2000);
+  const std::size_t count = scaled(1200);
   std::vector<std::string> seen;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -317,7 +335,7 @@ TEST(relate, is_what_places_tell) {
     const CellRings a = make.some(kind);
     CellRings b = make.some(kind);
     // Operands whose sides are those of the other one, in part.
-    if (make.below(4) == 0)
+    if (kind < Polygons::num_overlay_kinds && make.below(4) == 0)
       b = combine(a, b, make.below(2) == 0 ? SetOperation::intersection : SetOperation::difference,
                   {1});
     const std::string expected = relation_by_places(a, 0, b, 0);
@@ -331,7 +349,7 @@ TEST(relate, is_what_places_tell) {
   }
   std::ranges::sort(seen);
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  if (count >= 2000) {
+  if (count >= 1200) {
     EXPECT_GE(seen.size(), 30U);
   }
 }
@@ -343,7 +361,7 @@ TEST(relate, knows_pieces_of_an_overlay) {
     Polygons make(seed);
     CellRings a;
     CellRings b;
-    const std::size_t kind = seed / 8 % Polygons::num_kinds;
+    const std::size_t kind = seed / 8 % Polygons::num_overlay_kinds;
     for (int k = 0; k < 3; ++k) {
       add_cells(make.some(kind), a);
       add_cells(make.some(kind), b);
@@ -368,7 +386,7 @@ TEST(relate, knows_pieces_of_an_overlay) {
 }
 
 TEST(related_pairs, are_those_of_which_the_answer_is_yes) {
-  const std::size_t count = scaled(60);
+  const std::size_t count = scaled(40);
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Polygons make(seed);
