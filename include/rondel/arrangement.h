@@ -42,9 +42,9 @@ inline constexpr double arrangement_radius = 0x1p-52;
 /// 2. Each end of an arc is a node, bit by bit. Of several points on one ray from the center the
 ///    one with the least coordinates is the node.
 /// 3. A node that is no end of an arc is the place where two arcs cross, rounded to doubles: each
-///    coordinate to the nearest one. Where such rounding lets an arc come within
-///    `arrangement_radius` of a node or pass it on the wrong side, the arc is led through the node.
-///    This is repeated until 1 holds; so an arc may be bent by that radius as often. (In all tests
+///    coordinate to the nearest one, or to 0 below 2^-150. Where such rounding lets an arc come
+///    within `arrangement_radius` of a node or pass it on the wrong side, the arc is led through the
+///    node. This is repeated until 1 holds; so an arc may be bent by that radius as often. (In all tests
 ///    once or twice.)
 /// 4. The result depends on the set of arcs alone, not on their order, their direction or the
 ///    number of threads. The arrangement of its edges is itself.

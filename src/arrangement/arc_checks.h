@@ -14,11 +14,12 @@
 
 namespace rondel::arrangement {
 
+// Where coordinates are smaller, products of differences lose bits to underflow.
+constexpr double least_coordinate = 0x1p-150;
+
 // Throws InvalidInput with the first point that is not as arrange() wants it.
 inline void validate_points(std::span<const Point> points) {
   constexpr double max_deviation = 1e-14;
-  // Where coordinates are smaller, products of differences lose bits to underflow.
-  constexpr double least_coordinate = 0x1p-150;
   const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];

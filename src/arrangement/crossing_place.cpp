@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "arrangement/arc_checks.h"
 #include "arrangement/noded_arcs.h"
 #include "exact/ball.h"
 #include "exact/eft.h"
@@ -75,6 +76,10 @@ Point crossing_place(const Point& a, const Point& b, const Point& c, const Point
   // Coordinates are multiples of 2^-1074 below 2, and the product has four of them.
   if (!place) place = place_with_words<144>(a, b, c, d);
   assert(place);
+  // Smaller coordinates would be refused where the result is input again.
+  for (double* const coordinate : {&place->x, &place->y, &place->z}) {
+    if (std::abs(*coordinate) < least_coordinate) *coordinate = 0;
+  }
   return dot(*place, a + b) < 0 ? -1.0 * *place : *place;
 }
 

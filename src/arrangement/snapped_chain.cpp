@@ -4,7 +4,8 @@
 // Within the radius of a node the sphere is a plane up to a relative 2^-52: the squared distance of
 // the place t along the arc from a node at (x, y) is (t - x)^2 + y^2. The nearest nodes are those of
 // the lower envelope of these parabolas, where it is below the squared radius. Nodes may be much
-// closer to each other than the radius. So x and y are taken relative to one of them.
+// closer to each other than the radius, and some of them much closer than others. So x and y are
+// differences in double-double, and parabolas are compared by the differences of their nodes.
 #include "arrangement/snapped_chain.h"
 
 #include <algorithm>
@@ -26,8 +27,9 @@ using exact::to_vector;
 
 // A node in coordinates along the arc (x) and across (y), relative to the first node of its group.
 struct PlaceAlong {
-  double x;
-  double y;
+  exact::DoubleDouble x;
+  exact::DoubleDouble y;
+  double height;  // the distance from the arc, with a small relative error
   Index node;
 };
 
@@ -53,16 +55,20 @@ class NodesAlong {
   // Returns the place of a node relative to another one near to it.
   [[nodiscard]] PlaceAlong place(Index node, Index first) const {
     // The cross product is as long as the step along the sphere, and perpendicular to it.
-    const Vec across = normal_of(nodes_[first], nodes_[node]);
-    return {dot(normal_, across), dot(cross(to_vector(nodes_[first]), normal_), across), node};
+    const auto across = precise_normal_of(nodes_[first], nodes_[node]);
+    const auto along = [&](const Vec& direction) {
+      return across.x * direction.x + across.y * direction.y + across.z * direction.z;
+    };
+    return {along(normal_), along(cross(to_vector(nodes_[first]), normal_)), height(node), node};
   }
+
+ private:
   // Returns the distance of a node from the arc, positive to the left, with a small relative error.
   [[nodiscard]] double height(Index node) const {
     if (node == arc_.from || node == arc_.to) return 0;
     return exact_height(nodes_[arc_.from], nodes_[arc_.to], nodes_[node]);
   }
 
- private:
   std::span<const Point> nodes_;
   NodedArc arc_;
   Vec a_;
@@ -75,13 +81,12 @@ struct RoughPlace {
   Index node;
 };
 
-// Appends the nodes of a group that the arc is led through.
+// The nodes of a group that the arc is led through.
 class Envelope {
  public:
-  // `height` is the distance of the group's first node from the arc.
-  Envelope(std::vector<PlaceAlong>& places, double height) : height_(height) {
-    std::ranges::sort(places, {}, [&](const PlaceAlong& p) {
-      return std::tuple(p.x, std::abs(height + p.y), p.node);
+  explicit Envelope(std::vector<PlaceAlong>& places) {
+    std::ranges::sort(places, {}, [](const PlaceAlong& p) {
+      return std::tuple(p.x.hi, p.x.lo, std::abs(p.height), p.node);
     });
     for (const PlaceAlong& place : places) add(place);
   }
@@ -92,31 +97,33 @@ class Envelope {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
       const PlaceAlong& place = nearest_[i];
-      const double begin = i == 0 ? -infinity : middle_of(nearest_[i - 1], place);
-      const double end = i + 1 == nearest_.size() ? infinity : middle_of(place, nearest_[i + 1]);
-      const double x = std::clamp(place.x, begin, end) - place.x;
-      const double y = height_ + place.y;
+      const double begin = i == 0 ? -infinity : middle_after(place, nearest_[i - 1]);
+      const double end = i + 1 == nearest_.size() ? infinity : middle_after(place, nearest_[i + 1]);
+      const double x = std::clamp(0.0, begin, end);
+      const double y = place.height;
       if (x * x + y * y <= arrangement_radius * arrangement_radius) visit(place.node);
     }
   }
 
  private:
-  // Returns the place along the arc that is equally far from two nodes. Precondition: first.x <
-  // second.x
-  [[nodiscard]] double middle_of(const PlaceAlong& first, const PlaceAlong& second) const {
-    const double slope = (second.y - first.y) / (second.x - first.x);
-    return (first.x + second.x + slope * (2 * height_ + first.y + second.y)) / 2;
+  // Returns the place along the arc that is equally far from two nodes, as far as it is after the
+  // first of them. Precondition: they have different x.
+  [[nodiscard]] static double middle_after(const PlaceAlong& first, const PlaceAlong& second) {
+    const double x = (second.x - first.x).hi;
+    const double y = (second.y - first.y).hi;
+    return (x + y / x * (first.height + second.height)) / 2;
   }
   void add(const PlaceAlong& place) {
-    if (!nearest_.empty() && nearest_.back().x == place.x) return;  // it is not nearer
-    while (nearest_.size() > 1 && middle_of(nearest_.back(), place) <=
-                                      middle_of(nearest_[nearest_.size() - 2], nearest_.back())) {
+    // One that is farther from the arc is nowhere nearer.
+    if (!nearest_.empty() && (place.x - nearest_.back().x).hi <= 0) return;
+    while (nearest_.size() > 1 &&
+           middle_after(nearest_.back(), place) <=
+               middle_after(nearest_.back(), nearest_[nearest_.size() - 2])) {
       nearest_.pop_back();
     }
     nearest_.push_back(place);
   }
 
-  double height_;
   std::vector<PlaceAlong> nearest_;
 };
 
@@ -145,7 +152,7 @@ bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<
       for (std::size_t m = i; m < k; ++m) {
         places.push_back(along.place(order[m].node, order[i].node));
       }
-      Envelope(places, along.height(order[i].node)).visit([&](Index node) {
+      Envelope(places).visit([&](Index node) {
         if (node != arc.from && node != arc.to) chain.push_back(node);
       });
     }

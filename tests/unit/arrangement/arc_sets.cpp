@@ -50,6 +50,17 @@ Maker on_grid_at_axis(double spacing) {
   };
 }
 
+// Ends near an axis on a grid, of which each coordinate may be an ulp away.
+void make_two_scales(ArcSet& set, std::size_t size, RandomPlaces& random) {
+  const auto coordinate = [&] {
+    const double x = 0x1p-70 * random.integer(2);
+    const int turn = random.integer(1);
+    return turn == 0 || x == 0 ? x : std::nextafter(x, turn);
+  };
+  const auto end = [&] { return Point{1, coordinate(), coordinate()}; };
+  for (std::size_t i = 0; i < size; ++i) set.add(end(), end());
+}
+
 void make_sphere(ArcSet& set, std::size_t size, RandomPlaces& random) {
   for (std::size_t i = 0; i < size; ++i) set.add(random.place(), random.place());
 }
@@ -120,6 +131,7 @@ const std::map<std::string, Maker>& makers() {
                                                    {"needles", make_needles},
                                                    {"at_axis", on_grid_at_axis(1e-16)},
                                                    {"near_axis", on_grid_at_axis(1e-40)},
+                                                   {"two_scales", make_two_scales},
                                                    {"nearly_half", make_nearly_half}};
   return all;
 }
