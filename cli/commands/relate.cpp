@@ -144,6 +144,7 @@ Command add_relate_command(CLI::App& tool) {
       *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
       "What joins positions of the files: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
+  add_invalid_option(*parser, options->read.invalid);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
