@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "arrangement/combined_each.h"
 #include "arrangement/coverage.h"
 #include "arrangement/even_odd.h"
 #include "arrangement/halfedges.h"
@@ -45,7 +47,7 @@ struct Sides {
   std::vector<std::optional<KnownPlace>> known = {};  // of each polygon, or none
   bool are_mended = false;  // the rings of a polygon do not contradict each other
 
-  // Appends the cells of an operand, with all of its points.
+  // Appends the cells of an operand.
   void append(const CellRings& cells, std::uint8_t operand) {
     const auto first_point = static_cast<Index>(points.size());
     points.insert(points.end(), cells.points.begin(), cells.points.end());
@@ -86,21 +88,14 @@ struct Sides {
     for (std::size_t c = begin; c < end; ++c) {
       if (cells.is_whole(c)) whole[operand].push_back(static_cast<Index>(operands.size()));
       for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
-        append_ring(cells.corners_of(r), number);
+        const std::span<const Index> ring = cells.corners_of(r);
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+          const Index next = ring[k + 1 == ring.size() ? 0 : k + 1];
+          arcs.push_back({first_point + ring[k], first_point + next});
+          polygons.push_back(static_cast<Index>(operands.size()));
+        }
       }
       operands.push_back(operand);
-    }
-  }
-  template <class Number>
-  void append_ring(std::span<const Index> ring, const Number& number) {
-    if (ring.empty()) return;
-    const Index first = number(ring[0]);
-    Index from = first;
-    for (std::size_t k = 1; k <= ring.size(); ++k) {
-      const Index to = k < ring.size() ? number(ring[k]) : first;
-      arcs.push_back({from, to});
-      polygons.push_back(static_cast<Index>(operands.size()));
-      from = to;
     }
   }
 };
@@ -406,11 +401,14 @@ CellRings joined_each(std::size_t count, SetOperation operation, const Execution
                       const SidesAt& sides_at) {
   std::vector<Region> regions(count);
   std::vector<std::string> refusals(count);
-  constexpr std::size_t grain = 16;
+  constexpr std::size_t grain = 8;
+  // A few large operations are divided themselves.
+  const unsigned threads = count < 2 * grain ? execution.threads : 1;
   system::parallel_for(execution.threads, count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       try {
-        regions[k] = joined_region(sides_at(k), operation, {.threads = 1, .stop = execution.stop});
+        regions[k] =
+            joined_region(sides_at(k), operation, {.threads = threads, .stop = execution.stop});
       } catch (const InvalidInput& error) {
         refusals[k] = error.what();
       }
@@ -496,13 +494,40 @@ CellRings repaired(const CellRings& polygons, const Execution& execution) {
   });
 }
 
-CellRings arrangement::even_odd_union(const CellRings& polygons,
-                                      std::span<const std::optional<KnownPlace>> known,
-                                      const Execution& execution) {
+namespace arrangement {
+
+CellRings extracted(const CellRings& cells, std::size_t begin, std::size_t end) {
+  CellRings result;
+  for (std::size_t c = begin; c < end; ++c) {
+    if (cells.is_whole(c)) result.whole.push_back(static_cast<Index>(result.num_cells()));
+    for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
+      for (const Index p : cells.corners_of(r)) {
+        result.corners.push_back(static_cast<Index>(result.points.size()));
+        result.points.push_back(cells.points[p]);
+      }
+      result.end_ring();
+    }
+    result.end_cell();
+  }
+  return result;
+}
+
+CellRings combined_each(std::size_t count, const std::function<Operands(std::size_t)>& operands_of,
+                        SetOperation operation, const Execution& execution) {
+  return joined_each(count, operation, execution, [&](std::size_t i) {
+    const Operands operands = operands_of(i);
+    return sides_of(operands.first, operands.second);
+  });
+}
+
+CellRings even_odd_union(const CellRings& polygons,
+                         std::span<const std::optional<KnownPlace>> known,
+                         const Execution& execution) {
   Sides sides;
   sides.append(polygons, 0);
   sides.known.assign(known.begin(), known.end());
   return cells_of(std::vector{joined_region(sides, SetOperation::unite, execution)});
 }
 
+}  // namespace arrangement
 }  // namespace rondel

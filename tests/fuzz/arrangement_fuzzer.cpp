@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/arrangement.h, rondel/set_operations.h and rondel/relate.h: what they promise of any arcs
-// and rings.
+// rondel/arrangement.h, rondel/set_operations.h, rondel/relate.h and rondel/buffer.h: what they promise
+// of any arcs and rings.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exact/vector.h"
 #include "fuzz/fuzz_input.h"
 #include "rondel/arrangement.h"
+#include "rondel/buffer.h"
 #include "rondel/predicates.h"
 #include "rondel/relate.h"
 #include "rondel/set_operations.h"
@@ -128,19 +130,10 @@ void test_set_operations(const CellRings& a, const CellRings& b) {
   }
 }
 
-// A coordinate of a result may be smaller than operands may have.
-bool can_be_operand(const CellRings& cells) {
-  constexpr double least = 0x1p-150;
-  const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least; };
-  return std::ranges::none_of(
-      cells.points, [&](const Point& p) { return is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z); });
-}
-
 void test_relations(const CellRings& a, const CellRings& b) {
   const CellRings one = unite(a, {1});
   const CellRings two = repaired(b, {1});
   const RegionPieces pieces = overlay_pieces(one, b, SetOperation::unite, {1});
-  if (!can_be_operand(one) || !can_be_operand(two) || !can_be_operand(pieces.rings)) return;
   const std::vector<Relation> rows = relate(one, two, {1});
   const std::vector<Relation> columns = relate(two, one, {1});
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -157,6 +150,28 @@ void test_relations(const CellRings& a, const CellRings& b) {
     require(pair.relation.matches(pair.first == pair.second ? "T*F**FFF*" : "FF*F*****"),
             "pieces have no interior in common");
   }
+}
+
+bool is_within(const CellRings& a, const CellRings& b) {
+  const CellRings rest = combine(a, b, SetOperation::difference, {1});
+  return rest.corners.empty() && rest.whole.empty();
+}
+
+void test_buffers(ByteSource& source, const CellRings& polygons, std::span<const Point> points) {
+  BufferOptions options;
+  options.distance = std::ldexp(3.2, -static_cast<int>(source.below(30)));
+  options.tolerance = options.distance / static_cast<double>(3 + source.below(200));
+  const CellRings sound = repaired(polygons, {1});
+  const CellRings grown = buffered(sound, options, {1});
+  require(grown.num_cells() == sound.num_cells(), "a buffer for each polygon");
+  require(is_equal(repaired(grown, {1}), grown), "a buffer is valid");
+  require(is_within(sound, grown), "a buffer covers its polygon");
+  const CellRings disks = buffered(points, options, {1});
+  require(disks.num_cells() == points.size(), "a buffer for each point");
+  options.distance = -options.distance;
+  const CellRings shrunk = buffered(sound, options, {1});
+  require(is_equal(repaired(shrunk, {1}), shrunk), "what is left of a polygon is valid");
+  require(is_within(shrunk, grown), "and in it");
 }
 
 }  // namespace
@@ -178,6 +193,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CellRings b = polygons_of(source, {middle, points.end()});
     test_set_operations(a, b);
     test_relations(a, b);
+    test_buffers(source, a, std::span(points).subspan(half));
     return 0;
   }
   std::vector<std::array<Index, 2>> arcs;

@@ -3,6 +3,7 @@
 rondel_add_test(arrangement_test
   arrangement/arc_sets.cpp
   arrangement/arrange_test.cpp
+  arrangement/buffer_test.cpp
   arrangement/exact_places_test.cpp
   arrangement/halfedges_test.cpp
   arrangement/relate_test.cpp
