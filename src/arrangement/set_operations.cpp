@@ -88,14 +88,21 @@ struct Sides {
     for (std::size_t c = begin; c < end; ++c) {
       if (cells.is_whole(c)) whole[operand].push_back(static_cast<Index>(operands.size()));
       for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
-        const std::span<const Index> ring = cells.corners_of(r);
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-          const Index next = ring[k + 1 == ring.size() ? 0 : k + 1];
-          arcs.push_back({first_point + ring[k], first_point + next});
-          polygons.push_back(static_cast<Index>(operands.size()));
-        }
+        append_ring(cells.corners_of(r), number);
       }
       operands.push_back(operand);
+    }
+  }
+  template <class Number>
+  void append_ring(std::span<const Index> ring, const Number& number) {
+    if (ring.empty()) return;
+    const Index first = number(ring[0]);
+    Index from = first;
+    for (std::size_t k = 1; k <= ring.size(); ++k) {
+      const Index to = k < ring.size() ? number(ring[k]) : first;
+      arcs.push_back({from, to});
+      polygons.push_back(static_cast<Index>(operands.size()));
+      from = to;
     }
   }
 };

@@ -35,6 +35,7 @@ COMMANDS = {
     "overlay": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".geojson"}),
     "repair": ("{INPUT}", ["INPUT"], {"--output": ".geojson"}),
     "relate": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".csv"}),
+    "buffer": ("{INPUT} --distance 1", ["INPUT"], {"--output": ".geojson"}),
     "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),
     "contours": ("{INPUT} --value v --step 1", ["INPUT"], {"--output": ".geojson"}),
