@@ -123,7 +123,7 @@ ExitStatus run_buffer(const BufferCommand& options) {
   });
   job.time(Stage::write, [&] {
     write_regions(common.target(), buffers, table.facts.columns, options.drawn_tolerance_deg(),
-                  job.execution(), table.ids, RegionBorders::separate);
+                  job.execution(), table.ids, CellDrawing::apart);
   });
   const std::size_t number = num_not_empty(buffers);
   const double seconds = job.seconds().total;
