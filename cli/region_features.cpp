@@ -52,6 +52,18 @@ std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Col
   return columns;
 }
 
+CellDrawing drawing_of(const CellRings& cells, const Execution& execution) {
+  return overlapping_cells(cells, execution).empty() ? CellDrawing::together : CellDrawing::apart;
+}
+
+std::size_t num_not_empty(const CellRings& cells) {
+  std::size_t number = cells.whole.size();
+  for (std::size_t c = 0; c < cells.num_cells(); ++c) {
+    number += cells.cells[c] < cells.cells[c + 1] ? 1 : 0;
+  }
+  return number;
+}
+
 Groups groups_of(const std::vector<Column>& columns, const std::string& file,
                  const std::string& name, const std::string& option) {
   const auto found = std::ranges::find(columns, name, &Column::name);

@@ -9,6 +9,7 @@
 /// index rows of INPUT: sites or features
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,15 @@ struct RegionsOptions {
   double earth_radius_km = 0;  ///< --earth-radius; 0: not given, and areas are not in square
                                ///< kilometers
 };
+
+/// The mean radius of the Earth in kilometers: (2 a + b) / 3 of WGS 84.
+inline constexpr double mean_earth_radius = 6371.0088;
+
+/// Returns how cells are drawn: apart if they overlap, so that none loses a part.
+CellDrawing drawing_of(const CellRings& cells, const Execution& execution);
+
+/// Returns how many cells have a place.
+std::size_t num_not_empty(const CellRings& cells);
 
 /// The rows of a table grouped by their text, groups in the order in which they occur. Rows without
 /// a text belong to no group.

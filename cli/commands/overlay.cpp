@@ -74,15 +74,6 @@ Pieces pieces_of(const CellTable& first, const CellTable& second, const OverlayO
                                           rows_of_all(second.facts.columns, pieces.regions))};
 }
 
-// Returns how many features have a place.
-std::size_t num_not_empty(const CellRings& cells) {
-  std::size_t number = cells.whole.size();
-  for (std::size_t c = 0; c < cells.num_cells(); ++c) {
-    number += cells.cells[c] < cells.cells[c + 1] ? 1 : 0;
-  }
-  return number;
-}
-
 // Throws FileError for files that cannot be read or written, UsageError.
 ExitStatus run_overlay(const OverlayOptions& options) {
   const CommonOptions& common = options.common;
@@ -105,10 +96,8 @@ ExitStatus run_overlay(const OverlayOptions& options) {
   });
   job.time(Stage::dual, [&] { pieces = pieces_of(first, second, options, job.execution()); });
   job.time(Stage::write, [&] {
-    // Where polygons of one file overlap, pieces do.
-    const bool do_overlap = !overlapping_cells(pieces.rings, job.execution()).empty();
     write_regions(common.target(), pieces.rings, pieces.columns, options.tolerance_deg,
-                  job.execution(), {}, do_overlap ? CellDrawing::apart : CellDrawing::together);
+                  job.execution(), {}, drawing_of(pieces.rings, job.execution()));
   });
   const std::size_t number = num_not_empty(pieces.rings);
   const double seconds = job.seconds().total;

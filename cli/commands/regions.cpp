@@ -31,8 +31,6 @@
 namespace rondel::cli {
 namespace {
 
-constexpr double mean_earth_radius = 6371.0088;  // kilometers; WGS 84, (2 a + b) / 3
-
 // Writes the features to OUTPUT, timed as writing.
 void write(Job& job, const RegionsOptions& options, const Features& made) {
   job.time(Stage::write, [&] {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "job.h"
+#include "region_features.h"
 #include "report.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
@@ -62,10 +63,8 @@ ExitStatus run_repair(const RepairOptions& options) {
     tell(table.facts.name, table.facts.remarks);
   });
   job.time(Stage::write, [&] {
-    const bool do_overlap = !overlapping_cells(table.polygons, job.execution()).empty();
     write_regions(common.target(), table.polygons, table.facts.columns, options.tolerance_deg,
-                  job.execution(), table.ids,
-                  do_overlap ? CellDrawing::apart : CellDrawing::together);
+                  job.execution(), table.ids, drawing_of(table.polygons, job.execution()));
   });
   const std::size_t size = table.polygons.num_cells();
   const nlohmann::ordered_json repairs = repairs_of(table.facts);
