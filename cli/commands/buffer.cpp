@@ -38,7 +38,7 @@ struct BufferCommand {
   double tolerance_km = 0;  // 0: not given
   double radius_km = mean_earth_radius;
   bool is_dissolved = false;  // --dissolve
-  PolygonEdges edges = PolygonEdges::lonlat;
+  PolygonOptions polygons;
 
   // Half of the tolerance is for the buffer, half for its lines in the file.
   [[nodiscard]] double half_tolerance() const {
@@ -81,7 +81,7 @@ FeatureTable features_of_sites(SiteTable table) {
 FeatureTable read_input(Job& job, const BufferCommand& options) {
   const FileName file = options.common.source();
   if (has_features(file)) {
-    FeatureTable table = read_features(file, {.edges = options.edges}, job.execution());
+    FeatureTable table = read_features(file, options.polygons, job.execution());
     tell(table.facts.name, table.facts.remarks);
     return table;
   }
@@ -182,15 +182,18 @@ Command add_buffer_command(CLI::App& tool) {
   parser->add_flag("--dissolve", options->is_dissolved,
                    "Write one polygon: the union of all, without properties");
   add_word<PolygonEdges>(
-      *parser, "--edges", options->edges, named_values<PolygonEdges>(),
+      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
       "What joins positions of INPUT: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
+  add_invalid_option(*parser, options->polygons.invalid);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
-  require_effect(
-      options->common, parser->get_option("--edges"),
-      [given = options.get()] { return has_features(given->common.source()); },
-      "with INPUT of another format than geojson");
+  for (const char* const name : {"--edges", "--invalid"}) {
+    require_effect(
+        options->common, parser->get_option(name),
+        [given = options.get()] { return has_features(given->common.source()); },
+        "with INPUT of another format than geojson");
+  }
   parser->footer(
       "Distances are along great circles. A polygon has the properties of its feature. It may go\n"
       "around a pole or across the antimeridian, where the file cuts it, and it may cover the\n"

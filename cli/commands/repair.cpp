@@ -61,6 +61,11 @@ ExitStatus run_repair(const RepairOptions& options) {
     table = read_features(common.source(), options.read, job.execution());
     require_polygons(table);
     tell(table.facts.name, table.facts.remarks);
+    const std::size_t num_empty = table.polygons.num_cells() - num_not_empty(table.polygons);
+    if (num_empty > 0) {
+      tell(table.facts.name,
+           {"left out " + count(num_empty, "feature", "features") + " without a place"});
+    }
   });
   job.time(Stage::write, [&] {
     write_regions(common.target(), table.polygons, table.facts.columns, options.tolerance_deg,

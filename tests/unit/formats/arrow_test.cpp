@@ -74,7 +74,7 @@ class HandMade {
   std::deque<std::string> texts_;
 };
 
-const std::vector<double> triangle = {0, 0, 10, 0, 0, 10, 0, 0};
+const std::vector<double> triangle_numbers = {0, 0, 10, 0, 0, 10, 0, 0};
 
 TEST(arrow, polygons_go_out_and_come_back) {
   LonLatMultiPolygons given;
@@ -144,7 +144,7 @@ struct OnePolygon {
   HandMade made;
   std::vector<std::int32_t> offsets = {0, 1};
   std::vector<std::int32_t> ends = {0, 4};
-  HandMade::Field& numbers = made.field("g", 8, triangle.data());
+  HandMade::Field& numbers = made.field("g", 8, triangle_numbers.data());
   HandMade::Field& places = HandMade::with_children(made.field("+w:2", 4), {&numbers});
   HandMade::Field& rings = HandMade::with_children(made.field("+l", 1, ends.data()), {&places});
   HandMade::Field& all = HandMade::with_children(made.field("+l", 1, offsets.data()), {&rings});
