@@ -4,6 +4,7 @@
 // An array of GeoArrow is lists of lists: multipolygons have polygons, these have rings, and rings have
 // positions. The levels of Arrow are read from the outermost to the positions; each may begin at an
 // offset of its own.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/json_tree.h"
 #include "rondel/arrow.h"
 #include "rondel/error.h"
 #include "system/row_assembly.h"
@@ -49,6 +51,27 @@ std::string_view metadata_of(const char* metadata, std::string_view wanted) {
     if (key == wanted) return value;
   }
   return {};
+}
+
+// Refuses an array whose metadata of GeoArrow name other coordinates than longitudes and latitudes.
+void require_lonlat(const std::string& metadata) {
+  if (metadata.empty()) return;
+  io::JsonTreeBuilder builder({[](auto&&...) {}, [](auto&&...) { return false; }});
+  try {
+    nlohmann::json::sax_parse(metadata, &builder);
+  } catch (const io::BadValue& error) {
+    refuse(std::string("has metadata of its type that cannot be read: ") + error.what());
+  }
+  const io::JsonTree& crs = builder.root().member("crs");
+  if (crs.is_null()) return;
+  // The definition of a CRS (PROJJSON) has the identifier that a name consists of.
+  const io::JsonTree& id = crs.member("id");
+  const std::string name =
+      crs.is_string() ? crs.string() : id.member("authority").text() + id.member("code").text();
+  constexpr std::array known = {"OGC:CRS84", "EPSG:4326", R"("OGC""CRS84")", R"("EPSG"4326)"};
+  if (std::ranges::find(known, name) == known.end()) {
+    refuse("has another CRS than OGC:CRS84 or EPSG:4326");
+  }
 }
 
 // The lists of one level: list i has the elements offsets[i] ... offsets[i + 1] - 1 of the next one.
@@ -251,6 +274,7 @@ LonLatMultiPolygons import_arrow(const ArrowSchema& schema, const ArrowArray& ar
                         : "has the type " + std::string(type) +
                               ", not geoarrow.polygon or geoarrow.multipolygon");
   }
+  require_lonlat(std::string(metadata_of(schema.metadata, "ARROW:extension:metadata")));
   ArrowLevels levels(schema, array);
   LonLatMultiPolygons features;
   if (is_multi) {

@@ -53,7 +53,7 @@ class HandMade {
     return parent;
   }
   // Names the type; the text lives as long as this object.
-  void name(Field& field, const std::string& type) {
+  void name(Field& field, const std::string& type, const std::string& metadata = "") {
     std::string& text = texts_.emplace_back();
     const auto append = [&](const std::string& part) {
       const auto size = static_cast<std::int32_t>(part.size());
@@ -62,8 +62,8 @@ class HandMade {
     };
     const std::int32_t pairs = 2;
     text.append(reinterpret_cast<const char*>(&pairs), sizeof pairs);
-    append("other");
-    append("");
+    append("ARROW:extension:metadata");
+    append(metadata);
     append("ARROW:extension:name");
     append(type);
     field.schema.metadata = text.data();
@@ -201,6 +201,29 @@ TEST(arrow, what_does_not_fit_is_refused) {
     one.offsets = {0, 0};
     EXPECT_EQ(one.message(), "");
   }
+}
+
+TEST(arrow, other_coordinates_are_refused) {
+  const auto message_of = [](const std::string& metadata) {
+    OnePolygon one;
+    one.made.name(one.all, "geoarrow.polygon", metadata);
+    return one.message();
+  };
+  for (const char* const known :
+       {"{}", R"({"crs":null})", R"({"crs":"OGC:CRS84"})",
+        R"({"crs":"EPSG:4326","edges":"planar"})",
+        R"({"crs":{"type":"GeographicCRS","id":{"authority":"EPSG","code":4326}}})",
+        R"({"crs":{"id":{"authority":"OGC","code":"CRS84"}}})"}) {
+    EXPECT_EQ(message_of(known), "") << known;
+  }
+  for (const char* const other : {R"({"crs":"EPSG:3857"})", R"({"crs":3})", R"({"crs":{}})",
+                                  R"({"crs":{"id":{"authority":"EPSG","code":3857}}})"}) {
+    EXPECT_EQ(message_of(other), "the array of Arrow has another CRS than OGC:CRS84 or EPSG:4326")
+        << other;
+  }
+  EXPECT_EQ(
+      message_of("crs").find("the array of Arrow has metadata of its type that cannot be read"),
+      0U);
 }
 
 TEST(arrow, polygons_become_cells) {
