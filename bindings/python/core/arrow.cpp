@@ -57,7 +57,8 @@ CellSet cells_of_capsules(const nb::capsule& schema, const nb::capsule& array, n
 void add_arrow(nb::module_& module) {
   module.def("capsules_of", capsules_of, nb::arg("drawn"), nb::arg("num_cells"), nb::arg("edges"));
   module.def("cells_of_capsules", cells_of_capsules, nb::arg("schema"), nb::arg("array"),
-             nb::arg("edges"), nb::arg("overlap"), nb::arg("invalid"), nb::arg("threads"));
+             nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
+             nb::arg("threads"));
 }
 
 }  // namespace rondel::python

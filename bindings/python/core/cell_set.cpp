@@ -43,9 +43,11 @@ std::optional<LinesOut> lines_out(const CellSet& cells) {
 
 // Reads the cells of a file, or of bytes of GeoJSON; polygons whose group is below 0 are left out.
 CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb::handle overlap,
-                      const std::optional<IndicesIn>& groups, unsigned threads) {
+                      nb::handle invalid, const std::optional<IndicesIn>& groups,
+                      unsigned threads) {
   CellFileOptions options{.sides = named<GridSides>("sides", sides),
                           .edges = named<PolygonEdges>("edges", edges),
+                          .invalid = named<InvalidPolygons>("invalid", invalid),
                           .overlap = named<PolygonOverlap>("overlap", overlap)};
   if (groups) {
     options.is_taken = [taken = vector_of<std::int32_t>(*groups)](std::size_t feature, auto&&) {
@@ -155,7 +157,7 @@ void add_makers(nb::class_<CellSet>& cells) {
           },
           nb::arg("rings"), nb::arg("threads"))
       .def_static("read", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
-                  nb::arg("edges").none(), nb::arg("overlap").none(),
+                  nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("threads"));
 }
 

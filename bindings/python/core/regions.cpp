@@ -61,8 +61,9 @@ void add_region_functions(nb::module_& module) {
   module.def(
       "feature_cells",
       [](const PathIn& path, double tolerance, nb::handle edges, nb::handle overlap,
-         const CellSet* within, unsigned threads, const nb::object& listener) {
+         nb::handle invalid, const CellSet* within, unsigned threads, const nb::object& listener) {
         const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                                     .invalid = named<InvalidPolygons>("invalid", invalid),
                                      .overlap = named<PolygonOverlap>("overlap", overlap)};
         return read_from(path, [&](const FileName& file) {
           return watched(0, threads, listener, [&](const Execution& execution) {
@@ -76,7 +77,8 @@ void add_region_functions(nb::module_& module) {
         });
       },
       nb::arg("path"), nb::arg("tolerance"), nb::arg("edges").none(), nb::arg("overlap").none(),
-      nb::arg("within").none(), nb::arg("threads"), nb::arg("progress").none());
+      nb::arg("invalid").none(), nb::arg("within").none(), nb::arg("threads"),
+      nb::arg("progress").none());
   module.def(
       "cell_rings", [](const CellSet& cells) { return unlocked([&] { return cells.rings(); }); },
       nb::arg("cells"));

@@ -20,6 +20,8 @@ overlay, intersection, union, union_all, difference, symmetric_difference
     Set operations on polygons, with the names of GeoPandas and shapely.
 area, length
     Measures of polygons on the sphere.
+make_valid, is_valid, validity_reason
+    Polygons that are not valid.
 interpolate
     Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
@@ -97,6 +99,7 @@ from ._queries import Where
 from ._regions import Regions, feature_cells
 from ._regridder import Regridder
 from ._remap import Remap, remap
+from ._validity import is_valid, make_valid, validity_reason
 from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
 
@@ -140,9 +143,11 @@ __all__ = [
     "feature_cells",
     "interpolate",
     "intersection",
+    "is_valid",
     "length",
     "lonlat",
     "lonlat_grid",
+    "make_valid",
     "overlay",
     "point_set_hash",
     "polygons",
@@ -153,6 +158,7 @@ __all__ = [
     "union",
     "union_all",
     "unit_vectors",
+    "validity_reason",
 ]
 
 if not TYPE_CHECKING:

@@ -13,8 +13,15 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of, half_turn
 from ._errors import InvalidInput, warn_caller
-from ._geo import Path
-from ._geometries import Edges, PolygonOverlap, Sides, polygons_of, read_cells
+from ._geo import Path, arrow_of
+from ._geometries import (
+    Edges,
+    Invalid,
+    PolygonOverlap,
+    Sides,
+    polygons_of,
+    read_cells,
+)
 from ._pickled import arrays_of, with_arrays
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
@@ -324,6 +331,7 @@ class CellSet(Described):
         sides: Sides = "parallels",
         edges: Edges = "lonlat",
         overlap: PolygonOverlap = "keep",
+        invalid: Invalid = "error",
         threads: int | None = None,
     ) -> CellSet:
         """Reads the cells of a file.
@@ -344,6 +352,10 @@ class CellSet(Described):
             What to do with a place that several features contain: 'keep' (default) makes cells that
             overlap there, 'error' raises an error that names two of them, 'first' gives the place
             to the first one.
+        invalid : {'error', 'repair'}, optional
+            What to do with polygons that are not valid: 'error' (default) raises an error that
+            names the first one, what is wrong with it, and a place; 'repair' makes them valid, as
+            `rondel.make_valid` does, and warns of it.
         threads
             As in `voronoi`.
 
@@ -361,12 +373,12 @@ class CellSet(Described):
         Warns
         -----
         UserWarning
-            If cells are masked, or are left out because of missing corners (with their number), or
-            if one of several grids was read.
+            If cells are masked, or are left out because of missing corners (with their number), if
+            polygons were repaired, or if one of several grids was read.
 
         """
         name = os.fspath(path)
-        return cls._of(read_cells(name, edges, overlap, as_threads(threads), sides=sides))
+        return cls._of(read_cells(name, edges, overlap, invalid, as_threads(threads), sides=sides))
 
     @classmethod
     def from_geometries(
@@ -375,6 +387,7 @@ class CellSet(Described):
         *,
         edges: Edges = "lonlat",
         overlap: PolygonOverlap = "keep",
+        invalid: Invalid = "error",
         threads: int | None = None,
     ) -> CellSet:
         """Makes cells of polygons of other libraries, which may have holes and several parts.
@@ -387,7 +400,7 @@ class CellSet(Described):
             of GeoArrow; or a box of west, south, east and north in degrees. Projected coordinates
             are converted to longitudes and latitudes by their `crs`; sides that are straight in the
             projection get corners in between, which follow them to about 1e-4 degrees.
-        edges, overlap, threads
+        edges, overlap, invalid, threads
             As in `read`.
 
         Returns
@@ -401,8 +414,31 @@ class CellSet(Described):
             If a geometry is not a polygon, is not valid, or has positions that are no longitudes
             and latitudes. The message has its number.
 
+        Warns
+        -----
+        UserWarning
+            If polygons were repaired, or have no area but for rounding.
+
+        Notes
+        -----
+        Arrays of the types geoarrow.polygon and geoarrow.multipolygon in EPSG:4326, OGC:CRS84 or
+        without a CRS are read without another library, whoever made them; GeoPandas reads others.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tie = {"type": "Polygon", "coordinates": [[[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]]}
+        >>> rondel.CellSet.from_geometries(tie)
+        Traceback (most recent call last):
+        ValueError: geometries: geometry 0: ring 0 of part 0 crosses itself at 1 1
+        >>> import warnings
+        >>> with warnings.catch_warnings(record=True):
+        ...     cells = rondel.CellSet.from_geometries(tie, invalid="repair")
+        >>> len(cells.rings[1]) - 1
+        2
+
         """
-        return cls._of(polygons_of(geometries, edges, overlap, as_threads(threads)))
+        return cls._of(polygons_of(geometries, edges, overlap, invalid, as_threads(threads)))
 
     @property
     def num_cells(self) -> int:
@@ -467,6 +503,18 @@ class CellSet(Described):
 
         """
         return self._cells.rings().whole
+
+    def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:
+        """Hands the cells to another library as an array of geoarrow.multipolygon: polygons in
+        longitude and latitude, cut at the antimeridian, with lines within 0.01 degrees of the arcs.
+
+        Raises
+        ------
+        InvalidInput
+            If the cells have parallels as sides.
+
+        """
+        return arrow_of(self._cells.rings(), "apart")
 
     def _placed(self) -> _core.CellSet:
         """The cells with the places that files have: those of Voronoi cells are the sites."""

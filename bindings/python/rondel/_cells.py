@@ -11,7 +11,7 @@ from typing import Any
 from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
-from ._geometries import Edges, PolygonOverlap, Sides
+from ._geometries import Edges, Invalid, PolygonOverlap, Sides
 
 
 def lonlat_grid(
@@ -60,6 +60,7 @@ def polygons(
     *,
     edges: Edges = "lonlat",
     overlap: PolygonOverlap = "keep",
+    invalid: Invalid = "error",
     threads: int | None = None,
 ) -> CellSet:
     """Makes cells of polygons in a file or of another library.
@@ -70,7 +71,7 @@ def polygons(
         The polygons, one a cell, which may have holes and several parts: the name of a GeoJSON
         file; or a GeoDataFrame, a GeoSeries, geometries of shapely, mappings of GeoJSON, or a box
         of west, south, east and north in degrees, as `CellSet.from_geometries` takes them.
-    edges, overlap, threads
+    edges, overlap, invalid, threads
         As in `CellSet.read`.
 
     Returns
@@ -94,6 +95,6 @@ def polygons(
     <rondel.CellSet: 1 cell>
 
     """
-    if isinstance(areas, (str, os.PathLike)):
-        return CellSet.read(areas, edges=edges, overlap=overlap, threads=threads)
-    return CellSet.from_geometries(areas, edges=edges, overlap=overlap, threads=threads)
+    make: Any = CellSet.read if isinstance(areas, (str, os.PathLike)) else CellSet.from_geometries
+    cells: CellSet = make(areas, edges=edges, overlap=overlap, invalid=invalid, threads=threads)
+    return cells

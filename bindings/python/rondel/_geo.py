@@ -286,6 +286,13 @@ def polygon_shapes(
     return shapes
 
 
+def arrow_of(cells: _core.CellRings, drawing: str) -> tuple[Any, Any]:
+    """The capsules of a schema and an array of geoarrow.multipolygon with the polygons of cells."""
+    drawn = cells.polygons(0.01, 0, drawing)
+    # Straight lines are right everywhere; a side from pole to pole is no arc.
+    return _core.capsules_of(drawn, cells.num_cells, "lonlat")
+
+
 def _mesh_of(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:
     """A Dataset by UGRID 1.0: a topology, the positions of nodes, the corners of faces."""
     import xarray

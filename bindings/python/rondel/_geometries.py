@@ -13,11 +13,12 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._errors import warn_caller
+from ._errors import InvalidInput, warn_caller
 from ._projected import in_lonlat
 from ._properties import json_cells
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
+Invalid: TypeAlias = Literal["error", "repair"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 Sides: TypeAlias = Literal["parallels", "great_circles"]
 
@@ -28,23 +29,35 @@ def read_cells(
     name: str,
     edges: Edges,
     overlap: PolygonOverlap,
+    invalid: Invalid,
     threads: int,
     groups: Groups = None,
     sides: Sides = "parallels",
 ) -> _core.CellSet:
     """The cells of a file; polygons with a group below 0 are left out."""
-    cells = _core.CellSet.read(name, sides, edges, overlap, groups, threads)
+    cells = _core.CellSet.read(name, sides, edges, overlap, invalid, groups, threads)
     for remark in cells.facts.remarks:
         warn_caller(f"{name}: {remark}")
     return cells
 
 
 def polygons_of(
-    geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
+    geometries: Any,
+    edges: Edges,
+    overlap: PolygonOverlap,
+    invalid: Invalid,
+    threads: int,
+    groups: Groups = None,
 ) -> _core.CellSet:
     """The polygons of objects: a cell for each of them, empty where the group is below 0."""
-    rules = "parallels", edges, overlap, groups, threads
-    cells = _of_objects(geometries, edges, lambda name: _core.CellSet.read(name, *rules))
+    rules = edges, overlap, invalid
+    cells = _cells_of_arrow(geometries, *rules, threads) if groups is None else None
+    if cells is None:
+        cells = _of_objects(
+            geometries,
+            edges,
+            lambda file: _core.CellSet.read(file, "parallels", *rules, groups, threads),
+        )
     for remark in cells.facts.remarks:
         warn_caller(remark)
     facts = _core.CellFacts(cells.facts)
@@ -52,23 +65,43 @@ def polygons_of(
     return cells.with_facts(facts)
 
 
-def features_of(
-    features: Any,
-    edges: Edges,
-    overlap: PolygonOverlap,
-    read: Callable[[str | bytes, Edges, PolygonOverlap], Any],
-) -> Any:
-    """The result of `read`, which gets a file or bytes with the features, and the rules."""
-    rules = edges, overlap
+def features_of(features: Any, edges: Edges, read: Callable[[str | bytes], Any]) -> Any:
+    """The result of `read`, which gets a file or bytes with the features."""
     if is_file(features):
-        return read(os.fspath(features), *rules)
-    return _of_objects(features, edges, lambda file: read(file, *rules))
+        return read(os.fspath(features))
+    return _of_objects(features, edges, read)
 
 
 def is_geodesic(edges: Edges) -> bool:
-    if edges not in ("lonlat", "geodesic"):
-        raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
+    require_rules(edges=edges)
     return edges == "geodesic"
+
+
+def require_rules(edges: str = "lonlat", overlap: str = "error", invalid: str = "error") -> None:
+    """Refuses other words, also where no polygons are read to which they matter."""
+    for name, word, one, other in (
+        ("edges", edges, "lonlat", "geodesic"),
+        ("overlap", overlap, "error", "first"),
+        ("invalid", invalid, "error", "repair"),
+    ):
+        if word not in (one, other):
+            raise ValueError(f"{name} must be {one!r} or {other!r}, not {word!r}")
+
+
+def _cells_of_arrow(
+    geometries: Any, edges: Edges, overlap: PolygonOverlap, invalid: Invalid, threads: int
+) -> _core.CellSet | None:
+    """The cells of an array of GeoArrow in degrees; None of anything else, as WKB."""
+    if hasattr(geometries, "__geo_interface__") or not hasattr(geometries, "__arrow_c_array__"):
+        return None
+    schema, array = geometries.__arrow_c_array__()
+    try:
+        return _core.cells_of_capsules(schema, array, edges, overlap, invalid, threads)
+    except InvalidInput as error:
+        problem = str(error)
+        if problem.startswith("the array of Arrow"):
+            return None
+        raise ValueError(_told_of_geometries(problem)) from None
 
 
 def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any]) -> Any:
@@ -83,8 +116,11 @@ def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any
         return read(text.encode())
     except OSError as error:
         problem = re.sub(r"^geometries[:0-9]*: ", "", str(error))
-        problem = re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
-        raise ValueError(f"geometries: {problem}") from None
+        raise ValueError(_told_of_geometries(problem)) from None
+
+
+def _told_of_geometries(problem: str) -> str:
+    return "geometries: " + re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
 
 
 def _plain(value: Any) -> Any:

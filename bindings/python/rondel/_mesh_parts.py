@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_points, as_threads, degrees_of, require_unmasked
-from ._geometries import Edges, features_of, is_file
+from ._geometries import Edges, Invalid, features_of, is_file
 from ._lonlat import arcs
 from ._plot import draw_cells, draw_coast_lines, limits, line_options, make_map
 from ._regions import as_cell_set
@@ -44,6 +44,7 @@ def removed_cells(
     inside: Any,
     outside: Any,
     edges: Edges,
+    invalid: Invalid,
     threads: int | None,
 ) -> np.ndarray[Any, np.dtype[np.uint8]]:
     """Returns 1 for each cell that is removed, else 0."""
@@ -61,7 +62,7 @@ def removed_cells(
     for regions, value in ((inside, 1), (outside, 0)):
         if regions is None:
             continue
-        polygons = as_cell_set(regions, edges, "keep", threads)._cells
+        polygons = as_cell_set(regions, edges, "keep", invalid, threads)._cells
         found = _core.points_inside(points, polygons, as_threads(threads))
         removed |= found == value
     return removed.astype(np.uint8)
@@ -81,9 +82,7 @@ def fixed_points(
     rules = count, spacings, steps, gradient, as_threads(threads)
 
     def read(features: Any, places: Callable[[str | bytes, Edges, int], list[FloatArray]]) -> Any:
-        return features_of(
-            features, edges, "keep", lambda name, rule, _: places(name, rule, rules[-1])
-        )
+        return features_of(features, edges, lambda name: places(name, edges, rules[-1]))
 
     found = []
     left_out = 0

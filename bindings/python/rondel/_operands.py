@@ -7,8 +7,8 @@ from __future__ import annotations
 import importlib
 import re
 import sys
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,13 +19,14 @@ from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geometries import (
     Edges,
+    Invalid,
     box_of,
     feature_of,
     features_of,
     in_degrees,
     is_box,
     is_file,
-    is_geodesic,
+    require_rules,
 )
 from ._pickled import with_arrays
 from ._regions import Regions
@@ -44,6 +45,8 @@ class Operand:
         The shape of the array; () for one geometry.
     features : sequence of mapping
         The polygons as GeoJSON, none if cells are given.
+    given : sequence of object
+        The same polygons as they are given.
     source : GeoSeries, GeoDataFrame or None
         What has the polygons, in degrees.
     encoding : str or None
@@ -58,6 +61,7 @@ class Operand:
     name: str
     shape: tuple[int, ...]
     features: Sequence[Mapping[str, Any]] = ()
+    given: Sequence[Any] = ()
     is_of_cells: bool = False
     source: Any = None
     encoding: str | None = None
@@ -86,17 +90,32 @@ class Operand:
             return np.zeros(self.num_polygons, bool)
         return np.array([feature.get("geometry") is None for feature in self.features], bool)
 
+    def shapes(self) -> np.ndarray[Any, Any]:
+        """The polygons as geometries of shapely: the same ones if they are that already."""
+        import shapely.geometry
+
+        made = np.full(self.num_polygons, None)
+        for k, (given, feature) in enumerate(zip(self.given, self.features, strict=True)):
+            known = feature.get("geometry")
+            if isinstance(given, shapely.Geometry):
+                made[k] = given
+            elif known is not None:
+                made[k] = shapely.geometry.shape(known)
+        return made
+
     def rings(self) -> _core.CellRings:
         """The polygons of this argument alone."""
         return cells_from(self.cells, self.first, self.num_polygons)
 
 
-def operands(given: Mapping[str, Any], edges: Edges, threads: int | None) -> list[Operand]:
+def operands(
+    given: Mapping[str, Any], edges: Edges, threads: int | None, invalid: Invalid = "error"
+) -> list[Operand]:
     """The arguments by their names. Polygons of all of them are read together, so that they have
     the same corners along sides that they share.
     """
-    is_geodesic(edges)  # refuses other words, also where no polygons are read
-    made = [_operand(name, polygons, edges) for name, polygons in given.items()]
+    require_rules(edges=edges, invalid=invalid)
+    made = [operand_of(name, polygons, edges) for name, polygons in given.items()]
     bodies = [operand for operand in made if getattr(operand.source, "crs", None) is not None]
     for other in bodies[1:]:
         if other.source.crs != bodies[0].source.crs:
@@ -105,7 +124,7 @@ def operands(given: Mapping[str, Any], edges: Edges, threads: int | None) -> lis
                 f"{bodies[0].source.crs.name!r} and {other.source.crs.name!r}"
             )
     read = [operand for operand in made if not operand.is_of_cells]
-    cells = _read(read, edges, as_threads(threads))
+    cells = _read(read, edges, invalid, as_threads(threads))
     first = 0
     for operand in read:
         operand.cells, operand.first = cells, first
@@ -113,7 +132,8 @@ def operands(given: Mapping[str, Any], edges: Edges, threads: int | None) -> lis
     return made
 
 
-def _operand(name: str, given: Any, edges: Edges) -> Operand:
+def operand_of(name: str, given: Any, edges: Edges) -> Operand:
+    """An argument whose polygons are not read yet."""
     if isinstance(given, (CellSet, Regions)):
         rings = given._rings if isinstance(given, Regions) else given._cells.rings()
         return Operand(name, (rings.num_cells,), is_of_cells=True, cells=rings)
@@ -125,32 +145,31 @@ def _operand(name: str, given: Any, edges: Edges) -> Operand:
         raise ValueError(f"{name}: {error}") from None
     if source is not None:
         source = in_degrees(source, edges)
-        features = [feature_of(shape) for shape in source.geometry]
-        return Operand(name, (len(features),), features, source=source, encoding=encoding)
+        shapes = [*source.geometry]
+        features = [feature_of(shape) for shape in shapes]
+        return Operand(name, (len(features),), features, shapes, source=source, encoding=encoding)
     if is_box(given):
         given = box_of(*map(float, given))
     known = given if isinstance(given, Mapping) else getattr(given, "__geo_interface__", None)
     if known is not None:
-        return _operand_of_mapping(name, known)
+        return _operand_of_mapping(name, known, given)
     if given is None:
-        return Operand(name, (), [feature_of(None)])
+        return Operand(name, (), [feature_of(None)], [None])
     if not isinstance(given, Iterable):
         raise TypeError(f"{name} must be polygons or a CellSet, not {type(given).__name__}")
     flat = given.ravel() if isinstance(given, np.ndarray) else list(given)
     shape = given.shape if isinstance(given, np.ndarray) else (len(flat),)
-    return Operand(name, shape, [feature_of(geometry) for geometry in flat])
+    return Operand(name, shape, [feature_of(geometry) for geometry in flat], [*flat])
 
 
-def _operand_of_mapping(name: str, known: Mapping[str, Any]) -> Operand:
+def _operand_of_mapping(name: str, known: Mapping[str, Any], given: Any) -> Operand:
     if "crs" in known:  # refused if it is not in degrees
         nothing = {"type": "FeatureCollection", "features": [], "crs": known["crs"]}
-        features_of(
-            nothing, "lonlat", "keep", lambda file, *_: _core.read_polygons(file, "lonlat", 1)
-        )
+        features_of(nothing, "lonlat", lambda file: _core.read_polygons(file, "lonlat", "error", 1))
     if known.get("type") == "FeatureCollection" and "features" in known:
         features = [feature_of(feature) for feature in known["features"]]
-        return Operand(name, (len(features),), features)
-    return Operand(name, (), [feature_of(known)])
+        return Operand(name, (len(features),), features, [None] * len(features))
+    return Operand(name, (), [feature_of(known)], [given])
 
 
 def _frame_of(given: Any) -> tuple[Any, str | None]:
@@ -181,10 +200,55 @@ def _frame_of(given: Any) -> tuple[Any, str | None]:
     return made, "WKB" if is_wkb else "geoarrow"
 
 
-def _read(read: list[Operand], edges: Edges, threads: int) -> _core.CellRings:
-    features = [feature for operand in read for feature in operand.features]
-    if not features:
+def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> _core.CellRings:
+    if not any(operand.num_polygons for operand in read):
         return _core.CellRings()
+    cells, remarks = _told(
+        read, edges, lambda file: _core.read_polygons(file, edges, invalid, threads)
+    )
+    for remark in remarks:
+        warn_caller(remark)
+    return cells
+
+
+def faults_of(operand: Operand, edges: Edges, threads: int | None) -> list[str]:
+    """What is wrong with each polygon; an empty text for those that are valid or missing."""
+    require_rules(edges=edges)
+    number = as_threads(threads)
+    if not operand.num_polygons:
+        return []
+    faults, _ = _told(
+        [operand], edges, lambda file: (_core.polygon_faults(file, edges, number), ())
+    )
+    return [*faults]
+
+
+def repaired_cells(
+    operand: Operand, is_faulty: BoolArray, edges: Edges, threads: int | None
+) -> _core.CellRings:
+    """The cells of some polygons, repaired; those of others have no rings."""
+    nothing = feature_of(None)
+    features = [
+        feature if is_taken else nothing
+        for feature, is_taken in zip(operand.features, is_faulty, strict=True)
+    ]
+    number = as_threads(threads)
+    cells, _ = _told(
+        [replace(operand, features=features)],
+        edges,
+        lambda file: _core.read_polygons(file, edges, "repair", number),
+    )
+    made: _core.CellRings = cells
+    return made
+
+
+def _told(
+    read: list[Operand], edges: Edges, call: Callable[[str | bytes], tuple[Any, Sequence[str]]]
+) -> tuple[Any, list[str]]:
+    """The result of a call with all polygons as a file, and remarks. These and errors have the name
+    of the argument and the number of the geometry.
+    """
+    features = [feature for operand in read for feature in operand.features]
 
     def owner(match: re.Match[str]) -> str:
         number = int(match[1])
@@ -198,17 +262,12 @@ def _read(read: list[Operand], edges: Edges, threads: int) -> _core.CellRings:
         return re.sub(r"^(?:geometries: )?(?:geometry|feature) ([0-9]+)", owner, text)
 
     try:
-        cells, remarks = features_of(
-            {"type": "FeatureCollection", "features": features},
-            edges,
-            "keep",
-            lambda file, *_: _core.read_polygons(file, edges, threads),
+        result, remarks = features_of(
+            {"type": "FeatureCollection", "features": features}, edges, call
         )
     except ValueError as error:
         raise ValueError(named(str(error))) from None
-    for remark in remarks:
-        warn_caller(named(remark))
-    return cells
+    return result, [named(remark) for remark in remarks]
 
 
 def cells_from(cells: _core.CellRings, first: int, number: int) -> _core.CellRings:

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_radius, as_threads
-from ._geometries import Edges
+from ._geometries import Edges, Invalid
 from ._operands import (
     Operand,
     cell_set,
@@ -32,6 +32,7 @@ def intersection(
     b: Any,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     align: bool = True,
     threads: int | None = None,
@@ -50,6 +51,10 @@ def intersection(
         What joins positions, in arguments and in results: straight lines in longitude and latitude
         as in RFC 7946 (default), or great circles, which need no positions in between. It has no
         effect on cells.
+    invalid : {'error', 'repair'}, optional
+        What to do with polygons that are not valid: 'error' (default) raises an error that names
+        the first one, what is wrong with it, and a place; 'repair' makes them valid, as
+        `make_valid` does, and warns of it. It has no effect on cells.
     tolerance_deg : float, optional
         The largest distance of a result's straight lines from its arcs, in degrees; by default
         0.01. Lines get positions in between until they are so near, unless edges are geodesic.
@@ -79,6 +84,11 @@ def intersection(
     TypeError
         If an argument has no polygons.
 
+    Warns
+    -----
+    UserWarning
+        If polygons were repaired, or have no area but for rounding.
+
     Notes
     -----
     All is computed on the sphere, where sides are arcs of great circles. Which sides cross is
@@ -102,7 +112,7 @@ def intersection(
     <POLYGON EMPTY>
 
     """
-    return _pairwise(a, b, "intersection", edges, tolerance_deg, align, threads)
+    return _pairwise(a, b, "intersection", edges, invalid, tolerance_deg, align, threads)
 
 
 def union(
@@ -110,6 +120,7 @@ def union(
     b: Any,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     align: bool = True,
     threads: int | None = None,
@@ -118,7 +129,7 @@ def union(
 
     Parameters
     ----------
-    a, b, edges, tolerance_deg, align, threads
+    a, b, edges, invalid, tolerance_deg, align, threads
         As in `intersection`.
 
     Returns
@@ -139,7 +150,7 @@ def union(
     True
 
     """
-    return _pairwise(a, b, "union", edges, tolerance_deg, align, threads)
+    return _pairwise(a, b, "union", edges, invalid, tolerance_deg, align, threads)
 
 
 def difference(
@@ -147,6 +158,7 @@ def difference(
     b: Any,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     align: bool = True,
     threads: int | None = None,
@@ -155,7 +167,7 @@ def difference(
 
     Parameters
     ----------
-    a, b, edges, tolerance_deg, align, threads
+    a, b, edges, invalid, tolerance_deg, align, threads
         As in `intersection`.
 
     Returns
@@ -177,7 +189,7 @@ def difference(
     (1, True)
 
     """
-    return _pairwise(a, b, "difference", edges, tolerance_deg, align, threads)
+    return _pairwise(a, b, "difference", edges, invalid, tolerance_deg, align, threads)
 
 
 def symmetric_difference(
@@ -185,6 +197,7 @@ def symmetric_difference(
     b: Any,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     align: bool = True,
     threads: int | None = None,
@@ -193,7 +206,7 @@ def symmetric_difference(
 
     Parameters
     ----------
-    a, b, edges, tolerance_deg, align, threads
+    a, b, edges, invalid, tolerance_deg, align, threads
         As in `intersection`.
 
     Returns
@@ -214,13 +227,14 @@ def symmetric_difference(
     <POLYGON EMPTY>
 
     """
-    return _pairwise(a, b, "symmetric_difference", edges, tolerance_deg, align, threads)
+    return _pairwise(a, b, "symmetric_difference", edges, invalid, tolerance_deg, align, threads)
 
 
 def union_all(
     geometries: Any,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     threads: int | None = None,
 ) -> Any:
@@ -230,7 +244,7 @@ def union_all(
     ----------
     geometries : polygons
         One or many, as in `intersection`.
-    edges, tolerance_deg, threads
+    edges, invalid, tolerance_deg, threads
         As in `intersection`.
 
     Returns
@@ -253,7 +267,7 @@ def union_all(
     ('Polygon', (-180.0, -5.0, 180.0, 5.0))
 
     """
-    (given,) = operands({"geometries": geometries}, edges, threads)
+    (given,) = operands({"geometries": geometries}, edges, threads, invalid)
     made = _core.unite(given.rings(), as_threads(threads))
     if given.is_of_cells:
         return cell_set(made, threads)
@@ -265,6 +279,7 @@ def area(
     radius: float = 1.0,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     threads: int | None = None,
 ) -> Any:
     """Computes the areas of polygons on the sphere.
@@ -276,7 +291,7 @@ def area(
     radius : float, optional
         The radius of the sphere; by default 1, for steradians. With 6371.0088, the mean radius of
         the Earth, areas are in square kilometers.
-    edges, threads
+    edges, invalid, threads
         As in `intersection`.
 
     Returns
@@ -302,7 +317,7 @@ def area(
 
     """
     radius = as_radius(radius)
-    return _measured(geometries, edges, threads, "areas", radius * radius)
+    return _measured(geometries, edges, invalid, threads, "areas", radius * radius)
 
 
 def length(
@@ -310,6 +325,7 @@ def length(
     radius: float = 1.0,
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     threads: int | None = None,
 ) -> Any:
     """Computes the lengths of the borders of polygons on the sphere.
@@ -321,7 +337,7 @@ def length(
     radius : float, optional
         The radius of the sphere; by default 1, for radians. With 6371.0088, the mean radius of the
         Earth, lengths are in kilometers.
-    edges, threads
+    edges, invalid, threads
         As in `intersection`.
 
     Returns
@@ -348,7 +364,7 @@ def length(
     40030.23
 
     """
-    return _measured(geometries, edges, threads, "lengths", as_radius(radius))
+    return _measured(geometries, edges, invalid, threads, "lengths", as_radius(radius))
 
 
 def overlay(
@@ -357,6 +373,7 @@ def overlay(
     how: How = "intersection",
     *,
     edges: Edges = "lonlat",
+    invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     return_indices: bool = False,
     threads: int | None = None,
@@ -372,7 +389,7 @@ def overlay(
         default); what is in no polygon of the other set, of the first one ('difference') or of both
         ('symmetric_difference'); intersections and what is in the first set alone ('identity'); or
         all ('union').
-    edges, tolerance_deg, threads
+    edges, invalid, tolerance_deg, threads
         As in `intersection`.
     return_indices : bool, optional
         Whether to return the polygons of each piece as well; by default False.
@@ -414,7 +431,7 @@ def overlay(
     [0.7143, 0.2857]
 
     """
-    first, second = operands({"a": a, "b": b}, edges, threads)
+    first, second = operands({"a": a, "b": b}, edges, threads, invalid)
     cells, rows, others, do_overlap = _core.overlay_pieces(
         first.rings(), second.rings(), how, as_threads(threads)
     )
@@ -463,11 +480,12 @@ def _pairwise(
     b: Any,
     how: How,
     edges: Edges,
+    invalid: Invalid,
     tolerance_deg: float,
     align: bool,
     threads: int | None,
 ) -> Any:
-    first, second = operands({"a": a, "b": b}, edges, threads)
+    first, second = operands({"a": a, "b": b}, edges, threads, invalid)
     i, k, shape, index = _paired(first, second, align)
     is_missing = (i < 0) | (k < 0)
     for operand, rows in ((first, i), (second, k)):
@@ -509,9 +527,14 @@ def _paired(first: Operand, second: Operand, align: bool) -> tuple[Any, Any, tup
 
 
 def _measured(
-    geometries: Any, edges: Edges, threads: int | None, measure: str, unit: float
+    geometries: Any,
+    edges: Edges,
+    invalid: Invalid,
+    threads: int | None,
+    measure: str,
+    unit: float,
 ) -> float | FloatArray:
-    (given,) = operands({"geometries": geometries}, edges, threads)
+    (given,) = operands({"geometries": geometries}, edges, threads, invalid)
     values: FloatArray = getattr(given.rings(), measure)() * unit
     values[given.is_missing] = np.nan
     return values.reshape(given.shape)[()]

@@ -15,15 +15,17 @@ from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
 from ._errors import warn_caller
-from ._geo import Path, polygon_frame, written
+from ._geo import Path, arrow_of, polygon_frame, written
 from ._geometries import (
     Edges,
     Groups,
+    Invalid,
     PolygonOverlap,
     features_of,
     is_file,
     polygons_of,
     read_cells,
+    require_rules,
 )
 from ._pickled import arrays_of, with_arrays
 from ._plot import RegionPictures
@@ -280,6 +282,12 @@ class Regions(Described, RegionPictures):
     def __geo_interface__(self) -> dict[str, Any]:
         return self.to_geojson()
 
+    def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:
+        """Hands the regions to another library as an array of geoarrow.multipolygon: the polygons
+        of `to_geojson`, and an empty one for each region that has no area.
+        """
+        return arrow_of(self._rings, "together")
+
     def _facts(self) -> list[tuple[str, str]]:
         empty = int(np.count_nonzero(self.areas == 0))
         facts = [("regions", count(len(self), "region"))]
@@ -298,6 +306,7 @@ class CellRegions:
         values: ArrayLike | None = None,
         edges: Edges = "lonlat",
         overlap: Literal["error", "first"] = "error",
+        invalid: Invalid = "error",
         threads: int | None = None,
         progress: Progress = None,
     ) -> Regions:
@@ -320,6 +329,8 @@ class CellRegions:
             What to do, if there are `values`, with a place that several regions contain: 'error'
             (default) raises an error that names two of them, 'first' gives it to the first one. It
             has no effect without values.
+        invalid
+            As in `CellSet.read`.
         threads : int, optional
             The largest number of threads; by default one for each core.
         progress : callable, optional
@@ -339,6 +350,11 @@ class CellRegions:
         OSError
             If the file cannot be read.
 
+        Warns
+        -----
+        UserWarning
+            If polygons were repaired, or have no area but for rounding.
+
         Notes
         -----
         Which sides cross is decided exactly, and two regions that meet have the same corners there,
@@ -354,15 +370,15 @@ class CellRegions:
         [4.0, 4.0, 4.0, 4.0, 8.0, 0.0]
 
         """
-        _require_rules(edges, overlap)
+        require_rules(edges, overlap, invalid)
         cells = CellSet.voronoi(self, threads=threads)._cells
         shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
         if values is None:
-            within = as_cell_set(regions, edges, shared, threads)._cells
+            within = as_cell_set(regions, edges, shared, invalid, threads)._cells
             found = _core.clip(cells, within, as_threads(threads), progress)
             return Regions._of(found, np.arange(len(self.points)), "site")
         numbers, names = _numbered(values)
-        within = as_cell_set(regions, edges, shared, threads, numbers)._cells
+        within = as_cell_set(regions, edges, shared, invalid, threads, numbers)._cells
         _require_size(numbers, within.num_cells, "values", "regions")
         found, sites, groups = _core.intersection(
             cells, within, numbers, as_threads(threads), progress
@@ -415,6 +431,7 @@ def feature_cells(
     radius_km: float = EARTH_RADIUS_KM,
     edges: Edges = "lonlat",
     overlap: Literal["error", "first"] = "error",
+    invalid: Invalid = "error",
     within: Any = None,
     threads: int | None = None,
     progress: Progress = None,
@@ -439,6 +456,8 @@ def feature_cells(
     overlap : {'error', 'first'}, optional
         What to do with a place that several polygons contain: 'error' (default) raises an error
         that names two of them, 'first' gives it to the first one.
+    invalid
+        As in `CellSet.read`, for the polygons of the features and of `within`.
     within : path-like, geometries or CellSet, optional
         Regions to which the cells are clipped, as `SphericalVoronoi.clip` takes them; by default
         cells are not clipped.
@@ -484,15 +503,14 @@ def feature_cells(
     for name, value in (("tolerance_km", tolerance_km), ("radius_km", radius_km)):
         if not float(value) > 0:
             raise ValueError(f"{name} must be positive, not {float(value):g}")
-    _require_rules(edges, overlap)
+    require_rules(edges, overlap, invalid)
     tolerance = float(tolerance_km) / float(radius_km)
-    area = None if within is None else as_cell_set(within, edges, "keep", threads)._cells
+    area = None if within is None else as_cell_set(within, edges, "keep", invalid, threads)._cells
     found, remarks = features_of(
         features,
         edges,
-        overlap,
-        lambda name, edges, rule: _core.feature_cells(
-            name, tolerance, edges, rule, area, as_threads(threads), progress
+        lambda name: _core.feature_cells(
+            name, tolerance, edges, overlap, invalid, area, as_threads(threads), progress
         ),
     )
     for remark in remarks:
@@ -500,25 +518,18 @@ def feature_cells(
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
-def _require_rules(edges: str, overlap: str) -> None:
-    """Refuses other words, also where no polygons are read to which they matter."""
-    if edges not in ("lonlat", "geodesic"):
-        raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
-    if overlap not in ("error", "first"):
-        raise ValueError(f"overlap must be 'error' or 'first', not {overlap!r}")
-
-
 def as_cell_set(
     regions: Any,
     edges: Edges,
     overlap: PolygonOverlap,
+    invalid: Invalid,
     threads: int | None,
     groups: Groups = None,
 ) -> CellSet:
     """The regions as cells; polygons whose group is below 0 are left out."""
     if isinstance(regions, CellSet):
         return regions
-    rules = edges, overlap, as_threads(threads), groups
+    rules = edges, overlap, invalid, as_threads(threads), groups
     if is_file(regions):
         return CellSet._of(read_cells(os.fspath(regions), *rules))
     return CellSet._of(polygons_of(regions, *rules))

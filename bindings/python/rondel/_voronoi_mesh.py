@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_name, as_threads, frozen
-from ._geometries import Edges
+from ._geometries import Edges, Invalid
 from ._mesh_making import ScvtReport
 from ._mesh_parts import plot_mesh, removed_cells
 from ._pickled import arrays_of, with_arrays
@@ -238,6 +238,7 @@ class Mesh:
         inside: Any = None,
         outside: Any = None,
         edges: Edges = "lonlat",
+        invalid: Invalid = "error",
         threads: int | None = None,
     ) -> Culled:
         """Removes cells from the mesh.
@@ -256,6 +257,8 @@ class Mesh:
         edges : {'lonlat', 'geodesic'}, optional
             What joins positions of polygons: straight lines in longitude and latitude as in RFC
             7946 (default), or great circles.
+        invalid
+            As in `CellSet.read`.
         threads : int, optional
             The largest number of threads; by default one for each core.
 
@@ -282,7 +285,7 @@ class Mesh:
         90
 
         """
-        removed = removed_cells(self.points, mask, inside, outside, edges, threads)
+        removed = removed_cells(self.points, mask, inside, outside, edges, invalid, threads)
         arrays, *maps = _core.cull_mesh(self._arrays, removed, as_threads(threads))
         return Culled(Mesh(arrays), *(frozen(numbers) for numbers in maps))
 
