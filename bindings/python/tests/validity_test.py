@@ -104,6 +104,55 @@ def test_rings_of_four_corners_become_those_of_geos(method):
         assert is_near(mine, shapely.make_valid(ring, method=method))
 
 
+def anywhere(rng, n):
+    return rng.uniform((-180, -90), (180, 90), (n, 2))
+
+
+def on_a_wide_lattice(rng, n):
+    return np.stack([rng.integers(-4, 5, n) * 45, rng.integers(-2, 3, n) * 45], -1)
+
+
+def beyond_the_map(rng, n):
+    return np.stack([rng.integers(-400, 400, n), rng.choice([-90, -80, 0, 80, 90], n)], -1)
+
+
+def beside_the_antimeridian(rng, n):
+    lon = rng.uniform(160, 200, n)
+    return np.stack([np.where(lon > 180, lon - 360, lon), rng.uniform(-30, 30, n)], -1)
+
+
+def around_the_pole(rng, n):
+    return np.stack([np.linspace(-180, 170, n), rng.uniform(40, 90, n)], -1)
+
+
+HOSTILE = (
+    anywhere,
+    on_a_wide_lattice,
+    beyond_the_map,
+    beside_the_antimeridian,
+    around_the_pole,
+)
+
+
+@pytest.mark.parametrize("places", HOSTILE)
+def test_rings_of_any_form_become_valid(places):
+    rng = np.random.default_rng(4)
+    given = [shapely.Polygon(places(rng, rng.integers(3, 12))) for _ in range(20)]
+    found = rondel.make_valid(given)
+    valid = rondel.is_valid(given)
+    assert not valid.all()
+    assert shapely.is_valid(found[~valid]).all()
+    assert rondel.is_valid(found).all()
+    assert all(a is b for a, b in zip(rondel.make_valid(found), found, strict=True))
+    bounds = shapely.bounds(found[~valid & ~shapely.is_empty(found)])
+    assert (np.abs(bounds) <= (180, 90, 180, 90)).all()
+    with pytest.warns(UserWarning, match="was repaired"):
+        cells = rondel.CellSet.from_geometries(given, invalid="repair")
+    # Lines of the result are within 0.01 degrees of the arcs.
+    near = 1e-9 + math.radians(0.01) * rondel.length(found)
+    assert (np.abs(rondel.area(found) - cells.areas) <= near).all()
+
+
 FAULTS = [
     (TIE, "ring 0 of part 0 crosses itself at 1 1"),
     (shapely.Polygon([(0, 0), (2, 0), (0, 0)]), "runs to and fro along a line"),
