@@ -123,8 +123,8 @@ Command add_repair_command(CLI::App& tool) {
       "are valid keep their corners and sides. Properties and ids stay. --json lists what was\n"
       "wrong with each feature.\n\n"
       "Examples:\n"
-      "  rondel repair digitized.geojson -o valid.geojson\n"
-      "  rondel repair digitized.geojson -o valid.gpkg --json");
+      "  rondel repair parcels.geojson -o valid.geojson\n"
+      "  rondel repair parcels.geojson -o valid.gpkg --json");
   return {parser, [options] { return run_repair(*options); }};
 }
 

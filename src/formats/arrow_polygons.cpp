@@ -104,10 +104,11 @@ ListLevel lists_of(const ArrowArray& array, std::uint64_t begin, std::uint64_t e
   };
   if (at(begin) < 0) refuse("has offsets that do not fit");
   level.first = static_cast<std::uint64_t>(at(begin));
-  for (std::uint64_t i = begin; i < end; ++i) {
-    if (at(i + 1) < at(i)) refuse("has offsets that do not fit");
-    level.offsets.push_back(static_cast<std::uint64_t>(at(i + 1)) - level.first);
-  }
+  level.offsets = system::offsets_of(end - begin, [&](std::size_t k) {
+    const Offset size = at(begin + k + 1) - at(begin + k);
+    if (size < 0) refuse("has offsets that do not fit");
+    return static_cast<std::uint64_t>(size);
+  });
   return level;
 }
 
@@ -282,9 +283,7 @@ LonLatMultiPolygons import_arrow(const ArrowSchema& schema, const ArrowArray& ar
     features.rows.offsets = levels.next();
   } else {
     features.rows.offsets = levels.next();
-    while (features.offsets.size() < features.rows.offsets.size()) {
-      features.offsets.push_back(features.offsets.size());
-    }
+    features.offsets = system::offsets_of(features.rows.size(), [](std::size_t) { return 1U; });
   }
   features.rows.rows.offsets = levels.next();
   features.rows.rows.values = levels.positions();

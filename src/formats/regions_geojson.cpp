@@ -240,10 +240,10 @@ LonLatMultiPolygons multipolygons(LonLatRegions regions, std::size_t num_cells) 
                       (regions.owners.empty() || regions.owners.back() < num_cells),
                   "owners");
   LonLatMultiPolygons features;
-  for (std::size_t i = 0; i < num_cells; ++i) {
-    const auto end = std::ranges::upper_bound(regions.owners, i);
-    features.offsets.push_back(static_cast<std::uint64_t>(end - regions.owners.begin()));
-  }
+  features.offsets = system::offsets_of(num_cells, [&](std::size_t cell) {
+    const auto [begin, end] = std::equal_range(regions.owners.begin(), regions.owners.end(), cell);
+    return static_cast<std::uint64_t>(end - begin);
+  });
   features.rows = std::move(regions.polygons);
   return features;
 }

@@ -13,6 +13,7 @@
 
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
+#include "rondel/arrow.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
@@ -92,6 +93,21 @@ void test_repairs(const std::string& path, PolygonOptions options) {
   }
 }
 
+// Drawn polygons come back from Arrow as they are, and are cells again.
+void test_arrow(const CellRings& cells) {
+  const LonLatMultiPolygons drawn =
+      multipolygons(region_polygons(cells, 1, {}, CellDrawing::apart), cells.num_cells());
+  ArrowSchema schema = {};
+  ArrowArray array = {};
+  export_arrow(drawn, PolygonEdges::lonlat, schema, array);
+  const LonLatMultiPolygons taken = import_arrow(schema, array);
+  array.release(&array);
+  schema.release(&schema);
+  require(taken == drawn, "polygons come back from Arrow");
+  const CellTable again = cells_of_polygons(taken, {.tolerance_deg = 1});
+  require(again.cells.num_cells() == cells.num_cells(), "a cell for each feature");
+}
+
 void test_features(const FeatureTable& table) {
   require(table.polygons.num_cells() == table.lines.size(), "a cell for each feature");
   require(table.lines.rows.offsets.back() == table.lines.rows.values.size(),
@@ -139,6 +155,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_overlaps(path, options); });
     fuzz::test_reader(path, [&] { fuzz::test_repairs(path, options); });
+    fuzz::test_reader(path, [&] { fuzz::test_arrow(read_polygons(path, options).cells); });
   }
   return 0;
 }

@@ -19,6 +19,7 @@ del sys.argv[1:]
 # What only a program can ask for, once; and the memory of vectors, which calls of others use.
 NOT_CALLED = {
     "operator",
+    "void",  # a member that is a pointer to a function
     "remove_temporaries",
     "allocate_large",
     "free_large",
