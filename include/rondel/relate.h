@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -76,6 +77,13 @@ struct Relation {
 ///         a point is no unit vector; (the index) if a polygon is not valid
 RONDEL_API std::vector<Relation> relate(const CellRings& first, const CellRings& second,
                                         const Execution& execution = {});
+
+/// Computes the relation of a polygon of A to a polygon of B for each pair, as relate() does.
+/// \param pairs  the indices of both polygons; a polygon may be in any number of pairs
+/// \throws InvalidInput as relate(); (the position of the pair) if a polygon does not exist
+RONDEL_API std::vector<Relation> relate_pairs(const CellRings& first, const CellRings& second,
+                                              std::span<const std::array<Index, 2>> pairs,
+                                              const Execution& execution = {});
 
 /// Two polygons, and how they lie to each other.
 struct RelatedPair {

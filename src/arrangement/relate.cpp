@@ -147,22 +147,37 @@ std::vector<std::array<Index, 2>> near_pairs(const PreparedOperands& operands, u
 
 std::vector<Relation> relate(const CellRings& first, const CellRings& second,
                              const Execution& execution) {
-  const system::Call call(execution);
-  const PreparedOperands operands(first, second, execution.threads);
   const std::size_t num_first = first.num_cells();
   const std::size_t num_second = second.num_cells();
   if (num_first != num_second && num_first != 1 && num_second != 1) {
     throw InvalidInput("there are " + std::to_string(num_first) + " and " +
                        std::to_string(num_second) + " polygons, neither equally many nor one");
   }
-  std::vector<Relation> result(num_first == 1 ? num_second : num_first);
+  std::vector<std::array<Index, 2>> pairs(num_first == 1 ? num_second : num_first);
+  for (Index i = 0; i < pairs.size(); ++i) {
+    pairs[i] = {num_first == 1 ? 0 : i, num_second == 1 ? 0 : i};
+  }
+  return relate_pairs(first, second, pairs, execution);
+}
+
+std::vector<Relation> relate_pairs(const CellRings& first, const CellRings& second,
+                                   std::span<const std::array<Index, 2>> pairs,
+                                   const Execution& execution) {
+  const system::Call call(execution);
+  const PreparedOperands operands(first, second, execution.threads);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    if (pairs[p][0] >= first.num_cells() || pairs[p][1] >= second.num_cells()) {
+      throw InvalidInput("a polygon of a pair does not exist", p);
+    }
+  }
+  std::vector<Relation> result(pairs.size());
   constexpr std::size_t grain = 16;
   system::parallel_for(execution.threads, result.size(), grain,
                        [&](std::size_t begin, std::size_t end) {
                          PairRelater relater(operands.points());
-                         for (std::size_t i = begin; i < end; ++i) {
-                           result[i] = relater(operands.first()[num_first == 1 ? 0 : i],
-                                               operands.second()[num_second == 1 ? 0 : i]);
+                         for (std::size_t p = begin; p < end; ++p) {
+                           const auto [i, k] = pairs[p];
+                           result[p] = relater(operands.first()[i], operands.second()[k]);
                          }
                        });
   return result;

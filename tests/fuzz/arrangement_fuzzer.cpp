@@ -140,6 +140,10 @@ void test_relations(const CellRings& a, const CellRings& b) {
     require(rows[k] == columns[k].transposed(), "polygons may be exchanged");
     require(rows[k].matches(rows[k].text()), "a relation is its own pattern");
   }
+  for (Index k = 0; k < columns.size(); ++k) {
+    const std::array<Index, 2> pair = {k, 0};
+    require(relate_pairs(two, one, {&pair, 1}, {1})[0] == columns[k], "a pair is what it is alone");
+  }
   for (const RelatedPair& pair : related_pairs(one, two, SpatialPredicate::intersects, {1})) {
     require(pair.relation == rows[pair.second], "a join has the relations of pairs");
     require(!pair.relation.is(SpatialPredicate::disjoint), "and none that is disjoint");

@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -16,8 +17,11 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/buffer.h"
+#include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
+#include "rondel/relate.h"
 #include "rondel/set_operations.h"
 
 namespace rondel::python {
@@ -84,6 +88,75 @@ std::tuple<CellRings, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, bool> piec
           indices_out(std::move(pieces.regions)), do_overlap};
 }
 
+// The relations of pairs.
+struct RelationsOfPairs {
+  std::vector<Relation> rows;
+};
+
+RelationsOfPairs relations_of(const CellRings& first, const CellRings& second,
+                              const IndexPairsIn& pairs, unsigned threads) {
+  return watched_quietly(pairs.shape(0), threads, [&](const Execution& execution) {
+    return RelationsOfPairs{
+        relate_pairs(first, second, rows_of<std::array<Index, 2>>(pairs), execution)};
+  });
+}
+
+// Returns the answers to a question about each pair.
+template <class Question>
+ArrayOut<std::uint8_t> answers(const RelationsOfPairs& relations, const Question& question) {
+  std::vector<std::uint8_t> found;
+  found.reserve(relations.rows.size());
+  for (const Relation& row : relations.rows) found.push_back(question(row) ? 1 : 0);
+  return to_array<std::uint8_t>(std::move(found));
+}
+
+void add_relations(nb::module_& module) {
+  nb::class_<RelationsOfPairs>(module, "RelationsOfPairs")
+      .def("texts",
+           [](const RelationsOfPairs& self) {
+             std::vector<std::string> texts;
+             for (const Relation& row : self.rows) texts.emplace_back(row.text());
+             return texts;
+           })
+      .def(
+          "are",
+          [](const RelationsOfPairs& self, nb::handle predicate) {
+            const auto asked = named<SpatialPredicate>("predicate", predicate);
+            return answers(self, [&](const Relation& row) { return row.is(asked); });
+          },
+          nb::arg("predicate").none())
+      .def(
+          "match",
+          [](const RelationsOfPairs& self, const std::string& pattern) {
+            (void)Relation().matches(pattern);  // refuses what is no pattern
+            return answers(self, [&](const Relation& row) { return row.matches(pattern); });
+          },
+          nb::arg("pattern"));
+  module.def("relations", &relations_of, nb::arg("first"), nb::arg("second"),
+             nb::arg("pairs").noconvert(), nb::arg("threads"));
+}
+
+// Returns the buffers of the features of a file, or of bytes of GeoJSON, and remarks.
+std::tuple<CellRings, std::vector<std::string>> buffers_in(const PathIn& path, double distance,
+                                                           double tolerance, nb::handle edges,
+                                                           nb::handle invalid, unsigned threads) {
+  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                               .invalid = named<InvalidPolygons>("invalid", invalid)};
+  return read_from(path, [&](const FileName& file) {
+    return watched_quietly(0, threads, [&](const Execution& execution) {
+      FeatureTable table = read_features(file, options, execution);
+      return std::tuple(buffered(table.lines, table.polygons, {distance, tolerance}, execution),
+                        std::move(table.facts.remarks));
+    });
+  });
+}
+
+CellRings buffers_of(const CellRings& cells, double distance, double tolerance, unsigned threads) {
+  return watched_quietly(cells.corners.size(), threads, [&](const Execution& execution) {
+    return buffered(cells, {distance, tolerance}, execution);
+  });
+}
+
 }  // namespace
 
 void add_polygons(nb::module_& module) {
@@ -102,6 +175,11 @@ void add_polygons(nb::module_& module) {
                                [&](const Execution& execution) { return unite(cells, execution); });
       },
       nb::arg("cells"), nb::arg("threads"));
+  add_relations(module);
+  module.def("buffers_in", &buffers_in, nb::arg("path"), nb::arg("distance"), nb::arg("tolerance"),
+             nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
+  module.def("buffers_of", &buffers_of, nb::arg("cells"), nb::arg("distance"), nb::arg("tolerance"),
+             nb::arg("threads"));
   module.def("faulty_cells", &faulty_cells, nb::arg("cells"), nb::arg("threads"));
   module.def(
       "repaired",

@@ -18,6 +18,10 @@ lonlat_grid, polygons
     Cells for it: a grid of the whole sphere, and polygons of files and libraries.
 overlay, intersection, union, union_all, difference, symmetric_difference
     Set operations on polygons, with the names of GeoPandas and shapely.
+relate, intersects, contains, within, covers, covered_by, touches, overlaps, equals, disjoint
+    How polygons lie to each other.
+buffer
+    The places within a distance of points, lines and polygons.
 area, length
     Measures of polygons on the sphere.
 make_valid, is_valid, validity_reason
@@ -72,6 +76,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from . import mesh as mesh
 from ._arrays import lonlat, point_set_hash, unit_vectors
+from ._buffer import buffer
 from ._cell_set import CellSet
 from ._cells import lonlat_grid, polygons
 from ._contours import Bands, Isolines
@@ -98,6 +103,19 @@ from ._power import PowerDiagram, power_diagram
 from ._queries import Where
 from ._regions import Regions, feature_cells
 from ._regridder import Regridder
+from ._relations import (
+    contains,
+    covered_by,
+    covers,
+    disjoint,
+    equals,
+    intersects,
+    overlaps,
+    relate,
+    relate_pattern,
+    touches,
+    within,
+)
 from ._remap import Remap, remap
 from ._validity import is_valid, make_valid, validity_reason
 from ._voronoi import SphericalVoronoi
@@ -136,29 +154,41 @@ __all__ = [
     "Weights",
     "Where",
     "area",
+    "buffer",
+    "contains",
     "convex_hull",
+    "covered_by",
+    "covers",
     "delaunay",
     "delaunay_lonlat",
     "difference",
+    "disjoint",
+    "equals",
     "feature_cells",
     "interpolate",
     "intersection",
+    "intersects",
     "is_valid",
     "length",
     "lonlat",
     "lonlat_grid",
     "make_valid",
+    "overlaps",
     "overlay",
     "point_set_hash",
     "polygons",
     "power_diagram",
     "read_weights",
+    "relate",
+    "relate_pattern",
     "remap",
     "symmetric_difference",
+    "touches",
     "union",
     "union_all",
     "unit_vectors",
     "validity_reason",
+    "within",
 ]
 
 if not TYPE_CHECKING:

@@ -211,6 +211,93 @@ def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> 
     return cells
 
 
+@dataclass
+class Pairs:
+    """The pairs of polygons of two arguments.
+
+    Attributes
+    ----------
+    first, second : ndarray of int, shape (n,)
+        The polygons of each row; -1 for none.
+    shape : tuple of int
+        The shape of the result.
+    index : pandas.Index or None
+        The index of the result if rows are aligned.
+    rows : ndarray of int, shape (m,)
+        The rows in which no polygon is missing.
+    cells : ndarray of int32, shape (m, 2)
+        The cells of these rows.
+
+    """
+
+    first: IntArray
+    second: IntArray
+    shape: tuple[int, ...]
+    index: Any
+    rows: IntArray
+    cells: IntArray
+
+    @property
+    def num_rows(self) -> int:
+        """How many rows there are."""
+        return len(self.first)
+
+
+def paired(first: Operand, second: Operand, align: bool) -> Pairs:
+    """Pairs by broadcasting; `align`: by the index of two tables."""
+    i, k, shape, index = _rows_of_pairs(first, second, align)
+    is_missing = (i < 0) | (k < 0)
+    for operand, rows in ((first, i), (second, k)):
+        is_missing[~is_missing] = operand.is_missing[rows[~is_missing]]
+    there = np.flatnonzero(~is_missing)
+    cells = np.column_stack([first.first + i[there], second.first + k[there]]).astype(np.int32)
+    return Pairs(i, k, shape, index, there, cells)
+
+
+def _rows_of_pairs(
+    first: Operand, second: Operand, align: bool
+) -> tuple[Any, Any, tuple[int, ...], Any]:
+    if align and first.source is not None and second.source is not None:
+        ours, theirs = first.source.index, second.source.index
+        if not ours.equals(theirs):
+            index, *rows = ours.join(theirs, how="outer", return_indexers=True)
+            i, k = (np.arange(len(index)) if row is None else row for row in rows)
+            return i, k, (len(index),), index
+    numbers = [np.arange(x.num_polygons).reshape(x.shape) for x in (first, second)]
+    try:
+        i, k = np.broadcast_arrays(*numbers)
+    except ValueError:
+        raise ValueError(
+            f"the shapes of a and b do not fit: {first.shape} and {second.shape}"
+        ) from None
+    return i.ravel(), k.ravel(), i.shape, None
+
+
+def buffers(
+    operand: Operand,
+    distance: float,
+    tolerance: float,
+    edges: Edges,
+    invalid: Invalid,
+    threads: int,
+) -> _core.CellRings:
+    """The buffers of points, lines and polygons."""
+    if operand.is_of_cells:
+        made: _core.CellRings = _core.buffers_of(operand.rings(), distance, tolerance, threads)
+        return made
+    if not operand.num_polygons:
+        return _core.CellRings()
+    cells, remarks = _told(
+        [operand],
+        edges,
+        lambda file: _core.buffers_in(file, distance, tolerance, edges, invalid, threads),
+    )
+    for remark in remarks:
+        warn_caller(remark)
+    made = cells
+    return made
+
+
 def faults_of(operand: Operand, edges: Edges, threads: int | None) -> list[str]:
     """What is wrong with each polygon; an empty text for those that are valid or missing."""
     require_rules(edges=edges)

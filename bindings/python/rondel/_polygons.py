@@ -18,6 +18,7 @@ from ._operands import (
     encoded,
     like,
     operands,
+    paired,
     rows_at,
 )
 from ._shapes import shapes_of
@@ -486,44 +487,25 @@ def _pairwise(
     threads: int | None,
 ) -> Any:
     first, second = operands({"a": a, "b": b}, edges, threads, invalid)
-    i, k, shape, index = _paired(first, second, align)
-    is_missing = (i < 0) | (k < 0)
-    for operand, rows in ((first, i), (second, k)):
-        is_missing[~is_missing] = operand.is_missing[rows[~is_missing]]
-    there = np.flatnonzero(~is_missing)
-    pairs = np.column_stack([first.first + i[there], second.first + k[there]]).astype(np.int32)
-    made = _core.combine_pairs(first.cells, second.cells, pairs, how, as_threads(threads))
-    made = cells_at(made, there, len(i))
-    leader, rows = (second, k) if first.is_single and not second.is_single else (first, i)
+    pairs = paired(first, second, align)
+    made = _core.combine_pairs(first.cells, second.cells, pairs.cells, how, as_threads(threads))
+    made = cells_at(made, pairs.rows, pairs.num_rows)
+    is_second = first.is_single and not second.is_single
+    leader, rows = (second, pairs.second) if is_second else (first, pairs.first)
     if leader.is_of_cells:
         return cell_set(made, threads)
     shapes = shapes_of(made, edges, tolerance_deg, threads, "apart")
-    shapes[is_missing] = None
+    shapes[np.setdiff1d(np.arange(pairs.num_rows), pairs.rows)] = None
     if leader.source is None:
-        return shapes.reshape(shape)[()]
+        return shapes.reshape(pairs.shape)[()]
+    index = pairs.index
     if index is None:
-        if shape != leader.shape:
-            raise ValueError(f"{leader.name} has {leader.shape[0]} rows, and the result {shape}")
+        if pairs.shape != leader.shape:
+            raise ValueError(
+                f"{leader.name} has {leader.shape[0]} rows, and the result {pairs.shape}"
+            )
         index = leader.source.index
     return like(leader, shapes, rows, index)
-
-
-def _paired(first: Operand, second: Operand, align: bool) -> tuple[Any, Any, tuple[int, ...], Any]:
-    """The polygons of each pair, the shape of the result, and its index if rows are aligned."""
-    if align and first.source is not None and second.source is not None:
-        ours, theirs = first.source.index, second.source.index
-        if not ours.equals(theirs):
-            index, *rows = ours.join(theirs, how="outer", return_indexers=True)
-            i, k = (np.arange(len(index)) if row is None else row for row in rows)
-            return i, k, (len(index),), index
-    numbers = [np.arange(x.num_polygons).reshape(x.shape) for x in (first, second)]
-    try:
-        i, k = np.broadcast_arrays(*numbers)
-    except ValueError:
-        raise ValueError(
-            f"the shapes of a and b do not fit: {first.shape} and {second.shape}"
-        ) from None
-    return i.ravel(), k.ravel(), i.shape, None
 
 
 def _measured(

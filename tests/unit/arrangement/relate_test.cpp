@@ -408,6 +408,11 @@ TEST(related_pairs, are_those_of_which_the_answer_is_yes) {
       for (std::size_t k = 0; k < row.size(); ++k) ASSERT_EQ(column[k], row[k].transposed());
       all.insert(all.end(), row.begin(), row.end());
     }
+    std::vector<std::array<Index, 2>> pairs_of_all;
+    for (Index i = 0; i < a.num_cells(); ++i) {
+      for (Index k = 0; k < b.num_cells(); ++k) pairs_of_all.push_back({i, k});
+    }
+    ASSERT_EQ(relate_pairs(a, b, pairs_of_all, {2}), all);
     const CellRings copy = b;
     for (const std::string_view name : names_of<SpatialPredicate>()) {
       const SpatialPredicate predicate = *from_name<SpatialPredicate>(name);
@@ -469,6 +474,8 @@ TEST(relate, refuses_what_is_no_valid_polygon) {
   CellRings three = two;
   add_cells(good, three);
   EXPECT_EQ(thrown_index([&] { return relate(two, three); }), InvalidInput::no_index);
+  const std::vector<std::array<Index, 2>> pairs = {{0, 0}, {0, 3}};
+  EXPECT_EQ(thrown_index([&] { return relate_pairs(two, three, pairs); }), 1U);
   EXPECT_EQ(thrown_index([&] { return related_pairs(good, good, SpatialPredicate::disjoint); }),
             InvalidInput::no_index);
 }
