@@ -116,10 +116,15 @@ Arrangement arrange(std::span<const Point> points, std::span<const Ends> arcs,
   validate_arcs(points, arcs);
   ArrangementState state = first_state(points, arcs, execution.threads);
   constexpr int max_steps = 64;
+  bool is_forced = false;
   for (int step = 0;; ++step) {
-    std::optional<arrangement::Snapped> snapped = arrangement::snap(state.arcs, execution.threads);
+    std::optional<arrangement::Snapped> snapped =
+        arrangement::snap(state.arcs, is_forced, execution.threads);
     if (!snapped) break;
     if (step == max_steps) throw std::runtime_error("rounded arcs do not cease to cross");
+    // Arcs may cross in a place that is as near to all of their ends, and that none of them has.
+    is_forced =
+        snapped->pieces.nodes == state.arcs.nodes && snapped->pieces.arcs == state.arcs.arcs;
     state.chains = refined(state.chains, snapped->chains);
     state.arcs = std::move(snapped->pieces);
     if (snapped->is_certain) break;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -81,28 +82,31 @@ struct RoughPlace {
   Index node;
 };
 
-// The nodes of a group that the arc is led through.
+// The order of nodes along an arc, and of nodes above each other.
+auto order_along(const PlaceAlong& place) {
+  return std::tuple(place.x.hi, place.x.lo, std::abs(place.height), place.node);
+}
+
+// The nodes of a group that are nearest to some place of the arc.
 class Envelope {
  public:
-  explicit Envelope(std::vector<PlaceAlong>& places) {
-    std::ranges::sort(places, {}, [](const PlaceAlong& p) {
-      return std::tuple(p.x.hi, p.x.lo, std::abs(p.height), p.node);
-    });
-    for (const PlaceAlong& place : places) add(place);
+  explicit Envelope(std::span<const PlaceAlong> sorted) {
+    for (const PlaceAlong& place : sorted) add(place);
   }
 
-  // Calls visit(node) for each node of which a place is within the radius, in order.
-  template <class Visit>
-  void visit(const Visit& visit) const {
+  // Returns the nodes of which such a place is within the radius, in order.
+  [[nodiscard]] std::vector<PlaceAlong> nearest() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<PlaceAlong> found;
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
       const PlaceAlong& place = nearest_[i];
       const double begin = i == 0 ? -infinity : middle_after(place, nearest_[i - 1]);
       const double end = i + 1 == nearest_.size() ? infinity : middle_after(place, nearest_[i + 1]);
       const double x = std::clamp(0.0, begin, end);
       const double y = place.height;
-      if (x * x + y * y <= arrangement_radius * arrangement_radius) visit(place.node);
+      if (x * x + y * y <= arrangement_radius * arrangement_radius) found.push_back(place);
     }
+    return found;
   }
 
  private:
@@ -113,9 +117,22 @@ class Envelope {
     const double y = (second.y - first.y).hi;
     return (x + y / x * (first.height + second.height)) / 2;
   }
+  // True if two nodes are above each other, up to rounding. Precondition: second.x >= first.x
+  static bool is_above(const PlaceAlong& first, const PlaceAlong& second) {
+    return (second.x - first.x).hi <= equality * (std::abs(first.height) + std::abs(second.height));
+  }
+  // True if a node is farther from the arc than another one, or as far, with a higher number.
+  static bool is_farther(const PlaceAlong& place, const PlaceAlong& other) {
+    const double away = std::abs(place.height) - std::abs(other.height);
+    if (std::abs(away) > equality * std::abs(other.height)) return away > 0;
+    return place.node > other.node;
+  }
   void add(const PlaceAlong& place) {
-    // One that is farther from the arc is nowhere nearer.
-    if (!nearest_.empty() && (place.x - nearest_.back().x).hi <= 0) return;
+    // Of nodes above each other one is nowhere nearer than the other one.
+    while (!nearest_.empty() && is_above(nearest_.back(), place)) {
+      if (is_farther(place, nearest_.back())) return;
+      nearest_.pop_back();
+    }
     while (nearest_.size() > 1 &&
            middle_after(nearest_.back(), place) <=
                middle_after(nearest_.back(), nearest_[nearest_.size() - 2])) {
@@ -124,13 +141,15 @@ class Envelope {
     nearest_.push_back(place);
   }
 
+  // The largest relative error of steps and heights, with room to spare.
+  static constexpr double equality = 0x1p-40;
   std::vector<PlaceAlong> nearest_;
 };
 
 }  // namespace
 
 bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<const Index> near,
-                          std::vector<Index>& chain) {
+                          std::span<const Index> required, std::vector<Index>& chain) {
   const NodesAlong along(nodes, arc);
   std::vector<RoughPlace> order;
   order.reserve(near.size() + 2);
@@ -152,9 +171,22 @@ bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<
       for (std::size_t m = i; m < k; ++m) {
         places.push_back(along.place(order[m].node, order[i].node));
       }
-      Envelope(places).visit([&](Index node) {
-        if (node != arc.from && node != arc.to) chain.push_back(node);
+      std::ranges::sort(places, {}, order_along);
+      std::vector<PlaceAlong> through = Envelope(places).nearest();
+      const std::size_t num_nearest = through.size();
+      std::ranges::copy_if(places, std::back_inserter(through), [&](const PlaceAlong& place) {
+        return std::ranges::find(required, place.node) != required.end();
       });
+      if (through.size() > num_nearest) {
+        std::ranges::sort(through, {}, order_along);
+        const auto is_same = [](const PlaceAlong& p, const PlaceAlong& q) {
+          return p.node == q.node;
+        };
+        through.erase(std::unique(through.begin(), through.end(), is_same), through.end());
+      }
+      for (const PlaceAlong& place : through) {
+        if (place.node != arc.from && place.node != arc.to) chain.push_back(place.node);
+      }
     }
     i = k;
   }

@@ -119,8 +119,13 @@ struct ChainBlock {
 class Chains {
  public:
   Chains(const NodedArcs& input, std::span<const Index> numbers, std::span<const Point> nodes,
-         const BentArcs& bent, const CompressedRows<Index>& crossing_nodes)
-      : input_(input), numbers_(numbers), nodes_(nodes), bent_(bent), own_(crossing_nodes) {}
+         const BentArcs& bent, const CompressedRows<Index>& crossing_nodes, bool is_forced)
+      : input_(input),
+        numbers_(numbers),
+        nodes_(nodes),
+        bent_(bent),
+        own_(crossing_nodes),
+        is_forced_(is_forced) {}
 
   void append(Index arc, ChainBlock& block) const {
     const NodedArc ends = {numbers_[input_.arcs[arc].from], numbers_[input_.arcs[arc].to]};
@@ -135,7 +140,8 @@ class Chains {
       }
     }
     if (bent_.is_bent(arc)) {
-      const bool is_crowded = append_nearest_nodes(nodes_, ends, through, block.nodes);
+      const std::span<const Index> required = is_forced_ ? own_[arc] : std::span<const Index>();
+      const bool is_crowded = append_nearest_nodes(nodes_, ends, through, required, block.nodes);
       block.is_certain = block.is_certain && !is_crowded && is_short(ends) && are_own(arc, through);
     } else if (!through.empty()) {
       append_nodes_on_arc(nodes_, ends, through, block.nodes);
@@ -164,6 +170,7 @@ class Chains {
   std::span<const Point> nodes_;
   const BentArcs& bent_;
   const CompressedRows<Index>& own_;
+  bool is_forced_;
 };
 
 // Returns the pairs of both lists, each once. The first list ascends, since nodes keep their order.
@@ -280,7 +287,7 @@ NumberedArcs numbered_arcs(std::span<const NodedArc> given, unsigned threads) {
   return result;
 }
 
-std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
+std::optional<Snapped> snap(const NodedArcs& input, bool is_forced, unsigned threads) {
   const BoxTree boxes = boxes_of(input, threads);
   const Contacts contacts = find_contacts(input, boxes, threads);
   const auto is_on = [&](const NearNode& pair) {
@@ -316,7 +323,7 @@ std::optional<Snapped> snap(const NodedArcs& input, unsigned threads) {
   const CompressedRows<Index> own =
       crossing_nodes(input.arcs.size(), contacts.crossings, places.numbers);
 
-  const Chains chains(input, nodes.numbers, nodes.points, bent, own);
+  const Chains chains(input, nodes.numbers, nodes.points, bent, own, is_forced);
   std::vector<ChainBlock> blocks(system::num_pieces(input.arcs.size(), grain));
   system::parallel_for(threads, input.arcs.size(), grain, [&](std::size_t begin, std::size_t end) {
     ChainBlock& block = blocks[begin / grain];

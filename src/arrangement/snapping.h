@@ -28,8 +28,9 @@ struct Snapped {
   bool is_certain = false;
 };
 
-// Returns nothing if no arcs cross and no node is within an arc.
-std::optional<Snapped> snap(const NodedArcs& input, unsigned threads);
+// Returns nothing if no arcs cross and no node is within an arc. With `is_forced` arcs are led
+// through the places of their crossings even where other nodes are as near.
+std::optional<Snapped> snap(const NodedArcs& input, bool is_forced, unsigned threads);
 
 // Points on different rays, along the spatial order, and the number of each given point among them.
 // One of the first `num_fixed` points stands for all points on its ray; otherwise the point with the

@@ -61,6 +61,18 @@ void make_two_scales(ArcSet& set, std::size_t size, RandomPlaces& random) {
   for (std::size_t i = 0; i < size; ++i) set.add(end(), end());
 }
 
+// Ends on a square grid of neighbouring doubles, whose diagonals cross where four of them are equally
+// near.
+void make_ulp_grid(ArcSet& set, std::size_t size, RandomPlaces& random) {
+  const auto coordinate = [&](double base) {
+    return base + 0x1p-81 * static_cast<double>(2 + random.integer(2));
+  };
+  const auto end = [&] {
+    return Point{-1, coordinate(0x1.fca7c320cfa64p-29), coordinate(0x1.41bb1577cdefp-29)};
+  };
+  for (std::size_t i = 0; i < size; ++i) set.add(end(), end());
+}
+
 void make_sphere(ArcSet& set, std::size_t size, RandomPlaces& random) {
   for (std::size_t i = 0; i < size; ++i) set.add(random.place(), random.place());
 }
@@ -132,6 +144,7 @@ const std::map<std::string, Maker>& makers() {
                                                    {"at_axis", on_grid_at_axis(1e-16)},
                                                    {"near_axis", on_grid_at_axis(1e-40)},
                                                    {"two_scales", make_two_scales},
+                                                   {"ulp_grid", make_ulp_grid},
                                                    {"nearly_half", make_nearly_half}};
   return all;
 }

@@ -32,6 +32,7 @@ struct ArcSet {
 //   at_axis       ends within a few 1e-16 of an axis, on a grid
 //   near_axis     ends within a few 1e-40 of an axis, on a grid
 //   two_scales    ends within 1e-20 of an axis, on a grid or an ulp away from it
+//   ulp_grid      ends on a square grid of neighbouring doubles near an axis
 //   nearly_half   arcs of nearly 180 degrees between two places up to rounding, and others
 std::vector<std::string> kinds_of_arc_sets();
 ArcSet arc_set(const std::string& kind, std::size_t size, std::uint64_t seed);

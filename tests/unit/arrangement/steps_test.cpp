@@ -164,7 +164,7 @@ std::vector<Index> chain_through(const std::vector<std::pair<double, double>>& p
     nodes.push_back({1, 0.25 + 64 * r * x, r * y});
   }
   std::vector<Index> chain;
-  is_crowded = arrangement::append_nearest_nodes(nodes, {0, 1}, near, chain);
+  is_crowded = arrangement::append_nearest_nodes(nodes, {0, 1}, near, {}, chain);
   return chain;
 }
 
