@@ -96,7 +96,10 @@ void append_line(std::span<const Point> line, double least_length, std::size_t f
   std::vector<Point>& points = loops.points.values;
   const std::size_t first = points.size();
   append_points(line, false, least_length, points);
-  for (std::size_t k = points.size() - 1; k-- > first + 1;) points.push_back(Point(points[k]));
+  for (std::size_t k = points.size() - 1; k-- > first + 1;) {
+    const Point back = points[k];
+    points.push_back(back);
+  }
   loops.end(points.size() > first + 1, feature);
 }
 

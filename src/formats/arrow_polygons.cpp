@@ -151,18 +151,19 @@ class ArrowLevels {
     if (begin_ == end_) return {};
     const std::string_view format(schema_->format);
     std::vector<LonLat> found(end_ - begin_);
+    const auto offset = static_cast<std::uint64_t>(array_->offset);
     if (format.starts_with("+w:")) {
       const std::size_t size = std::stoul(std::string(format.substr(3)));
       if (size < 2 || schema_->n_children != 1) refuse("has positions of one number");
-      const double* const values = numbers(0, (array_->offset + end_) * size);
+      const double* const values = numbers(0, (offset + end_) * size);
       for (std::size_t i = 0; i < found.size(); ++i) {
-        const std::size_t place = (array_->offset + begin_ + i) * size;
+        const std::size_t place = (offset + begin_ + i) * size;
         found[i] = {values[place], values[place + 1]};
       }
     } else if (format == "+s" && schema_->n_children >= 2) {
-      const std::size_t begin = array_->offset + begin_;
-      const double* const x = numbers(0, array_->offset + end_);
-      const double* const y = numbers(1, array_->offset + end_);
+      const std::size_t begin = offset + begin_;
+      const double* const x = numbers(0, offset + end_);
+      const double* const y = numbers(1, offset + end_);
       for (std::size_t i = 0; i < found.size(); ++i) found[i] = {x[begin + i], y[begin + i]};
     } else {
       refuse("has the format '" + std::string(format) + "' where a position is needed");

@@ -146,8 +146,8 @@ CellRings repaired_plane_feature(std::span<const map::LonLatRing> rings,
     if (r + 1 < rings.size() && rings[r + 1].is_hole) continue;
     polygons.end_cell();
     const auto of_polygon = std::span(sides).subspan(first_side, side - first_side);
-    known.push_back(of_polygon.empty() ? arrangement::KnownPlace{{0, 0, 1}, {1, 0, 0}, false}
-                                       : known_pole(of_polygon));
+    known.emplace_back(of_polygon.empty() ? arrangement::KnownPlace{{0, 0, 1}, {1, 0, 0}, false}
+                                          : known_pole(of_polygon));
     first_side = side;
   }
   return arrangement::even_odd_union(polygons, known, execution);

@@ -148,6 +148,23 @@ class Places {
   std::mt19937_64 random_;
 };
 
+// Expects that about 300 places of the border are at the distance from the feature.
+void expect_border(const Feature& feature, const CellRings& result, double size, double tolerance,
+                   Places& make) {
+  for (std::uint64_t r = result.cells[0]; r < result.cells[1]; ++r) {
+    const auto ring = result.corners_of(r);
+    for (std::size_t k = 0; k < ring.size(); k += 1 + make.below(1 + ring.size() / 150)) {
+      const Point& p = result.points[ring[k]];
+      const Point& q = result.points[ring[(k + 1) % ring.size()]];
+      for (const double part : {0.0, 0.2, 0.5}) {
+        const Point place = normalized((1 - part) * p + part * q);
+        const auto distance = static_cast<double>(distance_to_border(place, feature));
+        ASSERT_NEAR(distance, size, tolerance) << r << ' ' << k << ' ' << part;
+      }
+    }
+  }
+}
+
 // Expects that a buffer is valid, that its border is at the distance from the feature, and that it
 // has the places that it should have. `inside` is a place of the polygon, if the feature has one.
 void expect_buffer(const Feature& feature, const BufferOptions& options, const CellRings& result,
@@ -166,19 +183,7 @@ void expect_buffer(const Feature& feature, const BufferOptions& options, const C
     const double outwards = in_polygon(p) ? -distance : distance;
     return (options.distance - outwards) / tolerance;
   };
-  for (std::uint64_t r = result.cells[0]; r < result.cells[1]; ++r) {
-    const auto ring = result.corners_of(r);
-    // About 300 sides of a long ring.
-    for (std::size_t k = 0; k < ring.size(); k += 1 + make.below(1 + ring.size() / 150)) {
-      const Point& p = result.points[ring[k]];
-      const Point& q = result.points[ring[(k + 1) % ring.size()]];
-      for (const double part : {0.0, 0.2, 0.5}) {
-        const Point place = normalized((1 - part) * p + part * q);
-        const auto distance = static_cast<double>(distance_to_border(place, feature));
-        ASSERT_NEAR(distance, size, tolerance) << r << ' ' << k << ' ' << part;
-      }
-    }
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_border(feature, result, size, tolerance, make));
   // A place that is as deep in the buffer as any, or else far outside of it.
   std::vector<Point> places;
   for (int k = 0; k < 40; ++k) places.push_back(make.anywhere());

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -100,14 +101,17 @@ class Repairs : public testing::TestWithParam<int> {};
 // poles and the edges of the map; others cross at any place.
 TEST_P(Repairs, have_the_places_of_an_odd_number_of_sides) {
   Random random(static_cast<std::uint64_t>(GetParam()));
-  const int steps = std::array{2, 4, 8, 36}[static_cast<std::size_t>(GetParam() % 4)];
+  const std::uint64_t steps = std::array{2U, 4U, 8U, 36U}[static_cast<std::size_t>(GetParam() % 4)];
   FeatureInPlane feature(1 + random.below(3));
   for (PolygonInPlane& polygon : feature) {
     polygon.resize(1 + random.below(2));
     for (RingInPlane& ring : polygon) {
       for (std::uint64_t k = 3 + random.below(5); k > 0; --k) {
-        ring.push_back({-180 + 360.0 * static_cast<double>(random.below(steps + 1)) / steps,
-                        -90 + 180.0 * static_cast<double>(random.below(steps + 1)) / steps});
+        const auto part = [&] {
+          return static_cast<double>(random.below(steps + 1)) / static_cast<double>(steps);
+        };
+        const double lon = -180 + 360 * part();
+        ring.push_back({lon, -90 + 180 * part()});
       }
       // Longer sides would go the other way around the globe.
       for (std::size_t k = 0; k < ring.size(); ++k) {
