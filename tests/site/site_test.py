@@ -166,7 +166,8 @@ class Files(unittest.TestCase):
             if not page.exists():
                 continue
             names = self.readers[page].names
-            text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+            # What is declared before are structs of other specifications.
+            text = re.sub(r"//.*", "", header.read_text(encoding="utf-8")).partition("\nnamespace rondel")[2]
             for name, body in re.findall(r"^(?:class|struct) (?:RONDEL_API )?(\w+)[^;{]*\{\n(.*?)^\};", text, re.M | re.S):
                 public = body.split("private:")[0]
                 functions = re.findall(r"^  (?:\[\[nodiscard\]\] |static )[^;(]*?(\w+)\(", public, re.M)
