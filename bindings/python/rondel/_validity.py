@@ -57,7 +57,9 @@ def make_valid(
     A polygon has the places that an odd number of its rings' sides divides from the outside, and a
     geometry is the union of its polygons (docs/guide/polygons.md, "Repair"). So sides that cross
     get a corner there, a hole outside of its shell is a part, spikes vanish, and a ring around a
-    pole that is not led there gets the pole. No position moves but for rounding.
+    pole that is not led there gets the pole. No position moves but for rounding. Rings may meet
+    themselves in points and run to and fro; with edges in longitude and latitude they become
+    several rings, as shapely wants them.
 
     Examples
     --------
@@ -75,6 +77,11 @@ def make_valid(
         return cell_set(_core.repaired(given.cells, as_threads(threads)), threads)
     is_faulty = np.array([fault != "" for fault in faults_of(given, edges, threads)], bool)
     shapes = given.shapes()
+    if edges == "lonlat":
+        import shapely
+
+        # Rings may meet themselves here, but not in shapely.
+        is_faulty |= ~shapely.is_valid(shapes) & ~given.is_missing
     if is_faulty.any():
         cells = repaired_cells(given, is_faulty, edges, threads)
         shapes[is_faulty] = shapes_of(cells, edges, tolerance_deg, threads, "apart")[is_faulty]
