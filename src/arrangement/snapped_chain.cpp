@@ -128,7 +128,7 @@ class Envelope {
     return place.node > other.node;
   }
   void add(const PlaceAlong& place) {
-    // Of nodes above each other one is nowhere nearer than the other one.
+    // One of two nodes above each other is nowhere nearer than the other.
     while (!nearest_.empty() && is_above(nearest_.back(), place)) {
       if (is_farther(place, nearest_.back())) return;
       nearest_.pop_back();
