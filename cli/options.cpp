@@ -296,8 +296,8 @@ CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target) {
       "'rondel repair' does)");
 }
 
-CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::string& file,
-                              const std::string& what) {
+CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,
+                            const std::string& what) {
   const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };
   return parser.add_option_function<std::string>(name, take, what)->required();
 }

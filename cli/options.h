@@ -119,9 +119,9 @@ void require_array(const char* option, const std::string& path);
 /// --radius is one if the first of them is.
 void add_table_options(CLI::App& command, CommonOptions& options, const TablesRead& tables);
 
-/// Adds a required file beside INPUT, which may be standard input.
-CLI::Option* add_second_input(CLI::App& parser, const std::string& name, std::string& file,
-                              const std::string& what);
+/// Adds a required input file, which may be standard input.
+CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,
+                            const std::string& what);
 
 /// Adds a file of weights as INPUT. `of_others` ends the help of --input-format.
 void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others);

@@ -343,7 +343,7 @@ Command add_apply_command(CLI::App& tool) {
   CLI::App* parser = tool.add_subcommand("apply", "Apply a file of weights to values");
   add_weights_input(*parser, options->common,
                     ",\nor, if VALUES is -, of standard input: csv (default), tsv, npy or nc");
-  add_second_input(
+  add_input_file(
       *parser, "VALUES", options->values_file,
       "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
       "(fields, n), or netCDF: variables with the dimensions of the sources, FILE.nc:NAME\n"

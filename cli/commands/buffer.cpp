@@ -160,15 +160,10 @@ Command add_buffer_command(CLI::App& tool) {
   auto options = std::make_shared<BufferCommand>();
   CLI::App* parser =
       tool.add_subcommand("buffer", "Find the places within a distance of points, lines, polygons");
-  parser
-      ->add_option_function<std::string>(
-          "INPUT",
-          [given = options.get()](const std::string& file) {
-            given->common.input = standard(file, "/dev/stdin");
-          },
-          "Points, lines and polygons: .geojson; or sites: .csv .tsv .xyz .txt .npy, the places\n"
-          "of a netCDF file; or - for standard input, sites as CSV if no format is named")
-      ->required()
+  add_input_file(
+      *parser, "INPUT", options->common.input,
+      "Points, lines and polygons: .geojson; or sites: .csv .tsv .xyz .txt .npy, the places\n"
+      "of a netCDF file; or - for standard input, sites as CSV if no format is named")
       ->type_name("");
   parser
       ->add_option("--input-format", options->common.input_format,

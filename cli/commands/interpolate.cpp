@@ -334,7 +334,7 @@ Command add_interpolate_command(CLI::App& tool) {
   add_input_options(*parser, options->common, default_input_help, [given = options.get()] {
     return std::vector<FileName>{given->source_file(), given->target_file()};
   });
-  add_second_input(
+  add_input_file(
       *parser, "--to", options->target,
       "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
       "or values at places, or the centers of the cells of a grid, grid:DEG or\n"

@@ -113,17 +113,11 @@ Command add_overlay_command(CLI::App& tool) {
   auto options = std::make_shared<OverlayOptions>();
   CLI::App* parser =
       tool.add_subcommand("overlay", "Compute unions, intersections and differences of polygons");
-  parser
-      ->add_option_function<std::string>(
-          "INPUT",
-          [given = options.get()](const std::string& file) {
-            given->common.input = standard(file, "/dev/stdin");
-          },
-          "The polygons A: .geojson, or - for standard input")
-      ->required()
+  add_input_file(*parser, "INPUT", options->common.input,
+                 "The polygons A: .geojson, or - for standard input")
       ->type_name("");
-  add_second_input(*parser, "SECOND", options->second,
-                   "The polygons B; without them the union of A is written")
+  add_input_file(*parser, "SECOND", options->second,
+                 "The polygons B; without them the union of A is written")
       ->required(false)
       ->type_name("");
   parser

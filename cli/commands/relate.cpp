@@ -111,17 +111,11 @@ Command add_relate_command(CLI::App& tool) {
   auto options = std::make_shared<RelateOptions>();
   options->common.output = "-";
   CLI::App* parser = tool.add_subcommand("relate", "Find pairs of polygons by how they lie");
-  parser
-      ->add_option_function<std::string>(
-          "INPUT",
-          [given = options.get()](const std::string& file) {
-            given->common.input = standard(file, "/dev/stdin");
-          },
-          "The polygons A: .geojson, or - for standard input")
-      ->required()
+  add_input_file(*parser, "INPUT", options->common.input,
+                 "The polygons A: .geojson, or - for standard input")
       ->type_name("");
-  add_second_input(*parser, "SECOND", options->second,
-                   "The polygons B; without them the polygons of A are related to each other")
+  add_input_file(*parser, "SECOND", options->second,
+                 "The polygons B; without them the polygons of A are related to each other")
       ->required(false)
       ->type_name("");
   parser

@@ -203,8 +203,8 @@ Command add_remap_command(CLI::App& tool) {
         std::erase_if(sites, [](const FileName& file) { return form_of(file) != CellForm::sites; });
         return sites;
       });
-  add_second_input(*parser, "TARGET", options->target,
-                   "The cells that get the values, in the same forms")
+  add_input_file(*parser, "TARGET", options->target,
+                 "The cells that get the values, in the same forms")
       ->type_name("");
   add_output_option(
       *parser, options->common,

@@ -88,14 +88,8 @@ ExitStatus run_repair(const RepairOptions& options) {
 Command add_repair_command(CLI::App& tool) {
   auto options = std::make_shared<RepairOptions>();
   CLI::App* parser = tool.add_subcommand("repair", "Make polygons valid");
-  parser
-      ->add_option_function<std::string>(
-          "INPUT",
-          [given = options.get()](const std::string& file) {
-            given->common.input = standard(file, "/dev/stdin");
-          },
-          "The polygons: .geojson, or - for standard input")
-      ->required()
+  add_input_file(*parser, "INPUT", options->common.input,
+                 "The polygons: .geojson, or - for standard input")
       ->type_name("");
   parser
       ->add_option("--input-format", options->common.input_format,

@@ -27,6 +27,7 @@
 #include "map/region.h"
 #include "map/ring_area.h"
 #include "map/valid_regions.h"
+#include "overlay/single_cells.h"
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -115,21 +116,6 @@ std::vector<map::PolygonsOfRegion> draw_together(const RegionsToWrite& job) {
   return map::valid_regions(std::move(loops), job.execution.threads);
 }
 
-// Returns a cell alone, with its own points.
-CellRings single_cell(const CellRings& cells, std::size_t cell) {
-  CellRings single;
-  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-    for (const Index corner : ring_of(cells, r)) {
-      single.corners.push_back(static_cast<Index>(single.points.size()));
-      single.points.push_back(cells.points[corner]);
-    }
-    single.end_ring();
-  }
-  if (cells.is_whole(cell)) single.whole = {0};
-  single.end_cell();
-  return single;
-}
-
 // Returns the polygons of each cell, in degrees.
 std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
   if (job.drawing == CellDrawing::together) return draw_together(job);
@@ -138,7 +124,7 @@ std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
   system::parallel_for(
       job.execution.threads, drawn.size(), cells_per_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-          const CellRings single = single_cell(job.cells, i);
+          const CellRings single = overlay::one_cell(job.cells, static_cast<Index>(i));
           drawn[i] = std::move(draw_together({single, {}, job.tolerance, alone, {}}).front());
         }
       });
