@@ -9,5 +9,6 @@ rondel_add_test(arrangement_test
   arrangement/relate_test.cpp
   arrangement/relation_oracle.cpp
   arrangement/set_operations_test.cpp
+  arrangement/simplify_test.cpp
   arrangement/steps_test.cpp
   LIBS rondel_geo rondel_test_support)
