@@ -50,6 +50,7 @@ Command add_overlay_command(CLI::App& tool);
 Command add_repair_command(CLI::App& tool);
 Command add_relate_command(CLI::App& tool);
 Command add_buffer_command(CLI::App& tool);
+Command add_simplify_command(CLI::App& tool);
 Command add_hull_command(CLI::App& tool);
 Command add_check_command(CLI::App& tool);
 Command add_contours_command(CLI::App& tool);

@@ -56,6 +56,14 @@ CellDrawing drawing_of(const CellRings& cells, const Execution& execution) {
   return overlapping_cells(cells, execution).empty() ? CellDrawing::together : CellDrawing::apart;
 }
 
+void require_polygons(const FeatureTable& table) {
+  for (std::size_t f = 0; f < table.lines.size(); ++f) {
+    if (table.lines.offsets[f] == table.lines.offsets[f + 1]) continue;
+    throw FileError(table.facts.name + ": feature " + feature_name(table.facts.columns, f) +
+                    " has lines or points");
+  }
+}
+
 std::size_t num_not_empty(const CellRings& cells) {
   std::size_t number = cells.whole.size();
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {

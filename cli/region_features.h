@@ -17,6 +17,7 @@
 #include "options.h"
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
+#include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 
@@ -42,6 +43,9 @@ inline constexpr double mean_earth_radius = 6371.0088;
 
 /// Returns how cells are drawn: apart if they overlap, so that none loses a part.
 CellDrawing drawing_of(const CellRings& cells, const Execution& execution);
+
+/// Throws FileError for a feature with lines or points, which would not be among written polygons.
+void require_polygons(const FeatureTable& table);
 
 /// Returns how many cells have a place.
 std::size_t num_not_empty(const CellRings& cells);

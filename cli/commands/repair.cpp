@@ -32,15 +32,6 @@ struct RepairOptions {
   double tolerance_deg = 0.01;
 };
 
-// Throws FileError for a feature with lines or points, which would not be in OUTPUT.
-void require_polygons(const FeatureTable& table) {
-  for (std::size_t f = 0; f < table.lines.size(); ++f) {
-    if (table.lines.offsets[f] == table.lines.offsets[f + 1]) continue;
-    throw FileError(table.facts.name + ": feature " + feature_name(table.facts.columns, f) +
-                    " has lines or points");
-  }
-}
-
 // Returns what was repaired, as JSON.
 nlohmann::ordered_json repairs_of(const CellFacts& facts) {
   auto repairs = nlohmann::ordered_json::array();

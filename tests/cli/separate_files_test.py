@@ -35,6 +35,7 @@ COMMANDS = {
     "overlay": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".geojson"}),
     "repair": ("{INPUT}", ["INPUT"], {"--output": ".geojson"}),
     "relate": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".csv"}),
+    "simplify": ("{INPUT} --tolerance 1", ["INPUT"], {"--output": ".geojson"}),
     "buffer": ("{INPUT} --distance 1", ["INPUT"], {"--output": ".geojson"}),
     "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/arrangement.h, rondel/set_operations.h, rondel/relate.h and rondel/buffer.h: what they promise
-// of any arcs and rings.
+// rondel/arrangement.h, rondel/set_operations.h, rondel/relate.h, rondel/buffer.h and
+// rondel/simplify.h: what they promise of any arcs and rings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +17,7 @@
 #include "rondel/predicates.h"
 #include "rondel/relate.h"
 #include "rondel/set_operations.h"
+#include "rondel/simplify.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -178,6 +179,30 @@ void test_buffers(ByteSource& source, const CellRings& polygons, std::span<const
   require(is_within(shrunk, grown), "and in it");
 }
 
+void test_simplification(ByteSource& source, const CellRings& polygons) {
+  const CellRings sound = unite(polygons, {1});
+  SimplifyOptions options;
+  const CellRings same = simplified(sound, options, {1});
+  require(same.rings == sound.rings && is_equal(unite(same, {1}), sound),
+          "a tolerance of 0 changes nothing");
+  options.tolerance = std::ldexp(1.5, -static_cast<int>(source.below(30)));
+  options.drop_small = source.below(2) == 1;
+  const CellRings fewer = simplified(sound, options, {1});
+  require(is_equal(simplified(sound, options, {2}), fewer), "threads change nothing");
+  require(options.drop_small || fewer.rings.size() == sound.rings.size(), "no ring vanishes");
+  for (std::size_t r = 0; r + 1 < fewer.rings.size(); ++r) {
+    require(fewer.corners_of(r).size() >= 3, "rings have three corners");
+  }
+  require(std::ranges::all_of(fewer.points,
+                              [&](const Point& p) {
+                                return std::ranges::find(sound.points, p) != sound.points.end();
+                              }),
+          "corners are corners of the input");
+  const CellRings again = unite(fewer, {1});
+  require(again.corners.size() == fewer.corners.size() && again.whole == fewer.whole,
+          "what is simplified is valid");
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -197,6 +222,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CellRings b = polygons_of(source, {middle, points.end()});
     test_set_operations(a, b);
     test_relations(a, b);
+    test_simplification(source, a);
     test_buffers(source, a, std::span(points).subspan(half));
     return 0;
   }

@@ -5,6 +5,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -23,6 +24,7 @@
 #include "rondel/regions.h"
 #include "rondel/relate.h"
 #include "rondel/set_operations.h"
+#include "rondel/simplify.h"
 
 namespace rondel::python {
 namespace {
@@ -157,6 +159,34 @@ CellRings buffers_of(const CellRings& cells, double distance, double tolerance, 
   });
 }
 
+// Returns the simplified polygons of a file, or of bytes of GeoJSON, remarks, and whether they overlap.
+std::tuple<CellRings, std::vector<std::string>, bool> simplified_in(
+    const PathIn& path, double tolerance, bool drop_small, bool keep_boundary, double read_deg,
+    nb::handle edges, nb::handle invalid, unsigned threads) {
+  PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                         .invalid = named<InvalidPolygons>("invalid", invalid)};
+  options.tolerance_deg = std::min(options.tolerance_deg, read_deg);
+  const SimplifyOptions how{
+      .tolerance = tolerance, .drop_small = drop_small, .keep_boundary = keep_boundary};
+  return read_from(path, [&](const FileName& file) {
+    return watched_quietly(0, threads, [&](const Execution& execution) {
+      CellTable table = read_polygons(file, options, execution);
+      CellRings made = simplified(table.cells, how, execution);
+      const bool do_overlap = !overlapping_cells(made, execution).empty();
+      return std::tuple(std::move(made), std::move(table.facts.remarks), do_overlap);
+    });
+  });
+}
+
+CellRings simplified_of(const CellRings& cells, double tolerance, bool drop_small,
+                        bool keep_boundary, unsigned threads) {
+  const SimplifyOptions how{
+      .tolerance = tolerance, .drop_small = drop_small, .keep_boundary = keep_boundary};
+  return watched_quietly(cells.corners.size(), threads, [&](const Execution& execution) {
+    return simplified(cells, how, execution);
+  });
+}
+
 }  // namespace
 
 void add_polygons(nb::module_& module) {
@@ -180,6 +210,11 @@ void add_polygons(nb::module_& module) {
              nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
   module.def("buffers_of", &buffers_of, nb::arg("cells"), nb::arg("distance"), nb::arg("tolerance"),
              nb::arg("threads"));
+  module.def("simplified_in", &simplified_in, nb::arg("path"), nb::arg("tolerance"),
+             nb::arg("drop_small"), nb::arg("keep_boundary"), nb::arg("read_deg"),
+             nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
+  module.def("simplified_of", &simplified_of, nb::arg("cells"), nb::arg("tolerance"),
+             nb::arg("drop_small"), nb::arg("keep_boundary"), nb::arg("threads"));
   module.def("faulty_cells", &faulty_cells, nb::arg("cells"), nb::arg("threads"));
   module.def(
       "repaired",

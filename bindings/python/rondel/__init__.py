@@ -22,6 +22,8 @@ relate, intersects, contains, within, covers, covered_by, touches, overlaps, equ
     How polygons lie to each other.
 buffer
     The places within a distance of points, lines and polygons.
+simplify
+    Polygons with fewer corners and the same topology.
 area, length
     Measures of polygons on the sphere.
 make_valid, is_valid, validity_reason
@@ -117,6 +119,7 @@ from ._relations import (
     within,
 )
 from ._remap import Remap, remap
+from ._simplify import simplify
 from ._validity import is_valid, make_valid, validity_reason
 from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
@@ -182,6 +185,7 @@ __all__ = [
     "relate",
     "relate_pattern",
     "remap",
+    "simplify",
     "symmetric_difference",
     "touches",
     "union",

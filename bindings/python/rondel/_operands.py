@@ -298,6 +298,16 @@ def buffers(
     return made
 
 
+def told_by_core(
+    operand: Operand, edges: Edges, call: Callable[[str | bytes], tuple[Any, Sequence[str]]]
+) -> Any:
+    """The result of a call with the polygons as a file; remarks become warnings."""
+    result, remarks = _told([operand], edges, call)
+    for remark in remarks:
+        warn_caller(remark)
+    return result
+
+
 def faults_of(operand: Operand, edges: Edges, threads: int | None) -> list[str]:
     """What is wrong with each polygon; an empty text for those that are valid or missing."""
     require_rules(edges=edges)

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel simplify: polygons with fewer corners.
+// in    polygons of a file
+// out   the same features, within a distance of what they were
+// index features
+#include "rondel/simplify.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "job.h"
+#include "region_features.h"
+#include "report.h"
+#include "rondel/feature_cells.h"
+#include "rondel/polygon_files.h"
+#include "rondel/regions.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel simplify`.
+struct SimplifyCommand {
+  CommonOptions common;
+  double tolerance_km = 0;
+  double radius_km = mean_earth_radius;
+  SimplifyOptions simplify;
+  PolygonOptions polygons;
+
+  // A sixteenth of the tolerance is for lines of INPUT that become arcs, another one for arcs that
+  // become lines of OUTPUT.
+  [[nodiscard]] double share() const { return tolerance_km / radius_km / 16; }
+  [[nodiscard]] double share_deg() const { return share() * 180 / std::numbers::pi; }
+};
+
+// Throws FileError for files that cannot be read or written, UsageError.
+ExitStatus run_simplify(SimplifyCommand options) {
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_regions(common.target()), ".geojson .gpkg .fgb .parquet");
+  require_region_writer(common.target());
+  options.polygons.tolerance_deg = std::min(options.polygons.tolerance_deg, options.share_deg());
+  options.simplify.tolerance = 14 * options.share();
+  Job job(common);
+  FeatureTable table;
+  CellRings simple;
+  job.time(Stage::dual, [&] {
+    table = read_features(common.source(), options.polygons, job.execution());
+    require_polygons(table);
+    tell(table.facts.name, table.facts.remarks);
+    simple = simplified(table.polygons, options.simplify, job.execution());
+  });
+  const std::size_t number = num_not_empty(simple);
+  if (number < num_not_empty(table.polygons)) {
+    tell(table.facts.name,
+         {"left out " + count(num_not_empty(table.polygons) - number, "feature", "features") +
+          " whose rings are smaller than the tolerance"});
+  }
+  job.time(Stage::write, [&] {
+    write_regions(common.target(), simple, table.facts.columns, std::min(0.01, options.share_deg()),
+                  job.execution(), {}, drawing_of(simple, job.execution()));
+  });
+  const std::size_t before = table.polygons.corners.size();
+  const std::size_t after = simple.corners.size();
+  const double seconds = job.seconds().total;
+  job.report(nlohmann::ordered_json{{"features", number},
+                                    {"corners", after},
+                                    {"corners_before", before},
+                                    {"seconds", seconds}}
+                     .dump(2) +
+                 '\n',
+             "kept " + std::to_string(after) + " of " + count(before, "corner", "corners") +
+                 "\nwrote " + count(number, "polygon", "polygons") + " to " + common.output +
+                 " in " + text_of_seconds(seconds) + '\n');
+  return done;
+}
+
+}  // namespace
+
+Command add_simplify_command(CLI::App& tool) {
+  auto options = std::make_shared<SimplifyCommand>();
+  CLI::App* parser =
+      tool.add_subcommand("simplify", "Remove corners of polygons within a distance");
+  add_input_file(*parser, "INPUT", options->common.input,
+                 "The polygons: .geojson, or - for standard input")
+      ->type_name("");
+  parser
+      ->add_option("--input-format", options->common.input_format,
+                   "Format of standard input, or of INPUT: geojson")
+      ->type_name("FORMAT");
+  add_output_option(*parser, options->common,
+                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
+                    ".parquet")
+      ->required();
+  parser
+      ->add_option("--tolerance", options->tolerance_km,
+                   "How far lines of OUTPUT may be from those of INPUT that they replace")
+      ->check(positive_error)
+      ->type_name("KM")
+      ->required();
+  parser
+      ->add_option("--earth-radius", options->radius_km,
+                   "The radius of the sphere (default: 6371.0088, the Earth's mean radius)")
+      ->check(positive_error)
+      ->type_name("KM");
+  parser->add_flag("--drop-small", options->simplify.drop_small,
+                   "Remove rings that are nowhere wider than the tolerance (default: they keep\n"
+                   "three corners)");
+  parser->add_flag("--keep-boundary", options->simplify.keep_boundary,
+                   "Keep the corners that are on a ring of one polygon alone");
+  add_word<PolygonEdges>(
+      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
+      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
+      "RFC 7946) or geodesic (great circles)");
+  add_invalid_option(*parser, options->polygons.invalid);
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "All features are simplified together: a border that two of them share stays common to\n"
+      "them, without gaps and overlaps, and corners where three meet stay. No ring crosses itself\n"
+      "or another one, turns around or vanishes, and holes stay in their polygons. Corners of\n"
+      "OUTPUT are corners of INPUT, but for those that lines along great circles get in longitude\n"
+      "and latitude. Distances are along great circles. Properties stay.\n\n"
+      "Examples:\n"
+      "  rondel simplify countries.geojson --tolerance 5 -o few.geojson\n"
+      "  rondel simplify islands.geojson --tolerance 1 --drop-small -o large.geojson");
+  return {parser, [options] { return run_simplify(*options); }};
+}
+
+}  // namespace rondel::cli
