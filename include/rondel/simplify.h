@@ -15,6 +15,9 @@
 
 namespace rondel {
 
+/// A function that returns the tolerance at a place, in radians.
+using ToleranceAt = std::function<double(const Point&)>;
+
 /// How far simplified lines may be from the given ones, and what else may change.
 struct SimplifyOptions {
   /// Radians along great circles; not negative. Below 2^-44 (0.4 micrometers on the Earth) nothing
@@ -22,7 +25,7 @@ struct SimplifyOptions {
   double tolerance = 0;
   /// The tolerance at a place, where it is not the same everywhere; it replaces `tolerance`. It is
   /// called once for each corner, by one thread.
-  std::function<double(const Point&)> tolerance_at = {};
+  ToleranceAt tolerance_at = {};
   /// Whether rings vanish that are nowhere wider than the tolerance. By default they stay, with
   /// three corners or more.
   bool drop_small = false;
