@@ -77,11 +77,9 @@ class NeighborFinder {
   // Something passes a node between two others.
   void pass(Index from, Index node, Index to) {
     Pair& known = neighbors_[node];
-    if (from == to || known == fixed) {
-      known = fixed;
-    } else if (known == unknown) {
+    if (known == unknown && from != to) {
       known = {from, to};
-    } else if (known != Pair{from, to} && known != Pair{to, from}) {
+    } else if (from == to || (known != Pair{from, to} && known != Pair{to, from})) {
       known = fixed;
     }
   }
