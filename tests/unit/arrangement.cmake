@@ -5,6 +5,7 @@ rondel_add_test(arrangement_test
   arrangement/arrange_test.cpp
   arrangement/buffer_test.cpp
   arrangement/exact_places_test.cpp
+  arrangement/geometries_test.cpp
   arrangement/halfedges_test.cpp
   arrangement/relate_test.cpp
   arrangement/relation_oracle.cpp

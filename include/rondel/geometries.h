@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Set operations on points, lines and polygons together: lines clipped by polygons, points in
+/// polygons, lines divided where they cross, and the lines and points in which polygons touch
+/// (target rondel::geo). For polygons alone see rondel/set_operations.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rondel/cell_rings.h"
+#include "rondel/compressed_rows.h"
+#include "rondel/export.h"
+#include "rondel/feature_cells.h"
+#include "rondel/set_operations.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// Geometries of points, lines and polygons. Geometry i has the places of all of its parts: group i
+/// of `lines`, in which a line of one point is that point, and cell i of `polygons`.
+struct Geometries {
+  FeatureLines lines;
+  CellRings polygons;  ///< as many cells as `lines` has groups
+
+  [[nodiscard]] std::size_t size() const { return lines.size(); }
+};
+
+/// Computes a set operation on two sets of geometries, each of which counts as its union.
+///
+/// What places are in the result: polygons are closed, so that their boundary belongs to them, and
+/// lines have their ends. A result is closed, too. It has
+/// 1. the polygon that combine() returns for the polygons of both operands, with corners where
+///    lines meet its sides;
+/// 2. lines: what fits to the operation of lines and of polygons' sides, and is not in the polygon
+///    of 1. So the intersection of a line and a polygon has the pieces of the line along the
+///    polygon's side, and the difference has not; and two polygons that touch in a side have this
+///    side in common;
+/// 3. points, likewise, that are not in the polygon and on no line of 2.
+///
+/// Lines of a result meet in their ends alone. They end where one edge or more than two edges of
+/// the result meet, and go on elsewhere, also where a line of an operand ends: as after
+/// shapely.line_merge(shapely.union_all(...)). A line has the direction of the lines of A along it,
+/// or else of B; where these disagree, that of the larger number of edges, or from the end that is
+/// lower in the spatial order. A closed line has its first point at its end again.
+///
+/// Which places lie on a line or in a polygon is exact. All arcs are arranged together
+/// (rondel/arrangement.h): points of lines and corners stay bit by bit, places where arcs cross are rounded to doubles, and
+/// no two arcs of a result cross after that. The result depends on the two sets of places and
+/// directions alone, not on the order of geometries, lines and points, nor on the number of
+/// threads. An operation on results finds the same places again.
+/// \param first, second  A and B; points as arrange() wants them
+/// \return one geometry
+/// \throws InvalidInput if offsets do not fit or the numbers of groups and cells differ; (the
+///         position of the geometry, those of B after those of A) if a line has no point, or leads
+///         to the opposite point, up to 2^-45, or a point is no unit vector; or as combine() for
+///         polygons
+RONDEL_API Geometries combine(const Geometries& first, const Geometries& second,
+                              SetOperation operation, const Execution& execution = {});
+
+/// Computes the union of all geometries: combine() with no second operand. Lines are divided where
+/// they cross, and what occurs twice is there once.
+RONDEL_API Geometries unite(const Geometries& geometries, const Execution& execution = {});
+
+/// Computes a set operation on pairs of geometries, each pair by itself: geometry k of the result
+/// is that of `pairs[k][0]` of A and `pairs[k][1]` of B.
+/// \throws InvalidInput if offsets do not fit, or (the position of the pair) if a geometry does not
+///         exist or is one that combine() refuses
+RONDEL_API Geometries combine_pairs(const Geometries& first, const Geometries& second,
+                                    std::span<const std::array<Index, 2>> pairs,
+                                    SetOperation operation, const Execution& execution = {});
+
+/// Pieces of geometries: piece k is of geometry `first[k]` of A and `second[k]` of B, no_index for
+/// none.
+struct GeometryPieces {
+  Geometries pieces;
+  std::vector<Index> first;
+  std::vector<Index> second;
+};
+
+/// Divides two sets of geometries by each other, as overlay_pieces() divides polygons: into what a
+/// geometry of A and one of B have in common, and what is in none of the other set. Each piece has
+/// polygons, lines and points as the result of combine(). A place of several geometries of one set
+/// is in several pieces, such as a line along the border of two polygons.
+/// \return pieces sorted by both geometries
+/// \throws InvalidInput as combine()
+RONDEL_API GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,
+                                         SetOperation operation, const Execution& execution = {});
+
+/// Computes the length of each feature's lines in radians: the sum of the lengths of their arcs. It
+/// is 0 for points.
+RONDEL_API std::vector<double> lengths(const FeatureLines& lines);
+
+}  // namespace rondel

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The sides of all polygons are arranged; faces get the polygons that have them (coverage.h). A
+// halfedge whose face has a region, while the face beyond does not, is on the border of the region,
+// and borders are joined into rings.
+#include "arrangement/set_regions.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "arrangement/halfedges.h"
+#include "arrangement/lower_parts.h"
+#include "system/row_assembly.h"
+
+namespace rondel::arrangement {
+namespace {
+
+// Returns the polygons of each edge, of which an odd number of rings runs along it.
+CompressedRows<EdgeOfPolygon> polygons_of_edges(const Arrangement& arranged,
+                                                std::span<const Index> polygons) {
+  system::RowPlaces<std::uint64_t> places(arranged.edges.size());
+  for (std::size_t arc = 0; arc < polygons.size(); ++arc) {
+    if (polygons[arc] == no_index) continue;
+    for (const Index h : arranged.chains[arc]) places.count(h / 2);
+  }
+  std::vector<EdgeOfPolygon> all(places.sum());
+  for (std::size_t arc = 0; arc < polygons.size(); ++arc) {
+    if (polygons[arc] == no_index) continue;
+    for (const Index h : arranged.chains[arc]) {
+      all[places.place(h / 2)] = {polygons[arc], h % 2 == 0 ? 1 : -1};
+    }
+  }
+  const std::vector<std::uint64_t> offsets = std::move(places).offsets();
+  CompressedRows<EdgeOfPolygon> result;
+  result.offsets.reserve(offsets.size());
+  result.values.reserve(all.size());
+  for (std::size_t edge = 0; edge < arranged.edges.size(); ++edge) {
+    const auto row = std::span(all).subspan(offsets[edge], offsets[edge + 1] - offsets[edge]);
+    std::ranges::sort(row, {}, &EdgeOfPolygon::polygon);
+    for (std::size_t k = 0; k < row.size();) {
+      EdgeOfPolygon sum = {row[k].polygon, 0};
+      for (; k < row.size() && row[k].polygon == sum.polygon; ++k) sum.sum += row[k].sum;
+      if (sum.sum % 2 != 0) result.values.push_back(sum);
+    }
+    result.end_row();
+  }
+  return result;
+}
+
+// A halfedge with a region to its left, and not to its right.
+struct BorderHalfedge {
+  RegionKey key;
+  Index halfedge;
+  friend auto operator<=>(const BorderHalfedge&, const BorderHalfedge&) = default;
+};
+
+// Joins the halfedges around a region into simple rings.
+class RingWalk {
+ public:
+  explicit RingWalk(const Halfedges& halfedges)
+      : halfedges_(halfedges),
+        is_left_(halfedges.size(), 0),
+        places_(halfedges.num_nodes(), no_index) {}
+
+  // Returns rings of nodes.
+  std::vector<std::vector<Index>> rings(std::span<const BorderHalfedge> border) {
+    rings_.clear();
+    for (const BorderHalfedge& part : border) is_left_[part.halfedge] = 1;
+    for (const BorderHalfedge& part : border) {
+      if (is_left_[part.halfedge] == 1) walk(part.halfedge);
+    }
+    for (const BorderHalfedge& part : border) is_left_[part.halfedge] = 0;
+    return std::move(rings_);
+  }
+
+ private:
+  // Walks around a part of the region. Where the way comes back to a node, the part of it since
+  // then is a ring.
+  void walk(Index start) {
+    Index h = start;
+    do {
+      is_left_[h] = 2;
+      add(halfedges_.origin(h));
+      Index following = halfedges_.next(h);
+      while (is_left_[following] == 0) following = halfedges_.next(Halfedges::twin(following));
+      h = following;
+    } while (h != start);
+    cut(0);
+  }
+  void add(Index node) {
+    if (places_[node] != no_index) cut(places_[node]);
+    places_[node] = static_cast<Index>(path_.size());
+    path_.push_back(node);
+  }
+  void cut(std::size_t begin) {
+    const auto first = path_.begin() + static_cast<std::ptrdiff_t>(begin);
+    rings_.emplace_back(first, path_.end());
+    for (const Index node : rings_.back()) places_[node] = no_index;
+    path_.erase(first, path_.end());
+  }
+
+  const Halfedges& halfedges_;
+  std::vector<std::uint8_t> is_left_;  // 0: no border, 1: border, 2: border that is in a ring
+  std::vector<Index> places_;          // of each node, on the path
+  std::vector<Index> path_;
+  std::vector<std::vector<Index>> rings_;
+};
+
+// Returns the sides with some polygons replaced by what they are alone, so that it does not depend on
+// the others.
+Sides mended(const Sides& sides, const std::vector<Index>& polygons, const Execution& execution) {
+  std::vector<Index> places(sides.operands.size(), no_index);  // among those that are replaced
+  for (Index k = 0; k < polygons.size(); ++k) places[polygons[k]] = k;
+  std::vector<Sides> alone(polygons.size());
+  Sides result = sides;
+  result.are_mended = true;
+  result.arcs.clear();
+  result.polygons.clear();
+  result.lines.clear();
+  for (std::size_t arc = 0; arc < sides.arcs.size(); ++arc) {
+    const Index polygon = sides.polygons[arc];
+    const bool is_replaced = polygon != no_index && places[polygon] != no_index;
+    Sides& target = is_replaced ? alone[places[polygon]] : result;
+    if (is_replaced) {
+      for (const Index end : sides.arcs[arc]) target.points.push_back(sides.points[end]);
+      const auto size = static_cast<Index>(target.points.size());
+      target.arcs.push_back({size - 2, size - 1});
+    } else {
+      target.arcs.push_back(sides.arcs[arc]);
+      if (!sides.lines.empty()) target.lines.push_back(sides.lines[arc]);
+    }
+    target.polygons.push_back(is_replaced ? 0 : polygon);
+  }
+  for (std::size_t k = 0; k < polygons.size(); ++k) {
+    alone[k].operands = {0};
+    const Region region =
+        joined_region(alone[k], SetOperation::unite, RegionParts::areas, execution);
+    if (region.is_whole) result.whole[sides.operands[polygons[k]]].push_back(polygons[k]);
+    result.append_rings(region.rings, polygons[k]);
+  }
+  if (!sides.lines.empty()) result.lines.resize(result.arcs.size(), no_index);
+  return result;
+}
+
+bool is_less(const Point& p, const Point& q) {
+  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+}
+
+// Returns the regions that have a border, of which the halfedges are sorted.
+std::vector<Region> bordered_regions(const Arrangement& arranged, const Halfedges& halfedges,
+                                     std::span<const BorderHalfedge> border) {
+  std::vector<Region> regions;
+  RingWalk walk(halfedges);
+  for (std::size_t begin = 0; begin < border.size();) {
+    std::size_t end = begin + 1;
+    while (end < border.size() && border[end].key == border[begin].key) ++end;
+    Region& region = regions.emplace_back(Region{border[begin].key, {}});
+    for (const auto& nodes : walk.rings(border.subspan(begin, end - begin))) {
+      std::vector<Point> ring;
+      ring.reserve(nodes.size());
+      for (const Index node : nodes) ring.push_back(arranged.nodes[node]);
+      region.rings.push_back(std::move(ring));
+    }
+    begin = end;
+  }
+  return regions;
+}
+
+// Returns the regions with lines, which are sorted by their keys, too.
+std::vector<Region> with_lines(std::vector<Region> regions, const Arrangement& arranged,
+                               std::span<const KeyedLine> lines) {
+  std::vector<Region> result;
+  std::size_t next = 0;
+  for (const KeyedLine& line : lines) {
+    while (next < regions.size() && regions[next].key <= line.key) {
+      result.push_back(std::move(regions[next++]));
+    }
+    if (result.empty() || result.back().key != line.key) result.push_back({line.key, {}});
+    std::vector<Point>& points = result.back().lines.emplace_back();
+    for (const Index node : line.nodes) points.push_back(arranged.nodes[node]);
+  }
+  while (next < regions.size()) result.push_back(std::move(regions[next++]));
+  return result;
+}
+
+}  // namespace
+
+std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, RegionParts parts,
+                               const Execution& execution) {
+  const unsigned threads = execution.threads;
+  const Arrangement arranged = arrange(sides.points, sides.arcs, execution);
+  std::vector<RegionKey> keys_of_first_face;
+  std::vector<BorderHalfedge> border;
+  const Halfedges halfedges(arranged, threads);
+  const CompressedRows<EdgeOfPolygon> polygons = polygons_of_edges(arranged, sides.polygons);
+  std::optional<LowerParts> lower;
+  if (parts == RegionParts::all) {
+    lower.emplace(arranged, halfedges, polygons, sides, rule, threads);
+  }
+  if (arranged.edges.empty()) {
+    const Owners owners = sides.owners_without_edges();
+    rule.append_keys(owners, keys_of_first_face);
+    if (lower) lower->see_only_face(owners);
+  } else {
+    Coverage coverage(halfedges, polygons, sides.operands, sides.whole, sides.known, threads);
+    const bool do_others_divide = sides.operands.size() > 1 || !sides.lines.empty();
+    if (!sides.are_mended && do_others_divide && !coverage.contradictory().empty()) {
+      return regions_of(mended(sides, coverage.contradictory(), execution), rule, parts, execution);
+    }
+    bool is_first = true;
+    std::vector<RegionKey> keys;
+    coverage.visit([&](Index h, const Owners& owners) {
+      if (lower) lower->see(h, owners);
+      keys.clear();
+      rule.append_keys(owners, keys);
+      if (is_first) keys_of_first_face = keys;
+      is_first = false;
+      for (const RegionKey& key : keys) {
+        if (rule.ends_at(key, owners, polygons[h / 2], sides.operands)) border.push_back({key, h});
+      }
+    });
+    std::ranges::sort(border);
+  }
+  std::vector<Region> regions = bordered_regions(arranged, halfedges, border);
+  // A region without a border is everywhere, so also in the first face.
+  for (const RegionKey& key : keys_of_first_face) {
+    const auto place = std::ranges::lower_bound(regions, key, {}, &Region::key);
+    if (place == regions.end() || place->key != key) regions.insert(place, {key, {}, true});
+  }
+  return lower ? with_lines(std::move(regions), arranged, lower->lines()) : regions;
+}
+
+Region joined_region(const Sides& sides, SetOperation operation, RegionParts parts,
+                     const Execution& execution) {
+  std::vector<Region> regions = regions_of(sides, RegionRule(operation, true), parts, execution);
+  return regions.empty() ? Region{} : std::move(regions.front());
+}
+
+CellRings cells_of(std::span<const Region> regions) {
+  CellRings result;
+  for (const Region& region : regions) {
+    for (const auto& ring : region.rings) {
+      result.points.insert(result.points.end(), ring.begin(), ring.end());
+    }
+  }
+  std::ranges::sort(result.points, is_less);
+  result.points.erase(std::unique(result.points.begin(), result.points.end()), result.points.end());
+  const auto number_of = [&](const Point& p) {
+    return static_cast<Index>(std::ranges::lower_bound(result.points, p, is_less) -
+                              result.points.begin());
+  };
+  for (const Region& region : regions) {
+    std::vector<std::vector<Index>> rings;
+    rings.reserve(region.rings.size());
+    for (const auto& points : region.rings) {
+      std::vector<Index> ring;
+      ring.reserve(points.size());
+      for (const Point& p : points) ring.push_back(number_of(p));
+      std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
+      rings.push_back(std::move(ring));
+    }
+    std::ranges::sort(rings);
+    if (region.is_whole) result.whole.push_back(static_cast<Index>(result.num_cells()));
+    for (const auto& ring : rings) result.append_ring(ring);
+    result.end_cell();
+  }
+  return result;
+}
+
+}  // namespace rondel::arrangement
