@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two boxes, one across the date line and one around it: their union, what only one of them has, and
-// how they lie to each other.
+// how they lie to each other, and a line that is divided by one of them.
 
 #include "rondel/set_operations.h"
 
 #include <cstdio>
 #include <exception>
 
+#include "rondel/geometries.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
 #include "rondel/rondel.h"
@@ -60,12 +61,32 @@ void relate_boxes() {
   }
 }
 
+void clip_line() {
+  const rondel::CellRings high = box(170, -40, 190, 40);
+  rondel::Geometries lines;
+  for (const double lon : {150.0, 175.0, 210.0}) {
+    lines.lines.rows.values.push_back(rondel::unit_vector({lon, 0}));
+  }
+  lines.lines.rows.end_row();
+  lines.lines.end_group();
+  lines.polygons.end_cell();
+  rondel::Geometries boxes{{}, high};
+  boxes.lines.end_group();
+  const auto inside = rondel::combine(lines, boxes, rondel::SetOperation::intersection);
+  const auto outside = rondel::combine(lines, boxes, rondel::SetOperation::difference);
+  std::printf("inside: %d line, %.9f radians\n", static_cast<int>(inside.lines.rows.size()),
+              rondel::lengths(inside.lines)[0]);
+  std::printf("outside: %d lines, %.9f radians\n", static_cast<int>(outside.lines.rows.size()),
+              rondel::lengths(outside.lines)[0]);
+}
+
 }  // namespace
 
 int main() {
   try {
     combine_boxes();
     relate_boxes();
+    clip_line();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "set_operations: %s\n", error.what());
     return 1;

@@ -3,6 +3,8 @@
 
 // rondel/arrangement.h, rondel/set_operations.h, rondel/relate.h, rondel/buffer.h and
 // rondel/simplify.h: what they promise of any arcs and rings.
+// rondel/arrangement.h, rondel/set_operations.h, rondel/geometries.h, rondel/relate.h and
+// rondel/buffer.h: what they promise of any arcs and rings.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/arrangement.h"
 #include "rondel/buffer.h"
+#include "rondel/geometries.h"
 #include "rondel/predicates.h"
 #include "rondel/relate.h"
 #include "rondel/set_operations.h"
@@ -157,6 +160,47 @@ void test_relations(const CellRings& a, const CellRings& b) {
   }
 }
 
+bool is_equal(const Geometries& a, const Geometries& b) {
+  return a.lines == b.lines && is_equal(a.polygons, b.polygons);
+}
+
+// Each polygon gets a line of some of the points, or one of them.
+Geometries geometries_of(ByteSource& source, const CellRings& polygons,
+                         std::span<const Point> points) {
+  Geometries made{{}, polygons};
+  for (std::size_t c = 0; c < polygons.num_cells(); ++c) {
+    std::vector<Point> line;
+    for (std::size_t k = points.empty() ? 0 : source.below(4); k > 0; --k) {
+      const Point& p = points[source.below(points.size())];
+      if (line.empty() || !are_opposite(line.back(), p)) line.push_back(p);
+    }
+    if (!line.empty()) made.lines.rows.append(line);
+    made.lines.end_group();
+  }
+  return made;
+}
+
+void test_geometries(const Geometries& a, const Geometries& b) {
+  const auto length_of = [&](SetOperation operation) {
+    return lengths(combine(a, b, operation, {1}).lines)[0];
+  };
+  const Geometries either = combine(a, b, SetOperation::unite, {1});
+  require(is_equal(unite(either, {1}), either), "a union of lines is its own");
+  if (a.polygons.corners.empty() && b.polygons.corners.empty()) {
+    const double all = lengths(either.lines)[0];
+    require(std::abs(length_of(SetOperation::intersection) + length_of(SetOperation::difference) -
+                     length_of(SetOperation::identity)) <= 1e-12 * (1 + all),
+            "lines are divided into what is common and the rest");
+  }
+  std::vector<std::array<Index, 2>> pairs;
+  for (Index k = 0; k < std::min(a.size(), b.size()); ++k) pairs.push_back({k, k});
+  const Geometries each = combine_pairs(a, b, pairs, SetOperation::intersection, {1});
+  require(each.size() == pairs.size(), "a geometry for each pair");
+  const GeometryPieces pieces = overlay_pieces(a, b, SetOperation::identity, {1});
+  require(pieces.pieces.size() == pieces.first.size(), "pieces have geometries");
+  for (const Index first : pieces.first) require(first < a.size(), "pieces are of the first ones");
+}
+
 bool is_within(const CellRings& a, const CellRings& b) {
   const CellRings rest = combine(a, b, SetOperation::difference, {1});
   return rest.corners.empty() && rest.whole.empty();
@@ -221,6 +265,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const CellRings a = polygons_of(source, {points.begin(), middle});
     const CellRings b = polygons_of(source, {middle, points.end()});
     test_set_operations(a, b);
+    test_geometries(geometries_of(source, a, points), geometries_of(source, b, points));
+    CellRings none_of_a;
+    CellRings none_of_b;
+    while (none_of_a.num_cells() < a.num_cells()) none_of_a.end_cell();
+    while (none_of_b.num_cells() < b.num_cells()) none_of_b.end_cell();
+    test_geometries(geometries_of(source, none_of_a, points),
+                    geometries_of(source, none_of_b, points));
     test_relations(a, b);
     test_simplification(source, a);
     test_buffers(source, a, std::span(points).subspan(half));
