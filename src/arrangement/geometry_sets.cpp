@@ -14,6 +14,7 @@
 #include "arrangement/ring_arrays.h"
 #include "arrangement/set_regions.h"
 #include "exact/angles.h"
+#include "exact/eft.h"
 #include "exact/vector.h"
 #include "rondel/error.h"
 #include "rondel/geometries.h"
@@ -151,16 +152,16 @@ std::vector<double> lengths(const FeatureLines& lines) {
   std::vector<double> result;
   result.reserve(lines.size());
   for (std::size_t f = 0; f < lines.size(); ++f) {
-    double sum = 0;
+    exact::DoubleDouble sum = {0, 0};
     for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
       const std::span<const Point> line = lines.rows[i];
       for (std::size_t k = 0; k + 1 < line.size(); ++k) {
         const Point& p = line[k];
         const Point& q = line[k + 1];
-        sum += exact::argument(norm(cross(p, q - p)), dot(p, q));
+        exact::add_term(exact::argument(norm(cross(p, q - p)), dot(p, q)), sum);
       }
     }
-    result.push_back(sum);
+    result.push_back(sum.hi + sum.lo);
   }
   return result;
 }

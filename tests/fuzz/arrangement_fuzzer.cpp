@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/arrangement.h, rondel/set_operations.h, rondel/relate.h, rondel/buffer.h and
-// rondel/simplify.h: what they promise of any arcs and rings.
-// rondel/arrangement.h, rondel/set_operations.h, rondel/geometries.h, rondel/relate.h and
-// rondel/buffer.h: what they promise of any arcs and rings.
+// rondel/arrangement.h, rondel/set_operations.h, rondel/geometries.h, rondel/relate.h,
+// rondel/buffer.h and rondel/simplify.h: what they promise of any arcs and rings.
 #include <algorithm>
 #include <array>
 #include <cmath>

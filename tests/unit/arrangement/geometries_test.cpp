@@ -534,6 +534,23 @@ TEST(geometries, a_closed_line_is_closed_again) {
   EXPECT_EQ(inside.lines.rows[0].front(), inside.lines.rows[0].back());
 }
 
+TEST(geometries, lengths_of_many_arcs_do_not_drift) {
+  Geometries meridians;
+  for (int lon = 0; lon < 360; ++lon) {
+    for (int lat = -89; lat <= 89; ++lat) {
+      meridians.lines.rows.values.push_back(unit_vector_deg(lon, lat));
+    }
+    meridians.lines.rows.end_row();
+  }
+  meridians.lines.end_group();
+  meridians.polygons.end_cell();
+  const double expected = 360 * 178 * (std::numbers::pi / 180);
+  EXPECT_NEAR(length_of(meridians), expected, 1e-12);
+  const Geometries inside = combine(meridians, cap(33.3), SetOperation::intersection, {1});
+  const Geometries outside = combine(meridians, cap(33.3), SetOperation::difference, {1});
+  EXPECT_NEAR(length_of(inside) + length_of(outside), expected, 1e-11);
+}
+
 TEST(geometries, what_does_not_fit_is_refused) {
   const Geometries good = cap(60);
   Geometries bad = line_between({{1, 0, 0}, {-1, 0, 0}});
