@@ -49,10 +49,10 @@ struct Geometries {
 /// lower in the spatial order. A closed line has its first point at its end again.
 ///
 /// Which places lie on a line or in a polygon is exact. All arcs are arranged together
-/// (rondel/arrangement.h): points of lines and corners stay bit by bit, places where arcs cross are rounded to doubles, and
-/// no two arcs of a result cross after that. The result depends on the two sets of places and
-/// directions alone, not on the order of geometries, lines and points, nor on the number of
-/// threads. An operation on results finds the same places again.
+/// (rondel/arrangement.h): points of lines and corners stay bit by bit, places where arcs cross are
+/// rounded to doubles, and no two arcs of a result cross after that. The result depends on the two
+/// sets of places and directions alone, not on the order of geometries, lines and points, nor on
+/// the number of threads. An operation on results finds the same places again.
 /// \param first, second  A and B; points as arrange() wants them
 /// \return one geometry
 /// \throws InvalidInput if offsets do not fit or the numbers of groups and cells differ; (the
