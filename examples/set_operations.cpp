@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two boxes, one across the date line and one around it: their union, what only one of them has, and
-// how they lie to each other, and a line that is divided by one of them.
+// Two boxes, one across the date line and one around it: their union, what only one of them has,
+// and how they lie to each other, and a line that is divided by one of them.
 
 #include "rondel/set_operations.h"
 

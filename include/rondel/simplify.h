@@ -42,9 +42,9 @@ struct SimplifiedFeatures {
 /// Simplifies all features together: a line or border that several of them have in common is
 /// simplified once and stays common to them, so that no gaps and no overlaps appear.
 ///
-/// 1. Corners of the result are corners of the input, bit by bit, in their order. (Of several points
-///    on one ray from the center the one with the least coordinates is the corner.) Ends of lines
-///    stay, and so do corners where three or more arcs meet, or where lines or borders part.
+/// 1. Corners of the result are corners of the input, bit by bit, in their order. (Of several
+///    points on one ray from the center the one with the least coordinates is the corner.) Ends of
+///    lines stay, and so do corners where three or more arcs meet, or where lines or borders part.
 /// 2. A chain of arcs is replaced by one arc, of at most 90 degrees, only if each of its corners is
 ///    within its tolerance of that arc; rounding never breaks this. Then each place of the chain is
 ///    as near to the arc as the greater of the tolerances at the ends of its side says, and each
@@ -64,15 +64,15 @@ struct SimplifiedFeatures {
 ///    tolerance measures from the first result and may remove more.
 ///
 /// Corners are removed one by one where that moves the line least, while the triangle between the
-/// old and the new line is free of other corners (de Berg, van Kreveld and Schirra 1998, Visvalingam
-/// and Whyatt 1993). It takes O(n log n) for n corners on usual input. The proof is in
+/// old and the new line is free of other corners (de Berg, van Kreveld and Schirra 1998,
+/// Visvalingam and Whyatt 1993). It takes O(n log n) for n corners on usual input. The proof is in
 /// docs/theory/simplification.md.
 /// \param lines  the points and lines of each feature; points are never removed
 /// \param polygons  cells with any number of rings, one for each feature or of other features
 /// \throws InvalidInput if offsets do not fit, a tolerance is negative or not finite; (the position
 ///         of the side among the corners) if a side leads to the opposite point, up to 2^-45; (the
-///         position of the point) if a point is not as arrange() wants it; (index of the feature) if
-///         a line has such a point or side.
+///         position of the point) if a point is not as arrange() wants it; (index of the feature)
+///         if a line has such a point or side.
 RONDEL_API SimplifiedFeatures simplified(const FeatureLines& lines, const CellRings& polygons,
                                          const SimplifyOptions& options,
                                          const Execution& execution = {});

@@ -28,8 +28,8 @@ namespace {
 constexpr std::size_t removal_grain = 1024;
 constexpr double infinite = 4;  // more than any ratio that is allowed
 
-// Returns the square of the sine of the distance of a place from an arc of at most 90 degrees, or more
-// if it is no less than 90 degrees. The error of the sine is below 2^-47.
+// Returns the square of the sine of the distance of a place from an arc of at most 90 degrees, or
+// more if it is no less than 90 degrees. The error of the sine is below 2^-47.
 class ArcDistance {
  public:
   ArcDistance(const Point& a, const Point& c)
@@ -197,8 +197,8 @@ Index CornerRemoval::opposite(Index node) const {
   return no_index;
 }
 
-// Returns the greatest ratio of squared sines of distances, from the arc that would replace a node, to
-// what is allowed. It is at most 1 if the node may be removed.
+// Returns the greatest ratio of squared sines of distances, from the arc that would replace a node,
+// to what is allowed. It is at most 1 if the node may be removed.
 double CornerRemoval::ratio(Index node) const {
   const auto [low, high] = std::minmax(links_[node][0], links_[node][1]);
   if (low == high || dot(points_[low], points_[high]) < 0) return infinite;
@@ -241,8 +241,8 @@ void CornerRemoval::rank_changed() {
         for (std::size_t i = begin; i < end; ++i) {
           const Index node = changed_[i];
           const double greatest = is_of_triangle(node) ? infinite : ratio(node);
-          // The exponent and three bits of the mantissa: so a line has few different ranks, and rounds
-          // are few.
+          // The exponent and three bits of the mantissa: so a line has few different ranks, and
+          // rounds are few.
           ranks_[node] = static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(greatest) >> 49U);
           blockers_[node] = greatest <= 1 ? no_index : node;
         }
@@ -343,12 +343,12 @@ bool CornerRemoval::drop_loops() {
 
 }  // namespace
 
-// Coordinates are those of unit vectors up to 1e-14, which changes sines by this share of theirs. The
-// normal of an arc of at most 90 degrees is off by 6 u of its length (sided_arc.h: (1 + 2 sqrt(2)) u
-// of the step, which is at most sqrt(2) times as long), the product with a step of at most 2 by 4 u
-// more: 16 u in all. A place that is taken to be beside the inside of the arc though it is beyond an
-// end, by 4 u, is farther away by 4 u. So 2^-47 is more than all of that, and 2^-40 more than all that
-// is relative.
+// Coordinates are those of unit vectors up to 1e-14, which changes sines by this share of theirs.
+// The normal of an arc of at most 90 degrees is off by 6 u of its length (sided_arc.h: (1 + 2
+// sqrt(2)) u of the step, which is at most sqrt(2) times as long), the product with a step of at
+// most 2 by 4 u more: 16 u in all. A place that is taken to be beside the inside of the arc though
+// it is beyond an end, by 4 u, is farther away by 4 u. So 2^-47 is more than all of that, and 2^-40
+// more than all that is relative.
 double squared_sine_below(double tolerance) {
   constexpr double least = 0x1p-44;
   constexpr double greatest = 0.78539816339744828;  // pi / 4

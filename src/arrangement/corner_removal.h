@@ -26,12 +26,12 @@ enum class NodeState : std::uint8_t {
   dropped,  // with the last three nodes of a loop
 };
 
-// Returns the square of the sine of a tolerance in radians, less than it by all rounding in the test of
-// distances; 0 for tolerances that allow nothing.
+// Returns the square of the sine of a tolerance in radians, less than it by all rounding in the
+// test of distances; 0 for tolerances that allow nothing.
 double squared_sine_below(double tolerance);
 
-// `limits`: squared_sine_below() of the tolerance of each node. `drops_loops`: loops go that are within
-// the tolerance of one of their sides. The result does not depend on the threads.
+// `limits`: squared_sine_below() of the tolerance of each node. `drops_loops`: loops go that are
+// within the tolerance of one of their sides. The result does not depend on the threads.
 std::vector<NodeState> removed_nodes(const LineNetwork& network, std::vector<double> limits,
                                      bool drops_loops, unsigned threads);
 

@@ -31,8 +31,8 @@ struct LineNetwork {
   [[nodiscard]] bool is_fixed(Index node) const { return neighbors[node][0] == no_index; }
 };
 
-// Throws InvalidInput as simplified() does. `keeps_boundary`: nodes that one ring alone passes, once,
-// may not be removed.
+// Throws InvalidInput as simplified() does. `keeps_boundary`: nodes that one ring alone passes,
+// once, may not be removed.
 LineNetwork line_network(const FeatureLines& lines, const CellRings& polygons, bool keeps_boundary,
                          unsigned threads);
 

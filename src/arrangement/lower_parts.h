@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The lines and points of set operations: edges and nodes that belong to a region, and are not in or
-// around a face that does.
+// The lines and points of set operations: edges and nodes that belong to a region, and are not in
+// or around a face that does.
 //
 // in    an arrangement of sides, lines and points, and the owners of each face
 // out   for each region lines of nodes, which meet in their ends alone

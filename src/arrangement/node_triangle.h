@@ -3,8 +3,8 @@
 
 // The triangle between a corner of a line and its neighbors, exactly.
 //
-//        b            The triangle has its sides and corners. If all three are on a great circle, it
-//      /   \          is the shortest arc of it that has them.
+//        b            The triangle has its sides and corners. If all three are on a great circle,
+//      /   \          it is the shortest arc of it that has them.
 //    a - - - c
 //
 // index nodes, whose places are on different rays

@@ -5,8 +5,8 @@
 //
 // in    nodes along the spatial order
 // out   the first node in a box that has a property
-// index nodes: as in `points`; blocks of level 0 have 8 nodes of the list, those of level i + 1 have
-//       8 blocks of level i
+// index nodes: as in `points`; blocks of level 0 have 8 nodes of the list, those of level i + 1
+//       have 8 blocks of level i
 #pragma once
 
 #include <algorithm>

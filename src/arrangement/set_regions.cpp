@@ -108,8 +108,8 @@ class RingWalk {
   std::vector<std::vector<Index>> rings_;
 };
 
-// Returns the sides with some polygons replaced by what they are alone, so that it does not depend on
-// the others.
+// Returns the sides with some polygons replaced by what they are alone, so that it does not depend
+// on the others.
 Sides mended(const Sides& sides, const std::vector<Index>& polygons, const Execution& execution) {
   std::vector<Index> places(sides.operands.size(), no_index);  // among those that are replaced
   for (Index k = 0; k < polygons.size(); ++k) places[polygons[k]] = k;

@@ -133,8 +133,8 @@ std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, Regio
 Region joined_region(const Sides& sides, SetOperation operation, RegionParts parts,
                      const Execution& execution);
 
-// Returns a cell for each region. Points are sorted by their coordinates; a ring begins at its first
-// point, and the rings of a cell are sorted.
+// Returns a cell for each region. Points are sorted by their coordinates; a ring begins at its
+// first point, and the rings of a cell are sorted.
 CellRings cells_of(std::span<const Region> regions);
 
 // Returns a region for each of `count` operations on a few polygons; sides_at(k) returns the sides

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Rings and lines become one network, nodes of it are removed, and what is left of each ring and line
-// is read from it.
+// Rings and lines become one network, nodes of it are removed, and what is left of each ring and
+// line is read from it.
 #include "rondel/simplify.h"
 
 #include <algorithm>

@@ -159,7 +159,8 @@ CellRings buffers_of(const CellRings& cells, double distance, double tolerance, 
   });
 }
 
-// Returns the simplified polygons of a file, or of bytes of GeoJSON, remarks, and whether they overlap.
+// Returns the simplified polygons of a file, or of bytes of GeoJSON, remarks, and whether they
+// overlap.
 std::tuple<CellRings, std::vector<std::string>, bool> simplified_in(
     const PathIn& path, double tolerance, bool drop_small, bool keep_boundary, double read_deg,
     nb::handle edges, nb::handle invalid, unsigned threads) {

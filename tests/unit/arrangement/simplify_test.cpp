@@ -187,8 +187,8 @@ std::size_t num_meetings(const std::vector<Side>& sides, Meeting wanted) {
   return count;
 }
 
-// Expects that each place of a line is near to one of the sides that replace it, both ways. `left` is a
-// part of `line`, in order, with the same ends.
+// Expects that each place of a line is near to one of the sides that replace it, both ways. `left`
+// is a part of `line`, in order, with the same ends.
 void expect_chains_near(const Line& line, const Line& left, double tolerance) {
   std::size_t at = 0;
   for (std::size_t k = 1; k < left.size(); ++k) {
@@ -364,8 +364,8 @@ TEST(simplify, coverages_stay_coverages_within_the_tolerance) {
   }
 }
 
-// Random corners of a small grid, joined where nothing is crossed or touched: narrow places, corners
-// in line, and arcs that pass other corners by an ulp.
+// Random corners of a small grid, joined where nothing is crossed or touched: narrow places,
+// corners in line, and arcs that pass other corners by an ulp.
 Shapes grid_lines(Random& random, double step, double wiggle) {
   const Point at = random.direction();
   const Point east = normalized(cross(at, random.direction()));
