@@ -122,6 +122,12 @@ RONDEL_API std::vector<std::string> polygon_faults(const FileName& file,
                                                    const PolygonOptions& options = {},
                                                    const Execution& execution = {});
 
+/// Finds out which polygons in memory are not valid, as for those of a file.
+/// \throws InvalidInput (the feature) if a position is no longitude and latitude; if offsets do not fit
+RONDEL_API std::vector<std::string> polygon_faults(const LonLatMultiPolygons& features,
+                                                   const PolygonOptions& options = {},
+                                                   const Execution& execution = {});
+
 /// Returns a feature's name for messages: its index, and its property `name` if it has one, "14
 /// (Sudan)".
 RONDEL_API std::string feature_name(std::span<const Column> columns, std::size_t feature);

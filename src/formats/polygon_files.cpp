@@ -43,13 +43,16 @@ void require_position(const LonLat& place, std::size_t feature) {
                      feature);
 }
 
+void require_tolerance(const PolygonOptions& options) {
+  if (options.tolerance_deg > 0) return;
+  throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
+                     " is not positive");
+}
+
 // Reads the features of a file, and removes the geometry of those that options.is_taken() rejects.
 map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
                                  const PolygonOptions& options) {
-  if (!(options.tolerance_deg > 0)) {
-    throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
-                       " is not positive");
-  }
+  require_tolerance(options);
   const auto faulty =
       options.invalid == InvalidPolygons::error ? io::FaultyRings::error : io::FaultyRings::keep;
   map::PolygonFeatures features = io::read_polygon_features(file, kinds, faulty);
@@ -64,6 +67,7 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
 // Returns polygons in memory as those of a file. Throws InvalidInput.
 map::PolygonFeatures features_of(const LonLatMultiPolygons& features,
                                  const PolygonOptions& options) {
+  require_tolerance(options);
   const auto& polygons = features.rows;
   if (!system::are_offsets(features.offsets, polygons.size()) ||
       !system::are_offsets(polygons.offsets, polygons.rows.size()) ||
@@ -89,6 +93,12 @@ map::PolygonFeatures features_of(const LonLatMultiPolygons& features,
     }
   }
   return converted;
+}
+
+// Returns options with which features that are not valid are kept.
+PolygonOptions leniently(PolygonOptions options) {
+  options.invalid = InvalidPolygons::repair;
+  return options;
 }
 
 // Returns the lines of features as arcs of great circles. Lines that are straight in longitude and
@@ -163,10 +173,15 @@ CellTable cells_of_polygons(const LonLatMultiPolygons& features, const PolygonOp
 std::vector<std::string> polygon_faults(const FileName& file, const PolygonOptions& options,
                                         const Execution& execution) {
   const system::Call call(execution);
-  PolygonOptions lenient = options;
-  lenient.invalid = InvalidPolygons::repair;
-  const map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, lenient);
+  const map::PolygonFeatures features =
+      features_of(file, io::FeatureKinds::polygons, leniently(options));
   return overlay::faults_of_features(features, options, execution);
+}
+
+std::vector<std::string> polygon_faults(const LonLatMultiPolygons& features,
+                                        const PolygonOptions& options, const Execution& execution) {
+  const system::Call call(execution);
+  return overlay::faults_of_features(features_of(features, leniently(options)), options, execution);
 }
 
 FeatureTable read_features(const FileName& file, const PolygonOptions& options,

@@ -3,7 +3,8 @@
 
 /**
  * \file
- * The C interface of Rondel: the functions of rondel/rondel.h for C and for every language that can call C.
+ * The C interface of Rondel: the functions of rondel/rondel.h, and those on polygons, for C and for every language that
+ * can call C.
  *
  * 1. Functions that can fail return a status, 0 for success. After another status rondel_error_message() and
  *    rondel_error_index() say more; the content of output arrays is unspecified, and an output handle is NULL.
@@ -279,6 +280,221 @@ RONDEL_C_API rondel_status rondel_dynamic_neighbors(const rondel_dynamic* dynami
 /** Makes a copy of the current triangulation; its site i is the i-th of rondel_dynamic_ids(). */
 RONDEL_C_API rondel_status rondel_dynamic_snapshot(const rondel_dynamic* dynamic,
                                                    rondel_triangulation** snapshot);
+
+/* ---- Polygons (rondel/polygon_files.h, cell_rings.h) ---- */
+
+/* A library that is built without files (RONDEL_BUILD_IO=OFF), as that for WebAssembly, lacks this section and those
+ * that follow up to "Predicates". */
+
+#ifndef ARROW_C_DATA_INTERFACE
+#define ARROW_C_DATA_INTERFACE
+
+/* https://arrow.apache.org/docs/format/CDataInterface.html: the structs as they stand there. */
+struct ArrowSchema {
+  const char* format;
+  const char* name;
+  const char* metadata;
+  int64_t flags;
+  int64_t n_children;
+  struct ArrowSchema** children;
+  struct ArrowSchema* dictionary;
+  void (*release)(struct ArrowSchema*);
+  void* private_data;
+};
+
+struct ArrowArray {
+  int64_t length;
+  int64_t null_count;
+  int64_t offset;
+  int64_t n_buffers;
+  int64_t n_children;
+  const void** buffers;
+  struct ArrowArray** children;
+  struct ArrowArray* dictionary;
+  void (*release)(struct ArrowArray*);
+  void* private_data;
+};
+
+#endif /* ARROW_C_DATA_INTERFACE */
+
+/** Multipolygons in longitude and latitude, as files and other programs have them. They need not be valid. */
+typedef struct rondel_features rondel_features;
+
+/** Makes n features. Feature i has the polygons features[i] ... features[i + 1] - 1, polygon p the rings polygons[p] ...
+ *  polygons[p + 1] - 1, the outer one first, and ring r the positions rings[r] ... rings[r + 1] - 1, of which the last
+ *  one is the first one again. All three arrays begin with 0 and have one element more than there are features,
+ *  polygons and rings.
+ *  \param lonlat_deg  longitude and latitude of each position in degrees, shape (number of positions, 2)
+ *  RONDEL_INVALID_INPUT: an array does not begin with 0, or decreases (the index of the element). */
+RONDEL_C_API rondel_status rondel_features_create(const uint64_t* features, size_t n,
+                                                  const uint64_t* polygons, const uint64_t* rings,
+                                                  const double* lonlat_deg, rondel_features** made);
+/** Copies the polygons out of an array of the type geoarrow.polygon or geoarrow.multipolygon, one feature for each
+ *  element (rondel/arrow.h). Schema and array stay with the caller, who releases them.
+ *  RONDEL_INVALID_INPUT: another type, lists that do not fit, or another CRS than OGC:CRS84 or EPSG:4326. */
+RONDEL_C_API rondel_status rondel_features_import_arrow(const struct ArrowSchema* schema,
+                                                        const struct ArrowArray* array,
+                                                        rondel_features** made);
+/** Writes an array of the type geoarrow.multipolygon, one element for each feature, and its type. The caller calls
+ *  their `release`, or gives them to a library that does; they need the features no longer.
+ *  \param edges  what the type says of edges: RONDEL_LONLAT or RONDEL_GEODESIC
+ *  RONDEL_INVALID_INPUT: more than 2^31 - 1 positions. */
+RONDEL_C_API rondel_status rondel_features_export_arrow(const rondel_features* features,
+                                                        int32_t edges, struct ArrowSchema* schema,
+                                                        struct ArrowArray* array);
+RONDEL_C_API void rondel_features_free(rondel_features* features);
+
+RONDEL_C_API size_t rondel_num_features(const rondel_features* features);
+/** The arrays of rondel_features_create(), shapes (num_features + 1,), (number of polygons + 1,) and (number of rings +
+ *  1,). The last element of an array is the number of elements that it counts. */
+RONDEL_C_API const uint64_t* rondel_feature_polygons(const rondel_features* features);
+RONDEL_C_API const uint64_t* rondel_feature_rings(const rondel_features* features);
+RONDEL_C_API const uint64_t* rondel_feature_positions(const rondel_features* features);
+/** Longitudes and latitudes in degrees, shape (number of positions, 2). */
+RONDEL_C_API const double* rondel_feature_lonlat(const rondel_features* features);
+
+enum {
+  RONDEL_LONLAT =
+      0, /**< lines between positions are straight in longitude and latitude (RFC 7946) */
+  RONDEL_GEODESIC = 1 /**< they are the shorter arcs of great circles */
+};
+enum {
+  RONDEL_REFUSE = 0, /**< a feature that is not valid is an error */
+  RONDEL_REPAIR =
+      1 /**< it gets the places that an odd number of its rings' sides divides from the outside */
+};
+
+/** rondel/polygon_files.h: PolygonOptions. NULL stands for the default: RONDEL_LONLAT, RONDEL_REFUSE, 1e-4. */
+typedef struct rondel_reading {
+  size_t size; /**< sizeof(rondel_reading) */
+  int32_t edges;
+  int32_t invalid;
+  double
+      tolerance_deg; /**< how far arcs may be from the straight lines that they stand for; positive */
+} rondel_reading;
+
+RONDEL_C_API void rondel_reading_init(rondel_reading* reading);
+
+/** Texts, each of which ends with a zero. */
+typedef struct rondel_texts rondel_texts;
+RONDEL_C_API void rondel_texts_free(rondel_texts* texts);
+RONDEL_C_API size_t rondel_num_texts(const rondel_texts* texts);
+/** Returns text i; i < num_texts. */
+RONDEL_C_API const char* rondel_text(const rondel_texts* texts, size_t i);
+
+/** Finds out which features are not valid: text i is what is wrong with feature i, with ring and place, and empty if it
+ *  is valid. `invalid` of the options has no effect.
+ *  RONDEL_INVALID_INPUT: the index of a feature with a position that is no longitude and latitude. */
+RONDEL_C_API rondel_status rondel_feature_faults(const rondel_features* features,
+                                                 const rondel_reading* reading,
+                                                 const rondel_execution* execution,
+                                                 rondel_texts** faults);
+
+/** Polygons whose sides are the shorter arcs of great circles between corners, which are doubles. Each has any number of
+ *  rings, with the interior to their left; a polygon without rings is empty, or the whole sphere. */
+typedef struct rondel_polygons rondel_polygons;
+
+/** Makes features into polygons: polygon i is feature i. Features are read together, so that they have the same corners
+ *  along sides that they share.
+ *  RONDEL_INVALID_INPUT: the index of a feature that is not valid, unless features are repaired. */
+RONDEL_C_API rondel_status rondel_polygons_of_features(const rondel_features* features,
+                                                       const rondel_reading* reading,
+                                                       const rondel_execution* execution,
+                                                       rondel_polygons** made);
+/** Makes n polygons of unit vectors. Polygon i has the rings polygons[i] ... polygons[i + 1] - 1, and ring r the corners
+ *  rings[r] ... rings[r + 1] - 1, of which the first one is not repeated. Both arrays begin with 0. Rings may cross and
+ *  repeat each other; rondel_repair() makes such polygons valid.
+ *  \param corners  unit vectors, shape (number of corners, 3)
+ *  \param whole  the polygons that are the whole sphere, increasing, shape (num_whole,); they have no rings
+ *  RONDEL_INVALID_INPUT: an array does not fit, or the index of a corner that is no unit vector. */
+RONDEL_C_API rondel_status rondel_polygons_create(const uint64_t* polygons, size_t n,
+                                                  const uint64_t* rings, const double* corners,
+                                                  const uint32_t* whole, size_t num_whole,
+                                                  rondel_polygons** made);
+RONDEL_C_API void rondel_polygons_free(rondel_polygons* polygons);
+
+RONDEL_C_API size_t rondel_num_polygons(const rondel_polygons* polygons);
+/** The arrays of rondel_polygons_create(), shapes (num_polygons + 1,) and (number of rings + 1,). */
+RONDEL_C_API const uint64_t* rondel_polygon_rings(const rondel_polygons* polygons);
+RONDEL_C_API const uint64_t* rondel_polygon_corners(const rondel_polygons* polygons);
+/** Unit vectors, shape (number of corners, 3). */
+RONDEL_C_API const double* rondel_polygon_points(const rondel_polygons* polygons);
+RONDEL_C_API const uint32_t* rondel_whole_polygons(const rondel_polygons* polygons);
+RONDEL_C_API size_t rondel_num_whole_polygons(const rondel_polygons* polygons);
+
+/** Makes polygons into valid features within [-180, 180] x [-90, 90], cut at the antimeridian and the poles
+ *  (rondel/regions.h: region_polygons(), CellDrawing::apart): feature i is polygon i, without a polygon if that is empty.
+ *  \param tolerance_deg  how far straight lines may be from arcs in degrees; positive. 0.01 is usual. */
+RONDEL_C_API rondel_status rondel_features_of_polygons(const rondel_polygons* polygons,
+                                                       double tolerance_deg,
+                                                       const rondel_execution* execution,
+                                                       rondel_features** made);
+
+/** Writes the area of each polygon in steradians, shape (num_polygons,). */
+RONDEL_C_API rondel_status rondel_polygon_areas(const rondel_polygons* polygons, double* areas);
+/** Writes the length of each border in radians, shape (num_polygons,). */
+RONDEL_C_API rondel_status rondel_polygon_lengths(const rondel_polygons* polygons, double* lengths);
+
+/* ---- Set operations, relations and buffers (rondel/set_operations.h, relate.h, buffer.h) ---- */
+
+enum {
+  RONDEL_UNION = 0,               /**< what is in A or in B */
+  RONDEL_INTERSECTION = 1,        /**< what is in both */
+  RONDEL_DIFFERENCE = 2,          /**< what is in A and not in B */
+  RONDEL_SYMMETRIC_DIFFERENCE = 3 /**< what is in one of the two alone */
+};
+
+/** Computes a set operation on two regions, of which each is the union of some polygons; the result is one polygon. Places
+ *  where sides cross are rounded to doubles, all else is exact, and results can be operands again.
+ *  RONDEL_INVALID_INPUT: the index of a side, counted by its first corner, that leads to the opposite point. */
+RONDEL_C_API rondel_status rondel_combine(const rondel_polygons* a, const rondel_polygons* b,
+                                          int32_t operation, const rondel_execution* execution,
+                                          rondel_polygons** made);
+/** Computes the union of all polygons: one polygon. */
+RONDEL_C_API rondel_status rondel_unite(const rondel_polygons* polygons,
+                                        const rondel_execution* execution, rondel_polygons** made);
+/** Computes a set operation on n pairs of a polygon of A and one of B, shape (n, 2): polygon k is that of pair k.
+ *  RONDEL_INVALID_INPUT: the index of a pair with a polygon that does not exist, or that rondel_combine() refuses. */
+RONDEL_C_API rondel_status rondel_combine_pairs(const rondel_polygons* a, const rondel_polygons* b,
+                                                const uint32_t* pairs, size_t n, int32_t operation,
+                                                const rondel_execution* execution,
+                                                rondel_polygons** made);
+/** Makes each polygon valid, without a change of its places: those that an odd number of its rings' sides divides from
+ *  the outside. */
+RONDEL_C_API rondel_status rondel_repair(const rondel_polygons* polygons,
+                                         const rondel_execution* execution, rondel_polygons** made);
+
+/** The length of a relation with the zero at its end. */
+#define RONDEL_RELATION_SIZE 10
+
+/** Writes how polygon i of A lies to polygon i of B, for each i: nine characters of 2 1 0 F, the DE-9IM matrix, and a zero;
+ *  shape (n, RONDEL_RELATION_SIZE). If one of A and B has one polygon, n is the number of the other one's.
+ *  RONDEL_INVALID_INPUT: numbers do not fit; the index of a polygon that is not valid (rondel_repair()). */
+RONDEL_C_API rondel_status rondel_relate(const rondel_polygons* a, const rondel_polygons* b,
+                                         const rondel_execution* execution, char* relations);
+/** Writes the relations of n pairs of a polygon of A and one of B, shape (n, 2). */
+RONDEL_C_API rondel_status rondel_relate_pairs(const rondel_polygons* a, const rondel_polygons* b,
+                                               const uint32_t* pairs, size_t n,
+                                               const rondel_execution* execution, char* relations);
+/** Writes 1 if a relation fits to a pattern of nine characters T (not F), F, 0, 1, 2 or * (anything), else 0. */
+RONDEL_C_API rondel_status rondel_relation_matches(const char* relation, const char* pattern,
+                                                   int32_t* matches);
+/** Finds the pairs of polygons that have a place in common and whose relation fits to a pattern; NULL stands for any. List
+ *  i has the polygons of B, increasing, that are so related to polygon i of A. */
+RONDEL_C_API rondel_status rondel_related(const rondel_polygons* a, const rondel_polygons* b,
+                                          const char* pattern, const rondel_execution* execution,
+                                          rondel_lists** related);
+
+/** Computes the places within a distance of each polygon, or, if it is negative, those that remain without the places so
+ *  near to the border. Both in radians.
+ *  \param tolerance  how far the border may be from the places at the distance; 0: a thousandth of it */
+RONDEL_C_API rondel_status rondel_buffer(const rondel_polygons* polygons, double distance,
+                                         double tolerance, const rondel_execution* execution,
+                                         rondel_polygons** made);
+/** Computes a disk around each of n unit vectors, shape (n, 3). */
+RONDEL_C_API rondel_status rondel_buffer_points(const double* points, size_t n, double distance,
+                                                double tolerance, const rondel_execution* execution,
+                                                rondel_polygons** made);
 
 /* ---- Predicates (rondel/predicates.h), exact ---- */
 
