@@ -182,7 +182,7 @@ void LowerParts::find_edges() {
   std::size_t next = 0;
   for (Index edge = 0; edge < arranged_.edges.size(); ++edge) {
     for (std::vector<Index>& row : owners) row.clear();
-    join(faces_[2 * edge], owners);
+    join(faces_[std::size_t{2} * edge], owners);
     join(faces_[2 * edge + 1], owners);
     for (; next < lines_.size() && lines_[next].item == edge; ++next) append(lines_[next], owners);
     for (std::vector<Index>& row : owners) sort_unique(row);

@@ -61,10 +61,10 @@ class NodeTriangle {
       box.include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
     }
     if (longest > 1) return whole_box;
-    const double margin = longest / 3 + rounding;
+    const double reach = longest / 3 + rounding;
     for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] -= margin;
-      box.high[i] += margin;
+      box.low[i] -= reach;
+      box.high[i] += reach;
     }
     return box;
   }

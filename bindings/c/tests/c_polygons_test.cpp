@@ -189,7 +189,7 @@ TEST_F(CPolygons, have_the_set_operations_of_cpp) {
 }
 
 TEST_F(CPolygons, relate_as_in_cpp) {
-  std::vector<char> texts(5 * RONDEL_RELATION_SIZE);
+  std::vector<char> texts(std::size_t{5} * RONDEL_RELATION_SIZE);
   ASSERT_EQ(rondel_relate(made_.get(), made_.get(), nullptr, texts.data()), RONDEL_OK);
   const std::vector<rondel::Relation> expected = rondel::relate(cells_, cells_);
   for (std::size_t i = 0; i < expected.size(); ++i) {
