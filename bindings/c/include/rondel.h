@@ -324,7 +324,7 @@ typedef struct rondel_features rondel_features;
  *  polygons[p + 1] - 1, the outer one first, and ring r the positions rings[r] ... rings[r + 1] - 1, of which the last
  *  one is the first one again. All three arrays begin with 0 and have one element more than there are features,
  *  polygons and rings.
- *  \param lonlat_deg  longitude and latitude of each position in degrees, shape (number of positions, 2)
+ *  `lonlat_deg` has longitude and latitude of each position in degrees, shape (number of positions, 2).
  *  RONDEL_INVALID_INPUT: an array does not begin with 0, or decreases (the index of the element). */
 RONDEL_C_API rondel_status rondel_features_create(const uint64_t* features, size_t n,
                                                   const uint64_t* polygons, const uint64_t* rings,
@@ -337,7 +337,7 @@ RONDEL_C_API rondel_status rondel_features_import_arrow(const struct ArrowSchema
                                                         rondel_features** made);
 /** Writes an array of the type geoarrow.multipolygon, one element for each feature, and its type. The caller calls
  *  their `release`, or gives them to a library that does; they need the features no longer.
- *  \param edges  what the type says of edges: RONDEL_LONLAT or RONDEL_GEODESIC
+ *  `edges` is what the type says of edges: RONDEL_LONLAT or RONDEL_GEODESIC.
  *  RONDEL_INVALID_INPUT: more than 2^31 - 1 positions. */
 RONDEL_C_API rondel_status rondel_features_export_arrow(const rondel_features* features,
                                                         int32_t edges, struct ArrowSchema* schema,
@@ -404,8 +404,8 @@ RONDEL_C_API rondel_status rondel_polygons_of_features(const rondel_features* fe
 /** Makes n polygons of unit vectors. Polygon i has the rings polygons[i] ... polygons[i + 1] - 1, and ring r the corners
  *  rings[r] ... rings[r + 1] - 1, of which the first one is not repeated. Both arrays begin with 0. Rings may cross and
  *  repeat each other; rondel_repair() makes such polygons valid.
- *  \param corners  unit vectors, shape (number of corners, 3)
- *  \param whole  the polygons that are the whole sphere, increasing, shape (num_whole,); they have no rings
+ *  `corners` are unit vectors, shape (number of corners, 3). `whole` has the polygons that are the whole sphere,
+ *  increasing, shape (num_whole,); they have no rings.
  *  RONDEL_INVALID_INPUT: an array does not fit, or the index of a corner that is no unit vector. */
 RONDEL_C_API rondel_status rondel_polygons_create(const uint64_t* polygons, size_t n,
                                                   const uint64_t* rings, const double* corners,
@@ -424,7 +424,7 @@ RONDEL_C_API size_t rondel_num_whole_polygons(const rondel_polygons* polygons);
 
 /** Makes polygons into valid features within [-180, 180] x [-90, 90], cut at the antimeridian and the poles
  *  (rondel/regions.h: region_polygons(), CellDrawing::apart): feature i is polygon i, without a polygon if that is empty.
- *  \param tolerance_deg  how far straight lines may be from arcs in degrees; positive. 0.01 is usual. */
+ *  `tolerance_deg` is how far straight lines may be from arcs in degrees; positive. 0.01 is usual. */
 RONDEL_C_API rondel_status rondel_features_of_polygons(const rondel_polygons* polygons,
                                                        double tolerance_deg,
                                                        const rondel_execution* execution,
@@ -487,7 +487,7 @@ RONDEL_C_API rondel_status rondel_related(const rondel_polygons* a, const rondel
 
 /** Computes the places within a distance of each polygon, or, if it is negative, those that remain without the places so
  *  near to the border. Both in radians.
- *  \param tolerance  how far the border may be from the places at the distance; 0: a thousandth of it */
+ *  `tolerance` is how far the border may be from the places at the distance; 0 stands for a thousandth of it. */
 RONDEL_C_API rondel_status rondel_buffer(const rondel_polygons* polygons, double distance,
                                          double tolerance, const rondel_execution* execution,
                                          rondel_polygons** made);
