@@ -32,8 +32,8 @@ struct Geometries {
 
 /// Computes a set operation on two sets of geometries, each of which counts as its union.
 ///
-/// What places are in the result: polygons are closed, so that their boundary belongs to them, and
-/// lines have their ends. A result is closed, too. It has
+/// Polygons are closed, so that their boundary belongs to them, and lines have their ends. A result
+/// is closed, too. It has
 /// 1. the polygon that combine() returns for the polygons of both operands, with corners where
 ///    lines meet its sides;
 /// 2. lines: what fits to the operation of lines and of polygons' sides, and is not in the polygon

@@ -416,7 +416,7 @@ TEST(simplify, lines_on_grids_do_not_meet_anew) {
   }
 }
 
-// The same ring wherever it begins.
+// Returns a ring that begins with its least point, wherever it began.
 Line turned(Line ring) {
   if (!ring.empty()) {
     std::rotate(ring.begin(), std::ranges::min_element(ring, is_less), ring.end());
