@@ -38,4 +38,14 @@ inline void validate_ends(const Point& p, const Point& q, std::size_t position) 
   }
 }
 
+// Throws InvalidInput with the feature of a line if a point or an arc of it is not as described.
+inline void validate_line_arcs(std::span<const Point> line, std::size_t feature) {
+  try {
+    validate_points(line);
+    for (std::size_t k = 1; k < line.size(); ++k) validate_ends(line[k - 1], line[k], k);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(error.what(), feature);
+  }
+}
+
 }  // namespace rondel::arrangement

@@ -43,15 +43,7 @@ void validate_rows(const FeatureLines& lines) {
 // Throws InvalidInput with the geometry, counted from `first`, if it is not as described.
 void validate_geometry(const FeatureLines& lines, std::size_t f, std::size_t first) {
   for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
-    const std::span<const Point> line = lines.rows[i];
-    try {
-      arrangement::validate_points(line);
-      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-        arrangement::validate_ends(line[k], line[k + 1], k);
-      }
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(error.what(), first + f);
-    }
+    arrangement::validate_line_arcs(lines.rows[i], first + f);
   }
 }
 

@@ -32,13 +32,7 @@ void validate_lines(const FeatureLines& lines) {
   }
   for (std::size_t f = 0; f < lines.size(); ++f) {
     for (std::uint64_t row = lines.offsets[f]; row < lines.offsets[f + 1]; ++row) {
-      const std::span<const Point> line = lines.rows[row];
-      try {
-        validate_points(line);
-        for (std::size_t k = 1; k < line.size(); ++k) validate_ends(line[k - 1], line[k], k);
-      } catch (const InvalidInput& error) {
-        throw InvalidInput(error.what(), f);
-      }
+      validate_line_arcs(lines.rows[row], f);
     }
   }
 }
