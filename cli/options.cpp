@@ -302,6 +302,13 @@ CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::stri
   return parser.add_option_function<std::string>(name, take, what)->required();
 }
 
+void add_polygon_format_option(CLI::App& parser, CommonOptions& options) {
+  parser
+      .add_option("--input-format", options.input_format,
+                  "Format of standard input, or of INPUT: geojson")
+      ->type_name("FORMAT");
+}
+
 void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others) {
   parser
       .add_option("WEIGHTS", options.input,

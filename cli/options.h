@@ -123,6 +123,9 @@ void add_table_options(CLI::App& command, CommonOptions& options, const TablesRe
 CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,
                             const std::string& what);
 
+/// Adds --input-format of an INPUT that has polygons.
+void add_polygon_format_option(CLI::App& parser, CommonOptions& options);
+
 /// Adds a file of weights as INPUT. `of_others` ends the help of --input-format.
 void add_weights_input(CLI::App& parser, CommonOptions& options, const std::string& of_others);
 

@@ -120,10 +120,7 @@ Command add_overlay_command(CLI::App& tool) {
                  "The polygons B; without them the union of A is written")
       ->required(false)
       ->type_name("");
-  parser
-      ->add_option("--input-format", options->common.input_format,
-                   "Format of standard input, or of INPUT: geojson")
-      ->type_name("FORMAT");
+  add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the polygons: .geojson; with GDAL installed .gpkg .fgb\n"
                     ".parquet")

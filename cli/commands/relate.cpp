@@ -118,10 +118,7 @@ Command add_relate_command(CLI::App& tool) {
                  "The polygons B; without them the polygons of A are related to each other")
       ->required(false)
       ->type_name("");
-  parser
-      ->add_option("--input-format", options->common.input_format,
-                   "Format of standard input, or of INPUT: geojson")
-      ->type_name("FORMAT");
+  add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the pairs: .csv .tsv (standard output: CSV)");
   add_word<SpatialPredicate>(

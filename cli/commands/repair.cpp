@@ -82,10 +82,7 @@ Command add_repair_command(CLI::App& tool) {
   add_input_file(*parser, "INPUT", options->common.input,
                  "The polygons: .geojson, or - for standard input")
       ->type_name("");
-  parser
-      ->add_option("--input-format", options->common.input_format,
-                   "Format of standard input, or of INPUT: geojson")
-      ->type_name("FORMAT");
+  add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
                     ".parquet")
