@@ -16,6 +16,9 @@
 #include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/feature_cells.h"
+#include "rondel/io.h"
+#include "rondel/polygon_files.h"
+#include "rondel/regions.h"
 #include "rondel/set_operations.h"
 #include "rondel/types.h"
 
@@ -29,6 +32,39 @@ struct Geometries {
 
   [[nodiscard]] std::size_t size() const { return lines.size(); }
 };
+
+/// Reads features of one or several .geojson or .json files, whose places are to be compared, as
+/// read_polygons() does, with points, lines and collections of them as well. Operands of combine()
+/// are the lines and the polygons of the tables.
+///
+/// Straight lines in longitude and latitude of all files are divided into arcs together. What meets
+/// there meets on the sphere: a line along the border of a polygon stays on it, and a point on a
+/// line or a side, up to 2^-42 degrees, is a point of it. A line across the antimeridian is cut
+/// there, or has longitudes beyond 180; one whose neighboring positions differ by more than 180
+/// degrees of longitude is refused, or goes the shorter way if options repair.
+/// \return the table of each file
+/// \throws what read_polygons() throws, for lines, too; FileError for geodesic lines that lead to the
+///         opposite place; InvalidInput if options forbid overlaps
+RONDEL_API std::vector<FeatureTable> read_features_together(std::span<const FileName> files,
+                                                            const PolygonOptions& options = {},
+                                                            const Execution& execution = {});
+
+/// Points, lines and polygons as other programs have them. Feature i has the lines of group i and
+/// the polygons of feature i. A line of one position is a point.
+struct LonLatGeometries {
+  RowGroups<CompressedRows<LonLat>> lines;
+  LonLatMultiPolygons polygons;  ///< as many features as `lines` has groups
+
+  [[nodiscard]] std::size_t size() const { return lines.size(); }
+};
+
+/// Converts geometries in memory as read_features_together() does those of files.
+/// \return the table of each set
+/// \throws InvalidInput (the feature, counted over all sets) where that function throws FileError; if
+///         offsets or numbers do not fit
+RONDEL_API std::vector<FeatureTable> features_of_geometries(std::span<const LonLatGeometries> sets,
+                                                            const PolygonOptions& options = {},
+                                                            const Execution& execution = {});
 
 /// Computes a set operation on two sets of geometries, each of which counts as its union.
 ///
@@ -90,6 +126,34 @@ struct GeometryPieces {
 /// \throws InvalidInput as combine()
 RONDEL_API GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,
                                          SetOperation operation, const Execution& execution = {});
+
+/// Removes from the pieces of two sets of geometries the parts in which geometries only touch or
+/// cross: those of fewer dimensions than both geometries of the piece have, such as the point in
+/// which a river touches a border, or the line that two countries have in common. The dimension of
+/// a geometry is that of its lowest part: 0 for points, 1 for lines, 2 for polygons.
+/// \return the pieces that have a place left
+/// \throws InvalidInput if arrays do not fit
+RONDEL_API GeometryPieces without_touching_parts(const GeometryPieces& pieces,
+                                                 const Geometries& first, const Geometries& second);
+
+/// Removes such parts from what combine() returns for two sets of geometries: those of fewer
+/// dimensions than the lowest part of both sets has.
+RONDEL_API Geometries without_touching_parts(const Geometries& combined, const Geometries& first,
+                                             const Geometries& second);
+
+/// Writes geometries, one feature for each: points, lines and polygons in longitude and latitude, cut
+/// at the antimeridian and the poles, or a GeometryCollection of them. The geometry of a feature
+/// without a place is null; GDAL's formats leave out such a feature. Properties are `area`
+/// (steradians) if there are polygons, `length` (radians) if there are lines, and the columns.
+/// \param file  as for write_regions(); GDAL writes multiple geometries
+/// \param columns, ids  as for write_regions(), one value for each geometry
+/// \param tolerance_deg  how far lines may be from their great circles, in degrees
+/// \param drawing  of the polygons, as for region_polygons()
+/// \throws InvalidInput, FileError as write_regions(); InvalidInput if a line has no point
+RONDEL_API void write_geometries(const FileName& file, const Geometries& geometries,
+                                 std::span<const Column> columns = {}, double tolerance_deg = 0.01,
+                                 const Execution& execution = {}, const Column& ids = {},
+                                 CellDrawing drawing = CellDrawing::together);
 
 /// Computes the length of each feature's lines in radians: the sum of the lengths of their arcs. It
 /// is 0 for points.

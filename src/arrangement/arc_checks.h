@@ -30,10 +30,15 @@ inline void validate_points(std::span<const Point> points) {
   }
 }
 
+// True if rounding may decide the direction of an arc.
+inline bool are_opposite(const Point& p, const Point& q) {
+  constexpr double least_distance = 0x1p-45;
+  return norm(p + q) < least_distance;
+}
+
 // Throws InvalidInput with the position of an arc if rounding may decide its direction.
 inline void validate_ends(const Point& p, const Point& q, std::size_t position) {
-  constexpr double least_distance = 0x1p-45;
-  if (norm(p + q) < least_distance) {
+  if (are_opposite(p, q)) {
     throw InvalidInput("the ends of an arc are opposite to each other up to rounding", position);
   }
 }

@@ -77,6 +77,50 @@ arrangement::Sides sides_of_all(const Geometries& first, const Geometries& secon
   return sides;
 }
 
+// The dimension of a geometry without a place: more than that of any part.
+constexpr int no_dimension = 3;
+
+// Returns the dimension of the lowest part of a geometry.
+int lowest_dimension(const Geometries& geometries, std::size_t g) {
+  int lowest = no_dimension;
+  for (std::uint64_t i = geometries.lines.offsets[g]; i < geometries.lines.offsets[g + 1]; ++i) {
+    lowest = std::min(lowest, geometries.lines.rows[i].size() > 1 ? 1 : 0);
+  }
+  const CellRings& polygons = geometries.polygons;
+  const bool has_polygon = polygons.cells[g] < polygons.cells[g + 1] || polygons.is_whole(g);
+  return std::min(lowest, has_polygon ? 2 : no_dimension);
+}
+
+// Returns the dimension of the lowest part of all geometries.
+int lowest_dimension(const Geometries& geometries) {
+  int lowest = no_dimension;
+  for (std::size_t g = 0; g < geometries.size(); ++g) {
+    lowest = std::min(lowest, lowest_dimension(geometries, g));
+  }
+  return lowest;
+}
+
+// Appends the parts of a geometry that have a dimension or more. Returns whether there are any.
+bool append_from(const Geometries& from, std::size_t g, int dimension, Geometries& to) {
+  const std::size_t num_lines = to.lines.rows.size();
+  for (std::uint64_t i = from.lines.offsets[g]; i < from.lines.offsets[g + 1]; ++i) {
+    const std::span<const Point> line = from.lines.rows[i];
+    if ((line.size() > 1 ? 1 : 0) >= dimension) to.lines.rows.append(line);
+  }
+  const CellRings& polygons = from.polygons;
+  const bool is_whole = polygons.is_whole(g);
+  const bool has_polygon = is_whole || polygons.cells[g] < polygons.cells[g + 1];
+  if (!has_polygon && to.lines.rows.size() == num_lines) return false;
+  for (std::uint64_t r = polygons.cells[g]; r < polygons.cells[g + 1]; ++r) {
+    for (const Index corner : polygons.corners_of(r)) to.polygons.corners.push_back(corner);
+    to.polygons.end_ring();
+  }
+  if (is_whole) to.polygons.whole.push_back(static_cast<Index>(to.polygons.num_cells()));
+  to.polygons.end_cell();
+  to.lines.end_group();
+  return true;
+}
+
 Geometries geometries_of(std::span<const arrangement::Region> regions) {
   Geometries result{{}, arrangement::cells_of(regions)};
   for (const arrangement::Region& region : regions) {
@@ -134,6 +178,46 @@ GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,
   for (const auto& [key, rings, is_whole, lines] : regions) {
     result.first.push_back(key.first);
     result.second.push_back(key.second == no_index ? no_index : key.second - num_first);
+  }
+  return result;
+}
+
+GeometryPieces without_touching_parts(const GeometryPieces& pieces, const Geometries& first,
+                                      const Geometries& second) {
+  validate_arrays(pieces.pieces);
+  validate_arrays(first);
+  validate_arrays(second);
+  const auto dimension_of = [](const Geometries& set, Index g) {
+    if (g != no_index && g >= set.size()) throw InvalidInput("a geometry does not exist", g);
+    return g == no_index ? no_dimension : lowest_dimension(set, g);
+  };
+  if (pieces.first.size() != pieces.pieces.size() || pieces.second.size() != pieces.first.size()) {
+    throw InvalidInput("there are not as many geometries as pieces");
+  }
+  GeometryPieces result;
+  result.pieces.polygons.points = pieces.pieces.polygons.points;
+  for (std::size_t k = 0; k < pieces.first.size(); ++k) {
+    const int dimension =
+        std::min(dimension_of(first, pieces.first[k]), dimension_of(second, pieces.second[k]));
+    if (!append_from(pieces.pieces, k, dimension, result.pieces)) continue;
+    result.first.push_back(pieces.first[k]);
+    result.second.push_back(pieces.second[k]);
+  }
+  return result;
+}
+
+Geometries without_touching_parts(const Geometries& combined, const Geometries& first,
+                                  const Geometries& second) {
+  validate_arrays(combined);
+  validate_arrays(first);
+  validate_arrays(second);
+  Geometries result;
+  result.polygons.points = combined.polygons.points;
+  const int dimension = std::min(lowest_dimension(first), lowest_dimension(second));
+  for (std::size_t g = 0; g < combined.size(); ++g) {
+    if (append_from(combined, g, dimension, result)) continue;
+    result.lines.end_group();
+    result.polygons.end_cell();
   }
   return result;
 }

@@ -16,9 +16,11 @@
 #include "io/geojson_polygons.h"
 #include "overlay/feature_polygons.h"
 #include "overlay/plane_arcs.h"
+#include "overlay/single_cells.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/types.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -31,6 +33,9 @@ constexpr double radians_per_degree = std::numbers::pi / 180;
 
 // The remark on a file.
 constexpr const char* no_features = "there are no features";
+
+// The name of features in memory, which messages leave out.
+constexpr std::string_view in_memory_name = "polygons";
 
 // Throws InvalidInput if a position is none.
 void require_position(const LonLat& place, std::size_t feature) {
@@ -57,11 +62,15 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
       options.invalid == InvalidPolygons::error ? io::FaultyRings::error : io::FaultyRings::keep;
   map::PolygonFeatures features = io::read_polygon_features(file, kinds, faulty);
   for (std::size_t f = 0; options.is_taken && f < features.rings.size(); ++f) {
-    if (options.is_taken(f, features.columns)) continue;
+    if (options.is_taken(f, features.files.front().columns)) continue;
     features.rings[f].clear();
     features.lines[f].clear();
   }
   return features;
+}
+
+void require_offsets(bool do_fit, const char* of_what) {
+  if (!do_fit) throw InvalidInput(std::string("the offsets of the ") + of_what + " do not fit");
 }
 
 // Returns polygons in memory as those of a file. Throws InvalidInput.
@@ -69,13 +78,12 @@ map::PolygonFeatures features_of(const LonLatMultiPolygons& features,
                                  const PolygonOptions& options) {
   require_tolerance(options);
   const auto& polygons = features.rows;
-  if (!system::are_offsets(features.offsets, polygons.size()) ||
-      !system::are_offsets(polygons.offsets, polygons.rows.size()) ||
-      !system::are_offsets(polygons.rows.offsets, polygons.rows.values.size())) {
-    throw InvalidInput("the offsets of the polygons do not fit");
-  }
+  require_offsets(system::are_offsets(features.offsets, polygons.size()) &&
+                      system::are_offsets(polygons.offsets, polygons.rows.size()) &&
+                      system::are_offsets(polygons.rows.offsets, polygons.rows.values.size()),
+                  "polygons");
   map::PolygonFeatures converted;
-  converted.name = "polygons";
+  converted.files.front().name = in_memory_name;
   converted.rings.resize(features.size());
   converted.lines.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
@@ -93,6 +101,111 @@ map::PolygonFeatures features_of(const LonLatMultiPolygons& features,
     }
   }
   return converted;
+}
+
+// Returns geometries in memory as those of a file. Throws InvalidInput.
+map::PolygonFeatures features_of(const LonLatGeometries& geometries,
+                                 const PolygonOptions& options) {
+  const auto& lines = geometries.lines;
+  require_offsets(system::are_offsets(lines.offsets, lines.rows.size()) &&
+                      system::are_offsets(lines.rows.offsets, lines.rows.values.size()),
+                  "lines");
+  if (lines.size() != geometries.polygons.size()) {
+    throw InvalidInput("there are lines of " + std::to_string(lines.size()) +
+                       " features and polygons of " + std::to_string(geometries.polygons.size()));
+  }
+  map::PolygonFeatures converted = features_of(geometries.polygons, options);
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    if (options.is_taken && !options.is_taken(f, {})) continue;
+    for (std::uint64_t k = lines.offsets[f]; k < lines.offsets[f + 1]; ++k) {
+      const std::span<const LonLat> line = lines.rows[k];
+      if (line.empty()) {
+        throw InvalidInput("feature " + std::to_string(f) + ": a line without a position", f);
+      }
+      for (const LonLat& place : line) require_position(place, f);
+      converted.lines[f].emplace_back(line.begin(), line.end());
+    }
+  }
+  return converted;
+}
+
+// Returns which features have a geometry. One that was rejected has none.
+std::vector<bool> are_located(const map::PolygonFeatures& features) {
+  std::vector<bool> located(features.rings.size());
+  for (std::size_t f = 0; f < located.size(); ++f) {
+    located[f] = !features.rings[f].empty() || !features.lines[f].empty();
+  }
+  return located;
+}
+
+// Converts polygons into cells.
+CellTable table_of(map::PolygonFeatures& features, const PolygonOptions& options,
+                   const Execution& execution) {
+  overlay::ConvertedFeatures converted = overlay::converted_features(features, options, execution);
+  CellTable table;
+  table.cells = std::move(converted.cells);
+  table.facts = std::move(converted.facts.front());
+  map::FeatureFile& file = features.files.front();
+  if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
+  if (file.name != in_memory_name) table.facts.name = std::move(file.name);
+  table.facts.columns = std::move(file.columns);
+  return table;
+}
+
+// Returns the lines of the features from `first` to before `end`.
+FeatureLines lines_between(const FeatureLines& lines, std::size_t first, std::size_t end) {
+  FeatureLines some;
+  for (std::size_t f = first; f < end; ++f) {
+    for (std::uint64_t k = lines.offsets[f]; k < lines.offsets[f + 1]; ++k) {
+      some.rows.append(lines.rows[k]);
+    }
+    some.end_group();
+  }
+  return some;
+}
+
+// Converts the features of all files together, and returns those of each file with what is known of
+// them.
+std::vector<FeatureTable> tables_of(std::vector<map::PolygonFeatures> files,
+                                    const PolygonOptions& options, const Execution& execution) {
+  std::vector<FeatureTable> tables(files.size());
+  for (std::size_t k = 0; k < files.size(); ++k) tables[k].is_located = are_located(files[k]);
+  if (files.empty()) return tables;
+  map::PolygonFeatures all = map::joined(std::move(files));
+  overlay::ConvertedFeatures converted = overlay::converted_features(all, options, execution);
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    FeatureTable& table = tables[k];
+    map::FeatureFile& file = all.files[k];
+    const std::size_t end = first + file.num_features;
+    table.lines = lines_between(converted.lines, first, end);
+    table.polygons = overlay::cells_between(converted.cells, first, end);
+    table.ids = std::move(file.ids);
+    table.facts = std::move(converted.facts[k]);
+    if (end == first) table.facts.remarks.emplace_back(no_features);
+    table.facts.name = std::move(file.name);
+    table.facts.columns = std::move(file.columns);
+    first = end;
+  }
+  return tables;
+}
+
+void require_overlaps_kept(const PolygonOptions& options) {
+  if (options.overlap == PolygonOverlap::keep) return;
+  throw InvalidInput("features that are read together may overlap");
+}
+
+// Returns what convert() returns. A fault of a feature in memory is an InvalidInput.
+template <class Convert>
+auto in_memory(const Convert& convert) {
+  try {
+    return convert();
+  } catch (const overlay::FeatureFault& fault) {
+    throw InvalidInput("feature " + std::to_string(fault.feature()) + ": " + fault.fault(),
+                       fault.feature());
+  } catch (const FileError& error) {
+    throw InvalidInput(error.what() + (in_memory_name.size() + 2));
+  }
 }
 
 // Returns options with which features that are not valid are kept.
@@ -146,28 +259,14 @@ CellTable read_polygons(const FileName& file, const PolygonOptions& options,
                         const Execution& execution) {
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
-  CellTable table;
-  if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
-  table.cells = overlay::cells_of_features(features, options, table.facts, execution);
-  table.facts.name = std::move(features.name);
-  table.facts.columns = std::move(features.columns);
-  return table;
+  return table_of(features, options, execution);
 }
 
 CellTable cells_of_polygons(const LonLatMultiPolygons& features, const PolygonOptions& options,
                             const Execution& execution) {
   const system::Call call(execution);
   map::PolygonFeatures converted = features_of(features, options);
-  CellTable table;
-  try {
-    table.cells = overlay::cells_of_features(converted, options, table.facts, execution);
-  } catch (const overlay::FeatureFault& fault) {
-    throw InvalidInput("feature " + std::to_string(fault.feature()) + ": " + fault.fault(),
-                       fault.feature());
-  } catch (const FileError& error) {
-    throw InvalidInput(error.what() + converted.name.size() + 2);
-  }
-  return table;
+  return in_memory([&] { return table_of(converted, options, execution); });
 }
 
 std::vector<std::string> polygon_faults(const FileName& file, const PolygonOptions& options,
@@ -189,17 +288,38 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
   const system::Call call(execution);
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
   FeatureTable table;
-  for (std::size_t f = 0; f < features.rings.size(); ++f) {
-    // A feature without geometry, or one that was rejected, stays in the table without a place.
-    table.is_located.push_back(!features.rings[f].empty() || !features.lines[f].empty());
-  }
+  table.is_located = are_located(features);
   table.lines = lines_of_features(features, options);
-  if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);
-  table.polygons = overlay::cells_of_features(features, options, table.facts, execution);
-  table.ids = std::move(features.ids);
-  table.facts.name = std::move(features.name);
-  table.facts.columns = std::move(features.columns);
+  features.lines.clear();
+  CellTable cells = table_of(features, options, execution);
+  table.polygons = std::move(cells.cells);
+  table.facts = std::move(cells.facts);
+  table.ids = std::move(features.files.front().ids);
   return table;
+}
+
+std::vector<FeatureTable> read_features_together(std::span<const FileName> files,
+                                                 const PolygonOptions& options,
+                                                 const Execution& execution) {
+  const system::Call call(execution);
+  require_overlaps_kept(options);
+  std::vector<map::PolygonFeatures> sets;
+  sets.reserve(files.size());
+  for (const FileName& file : files) {
+    sets.push_back(features_of(file, io::FeatureKinds::all, options));
+  }
+  return tables_of(std::move(sets), options, execution);
+}
+
+std::vector<FeatureTable> features_of_geometries(std::span<const LonLatGeometries> sets,
+                                                 const PolygonOptions& options,
+                                                 const Execution& execution) {
+  const system::Call call(execution);
+  require_overlaps_kept(options);
+  std::vector<map::PolygonFeatures> converted;
+  converted.reserve(sets.size());
+  for (const LonLatGeometries& set : sets) converted.push_back(features_of(set, options));
+  return in_memory([&] { return tables_of(std::move(converted), options, execution); });
 }
 
 }  // namespace rondel

@@ -30,7 +30,7 @@ class PolygonReader {
         kinds_(kinds),
         faulty_(faulty),
         features_(features),
-        columns_(features.columns, features.ids) {}
+        columns_(features.files.front().columns, features.files.front().ids) {}
 
   void read() {
     items_.read({[this](const JsonTree& geometry, const JsonTree& feature) {
@@ -138,10 +138,10 @@ map::PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds ki
                                            FaultyRings faulty) {
   FileBytes bytes(file);
   map::PolygonFeatures features;
-  features.name = bytes.name();
+  features.files.front().name = bytes.name();
   (void)require_format<PolygonFormat>(polygon_formats, file, "polygons are read from");
-  if (bytes.head().empty()) throw FileError(features.name + ": the file is empty");
-  in_file(features.name, [&] {
+  if (bytes.head().empty()) throw FileError(features.files.front().name + ": the file is empty");
+  in_file(features.files.front().name, [&] {
     PolygonReader reader(bytes.text(), kinds, faulty, features);
     at_line_of(reader, [&] { reader.read(); });
   });

@@ -118,6 +118,37 @@ void append_geometry(std::string& out, const std::vector<map::PolygonWithHoles>&
   append_polygons(out, polygons);
 }
 
+void append_geometry(std::string& out, std::span<const LonLat> points,
+                     std::span<const std::vector<LonLat>> lines,
+                     const std::vector<map::PolygonWithHoles>& polygons) {
+  std::vector<std::string> parts;
+  if (points.size() == 1) append_point(parts.emplace_back(), points.front());
+  if (points.size() > 1) {
+    std::string& text = parts.emplace_back(R"({"type":"MultiPoint","coordinates":)");
+    append_positions(text, points);
+    text += '}';
+  }
+  if (lines.size() == 1) {
+    std::string& text = parts.emplace_back(R"({"type":"LineString","coordinates":)");
+    append_positions(text, lines.front());
+    text += '}';
+  }
+  if (lines.size() > 1) {
+    std::string& text = parts.emplace_back(R"({"type":"MultiLineString","coordinates":)");
+    append_list(text, lines,
+                [&](const std::vector<LonLat>& line) { append_positions(text, line); });
+    text += '}';
+  }
+  if (!polygons.empty() || parts.empty()) append_polygons(parts.emplace_back(), polygons);
+  if (parts.size() == 1) {
+    out += parts.front();
+    return;
+  }
+  out += R"({"type":"GeometryCollection","geometries":)";
+  append_list(out, parts, [&](const std::string& part) { out += part; });
+  out += '}';
+}
+
 void append_multi_polygon(std::string& out, const std::vector<map::PolygonWithHoles>& polygons) {
   if (polygons.empty()) {
     out += "null";

@@ -51,6 +51,11 @@ void append_value(std::string& out, const Column& column, std::size_t row);
 // region that has no polygon.
 void append_geometry(std::string& out, const std::vector<map::LonLatPolygon>& polygons);
 void append_geometry(std::string& out, const std::vector<map::PolygonWithHoles>& polygons);
+// Appends the parts of a geometry: a Point, LineString, Polygon or several of them, or a
+// GeometryCollection of parts of different kinds, or null where there is no part.
+void append_geometry(std::string& out, std::span<const LonLat> points,
+                     std::span<const std::vector<LonLat>> lines,
+                     const std::vector<map::PolygonWithHoles>& polygons);
 // Appends a MultiPolygon, or null where there is no polygon.
 void append_multi_polygon(std::string& out, const std::vector<map::PolygonWithHoles>& polygons);
 // Appends a MultiLineString, or null for an empty text. `lines` is what append_positions() appends

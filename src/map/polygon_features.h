@@ -6,8 +6,10 @@
 // index features of a file, or its bare geometries
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,7 +30,14 @@ struct LonLatRing {
   std::vector<LonLat> thin_positions = {};
   bool is_left_out = false;  // no wider than rounding
   std::string fault = {};    // what makes it no ring, to be repaired; empty for a ring
+  bool is_shorter = false;   // sides of more than 180 degrees go the shorter way around the globe
 };
+
+// Returns where a side ends that goes the shorter way around the globe, on the turn of its
+// beginning.
+inline LonLat end_of_shorter(const LonLat& from, const LonLat& to) {
+  return {from.lon_deg + std::remainder(to.lon_deg - from.lon_deg, 360.0), to.lat_deg};
+}
 
 // Returns a ring of a file, whose last position is the first one again, without its last position.
 inline LonLatRing ring_of_file(std::vector<LonLat> positions, bool is_hole) {
@@ -48,13 +57,45 @@ inline LonLatRing ring_of_file(std::vector<LonLat> positions, bool is_hole) {
   return ring;
 }
 
-// Row i belongs to feature i of the file, or to bare geometry i.
+// A file, or an array of another program, that has features.
+struct FeatureFile {
+  std::string name;  // for messages
+  std::vector<Column> columns;
+  Column ids;                    // the members `id`, as JSON; without cells if there are none
+  std::size_t num_features = 0;  // of several files: how many features are this one's
+};
+
+// Row i belongs to feature i of the files, one file after the other; or to bare geometry i.
 struct PolygonFeatures {
-  std::string name;  // name of the file for messages
+  std::vector<FeatureFile> files = std::vector<FeatureFile>(1);
   std::vector<std::vector<LonLatRing>> rings;
   std::vector<std::vector<std::vector<LonLat>>> lines;  // a point is a line of one position
-  std::vector<Column> columns;
-  Column ids;  // the members `id`, as JSON; without cells if there are none
+
+  // A feature by its file.
+  struct PlaceInFile {
+    const FeatureFile& file;
+    std::size_t feature;  // of this file
+  };
+  [[nodiscard]] PlaceInFile place_of(std::size_t feature) const {
+    std::size_t file = 0;
+    for (; file + 1 < files.size() && feature >= files[file].num_features; ++file) {
+      feature -= files[file].num_features;
+    }
+    return {files[file], feature};
+  }
 };
+
+// Returns the features of all files.
+inline PolygonFeatures joined(std::vector<PolygonFeatures> sets) {
+  PolygonFeatures all;
+  all.files.clear();
+  for (PolygonFeatures& set : sets) {
+    set.files.front().num_features = set.rings.size();
+    std::ranges::move(set.files, std::back_inserter(all.files));
+    std::ranges::move(set.rings, std::back_inserter(all.rings));
+    std::ranges::move(set.lines, std::back_inserter(all.lines));
+  }
+  return all;
+}
 
 }  // namespace rondel::map

@@ -32,9 +32,9 @@ std::string ring_name(const std::vector<map::LonLatRing>& rings, Index ring) {
 
 void refuse_feature(const map::PolygonFeatures& features, std::size_t feature,
                     const std::string& what) {
-  throw FeatureFault(
-      features.name + ": feature " + feature_name(features.columns, feature) + ": " + what, feature,
-      what);
+  const auto [file, of_file] = features.place_of(feature);
+  throw FeatureFault(file.name + ": feature " + feature_name(file.columns, of_file) + ": " + what,
+                     feature, what);
 }
 
 }  // namespace rondel::overlay

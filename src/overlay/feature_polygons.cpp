@@ -7,13 +7,16 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "exact/eft.h"
 #include "overlay/border_rings.h"
 #include "overlay/disjoint_cells.h"
 #include "overlay/feature_repairs.h"
@@ -85,12 +88,28 @@ bool leave_out_thin_ring(std::vector<map::LonLatRing>& rings, const PlaneFault& 
   return true;
 }
 
+// Returns a side that begins in the west between -180 and 180 degrees, so that sides in one place
+// are divided alike; or the side itself if its ends would be rounded.
+PlaneSide on_map(const PlaneSide& side) {
+  const double west = std::min(side.from.lon_deg, side.to.lon_deg);
+  const double turns = 360 * std::floor((west + 180) / 360);
+  if (turns == 0) return side;
+  const auto [from, from_error] = exact::two_sum(side.from.lon_deg, -turns);
+  const auto [to, to_error] = exact::two_sum(side.to.lon_deg, -turns);
+  if (from_error != 0 || to_error != 0) return side;
+  return {{from, side.from.lat_deg}, {to, side.to.lat_deg}};
+}
+
 // Converts all features with one set of options. Features with a fault are repaired.
 class FeatureCells {
  public:
   FeatureCells(map::PolygonFeatures& features, const PolygonOptions& options,
                std::span<const std::string> faults, const Execution& execution)
-      : features_(features), options_(options), faults_(faults), execution_(execution) {}
+      : features_(features),
+        options_(options),
+        faults_(faults),
+        execution_(execution),
+        facts_(features.files.size()) {}
 
   // Returns the cells of all features, with overlaps treated as the options say. Throws FileError.
   CellRings operator()() {
@@ -107,17 +126,45 @@ class FeatureCells {
     if (overlaps.empty() || options_.overlap == PolygonOverlap::keep) return cells;
     if (options_.overlap == PolygonOverlap::first) return first_of_all(cells, overlaps);
     throw FileError(
-        features_.name + ": features " + feature_name(features_.columns, overlaps[0].first) +
-        " and " + feature_name(features_.columns, overlaps[0].second) + " overlap at " +
-        text_of_place(overlaps[0].place) +
+        features_.files.front().name + ": features " + name_of(overlaps[0].first) + " and " +
+        name_of(overlaps[0].second) + " overlap at " + text_of_place(overlaps[0].place) +
         (overlaps.size() == 1
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
-  // Returns sentences on what is too thin for a cell.
-  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  // Returns the lines of all features.
+  [[nodiscard]] FeatureLines& lines() { return lines_; }
+  // Returns sentences on what was repaired and what is too thin for a cell, of each file.
+  [[nodiscard]] std::vector<CellFacts>& facts() { return facts_; }
 
  private:
+  // Returns a feature's name for messages.
+  [[nodiscard]] std::string name_of(std::size_t feature) const {
+    const auto [file, of_file] = features_.place_of(feature);
+    return feature_name(file.columns, of_file);
+  }
+  // Adds a sentence about features of a file: "feature 3 (Peru)" and `one`, or "feature 3 (Peru)
+  // and 2 more" and `many`.
+  void tell_of(std::size_t file, std::span<const std::size_t> found, const std::string& one,
+               const std::string& many) {
+    if (found.empty()) return;
+    std::string text = "feature " + name_of(found.front());
+    if (found.size() > 1) text += " and " + std::to_string(found.size() - 1) + " more";
+    facts_[file].remarks.push_back(text + (found.size() > 1 ? many : one));
+  }
+  // Calls visit(file, first feature, past its last feature) for each file.
+  template <class Visit>
+  void for_each_file(const Visit& visit) const {
+    std::size_t first = 0;
+    for (std::size_t file = 0; file < features_.files.size(); ++file) {
+      const bool is_last = file + 1 == features_.files.size();
+      const std::size_t end =
+          is_last ? features_.rings.size() : first + features_.files[file].num_features;
+      visit(file, first, end);
+      first = end;
+    }
+  }
+
   // Returns the first_of_cells(). Throws FileError if rounding has made them overlap themselves.
   [[nodiscard]] CellRings first_of_all(const CellRings& cells,
                                        std::span<const CrossingCells> overlaps) const {
@@ -125,37 +172,32 @@ class FeatureCells {
       return first_of_cells(cells, overlaps, quiet());
     } catch (const InvalidInput& error) {
       const CrossingCells& pair = overlaps.front();
-      throw FileError(features_.name + ": features that overlap cannot be laid over each other " +
-                      "(the first two are " + feature_name(features_.columns, pair.first) +
-                      " and " + feature_name(features_.columns, pair.second) + ", at " +
-                      text_of_place(pair.place) + "): " + error.what());
+      throw FileError(features_.files.front().name + ": features that overlap cannot be laid " +
+                      "over each other (the first two are " + name_of(pair.first) + " and " +
+                      name_of(pair.second) + ", at " + text_of_place(pair.place) +
+                      "): " + error.what());
     }
   }
 
   void look_for_vanished(const CellRings& cells) {
-    std::vector<std::size_t> vanished;
-    std::vector<std::size_t> thinned;
-    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
-      const std::vector<map::LonLatRing>& rings = features_.rings[f];
-      const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
-      if (!rings.empty() && !has_cell) {
-        vanished.push_back(f);
-      } else if (std::ranges::any_of(rings, &map::LonLatRing::is_left_out)) {
-        thinned.push_back(f);
+    for_each_file([&](std::size_t file, std::size_t first, std::size_t end) {
+      std::vector<std::size_t> vanished;
+      std::vector<std::size_t> thinned;
+      for (std::size_t f = first; f < end; ++f) {
+        const std::vector<map::LonLatRing>& rings = features_.rings[f];
+        const bool has_cell = cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f);
+        if (!rings.empty() && !has_cell) {
+          vanished.push_back(f);
+        } else if (std::ranges::any_of(rings, &map::LonLatRing::is_left_out)) {
+          thinned.push_back(f);
+        }
       }
-    }
-    const auto tell_of = [&](const std::vector<std::size_t>& found, const char* one,
-                             const char* many) {
-      if (found.empty()) return;
-      std::string text = "feature " + feature_name(features_.columns, found.front());
-      if (found.size() > 1) text += " and " + std::to_string(found.size() - 1) + " more";
-      remarks_.push_back(text + (found.size() > 1 ? many : one));
-    };
-    const std::string width = "no wider than rounding of the corners (some 2e-13 degrees), ";
-    tell_of(vanished, (" is " + width + "so nothing is left").c_str(),
-            (" are " + width + "so nothing is left").c_str());
-    tell_of(thinned, (" has rings " + width + "which are left out").c_str(),
-            (" have rings " + width + "which are left out").c_str());
+      const std::string width = "no wider than rounding of the corners (some 2e-13 degrees), ";
+      tell_of(file, vanished, " is " + width + "so nothing is left",
+              " are " + width + "so nothing is left");
+      tell_of(file, thinned, " has rings " + width + "which are left out",
+              " have rings " + width + "which are left out");
+    });
   }
   [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
     refuse_feature(features_, feature, what);
@@ -240,20 +282,24 @@ class FeatureCells {
     tell_of_repaired(features, cells);
   }
   void tell_of_repaired(const std::vector<std::size_t>& features, const CellRings& cells) {
-    if (features.empty()) return;
-    const std::size_t first = features.front();
-    std::string text = "feature " + feature_name(features_.columns, first) + " was repaired (" +
-                       faults_[first] + ")";
-    if (features.size() > 1) text += ", and " + std::to_string(features.size() - 1) + " more";
-    const auto num_empty = std::ranges::count_if(features, [&](std::size_t f) {
-      return cells.cells[f] == cells.cells[f + 1] && !cells.is_whole(f);
+    for_each_file([&](std::size_t file, std::size_t first_feature, std::size_t end) {
+      const auto first = std::ranges::lower_bound(features, first_feature);
+      const auto past = std::ranges::lower_bound(features, end);
+      if (first == past) return;
+      std::string text = "feature " + name_of(*first) + " was repaired (" + faults_[*first] + ")";
+      if (past - first > 1) text += ", and " + std::to_string(past - first - 1) + " more";
+      const auto num_empty = std::count_if(first, past, [&](std::size_t f) {
+        return cells.cells[f] == cells.cells[f + 1] && !cells.is_whole(f) &&
+               lines_.offsets[f] == lines_.offsets[f + 1];
+      });
+      if (num_empty > 0) text += "; nothing is left of " + std::to_string(num_empty);
+      facts_[file].remarks.push_back(std::move(text));
     });
-    if (num_empty > 0) text += "; nothing is left of " + std::to_string(num_empty);
-    remarks_.push_back(std::move(text));
   }
 
   CellRings all_geodesic_cells() {
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
+    lines_ = geodesic_lines(features_);
     CellRings cells = geodesic_cells(features_, quiet());
     repair(cells, [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
     return cells;
@@ -261,8 +307,11 @@ class FeatureCells {
 
   // Returns the cells of polygons whose sides are straight in longitude and latitude.
   CellRings plane_cells() {
-    for (std::size_t f = 0; f < features_.rings.size(); ++f) require_turns(f);
-    share_corners(features_.rings, execution_.threads);
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      require_turns(f);
+      require_lines(features_, f, is_faulty(f));
+    }
+    share_corners(features_, execution_.threads);
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     std::vector<PlaneSide> sides;
     std::vector<Index> owners;
@@ -274,9 +323,13 @@ class FeatureCells {
       const std::vector<PlaneSide> given = given_sides(faulty[f]);
       sides.insert(sides.end(), given.begin(), given.end());
     }
+    const std::size_t first_of_lines = sides.size();
+    append_line_sides(features_, sides);
+    for (PlaneSide& side : sides) side = on_map(side);
     DividedSides divided = divide_for_areas(
         sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
     share_polar_corners(sides, divided);
+    lines_ = divided_lines(features_, divided, first_of_lines);
     std::vector<Point> corners(divided.values.size());
     std::ranges::transform(divided.values, corners.begin(),
                            [](const LonLat& p) { return unit_vector(p); });
@@ -297,7 +350,7 @@ class FeatureCells {
     }
     repair(cells, [&](std::size_t f) {
       std::vector<std::span<const LonLat>> rows;
-      const std::size_t end = f + 1 < faulty.size() ? first_sides[f + 1] : sides.size();
+      const std::size_t end = f + 1 < faulty.size() ? first_sides[f + 1] : first_of_lines;
       for (std::size_t s = first_sides[f]; s < end; ++s) rows.push_back(divided[s]);
       return repaired_plane_feature(faulty[f], rows, quiet());
     });
@@ -318,22 +371,27 @@ class FeatureCells {
                         "edges; if the long side is meant, divide it by a position");
   }
 
+  // True if a feature is to be repaired.
+  [[nodiscard]] bool is_faulty(std::size_t feature) const {
+    return !faults_.empty() && !faults_[feature].empty();
+  }
+
   // Throws FileError for a ring that is not closed, that has a side around a pole, or that is more
-  // than ten turns of the globe away.
-  void require_turns(std::size_t feature) const {
-    constexpr double max_turns = 10;
-    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
-    const bool is_faulty = !faults_.empty() && !faults_[feature].empty();
+  // than ten turns of the globe away. Rings to be repaired may have such sides, and are told to go
+  // the shorter way.
+  void require_turns(std::size_t feature) {
+    std::vector<map::LonLatRing>& rings = features_.rings[feature];
     for (Index r = 0; r < rings.size(); ++r) {
       const std::vector<LonLat>& positions = rings[r].positions;
-      if (rings[r].is_turn && !is_faulty) {
+      if (is_faulty(feature)) {
+        rings[r].is_shorter = goes_shorter_way(rings[r]);
+      } else if (rings[r].is_turn) {
         refuse(feature,
                ring_name(rings, r) + " goes around the globe from " +
                    text_of_place(positions.front()) +
                    " and is not closed: a ring around a pole has to be led there along the "
                    "longitudes -180 and 180, or to be read with geodesic edges");
-      }
-      if (const auto side = lone_long_side(positions); side && !is_faulty) {
+      } else if (const auto side = lone_long_side(positions)) {
         refuse_long_side(feature, r, *side);
       }
       for (const LonLat& p : positions) {
@@ -380,34 +438,42 @@ class FeatureCells {
   const PolygonOptions& options_;
   std::span<const std::string> faults_;  // of each feature, or none
   const Execution& execution_;
-  std::vector<std::string> remarks_;
+  FeatureLines lines_;
+  std::vector<CellFacts> facts_;  // of each file: the remarks
 };
 
 }  // namespace
 
-CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
-                            CellFacts& facts, const Execution& execution) {
-  const auto cells_with = [&](std::span<const std::string> faults) {
+ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
+                                     const Execution& execution) {
+  const auto converted = [&](std::span<const std::string> faults) {
     FeatureCells make(features, options, faults, execution);
     CellRings cells = make();
-    facts.remarks.insert(facts.remarks.end(), make.remarks().begin(), make.remarks().end());
-    return cells;
+    return ConvertedFeatures{std::move(cells), std::move(make.lines()), std::move(make.facts())};
   };
-  if (options.invalid == InvalidPolygons::error) return cells_with({});
+  features.lines.resize(features.rings.size());
+  if (options.invalid == InvalidPolygons::error) return converted({});
   std::vector<std::string> faults = faults_of_features(features, options, execution);
-  const std::vector<std::vector<map::LonLatRing>> given = features.rings;
+  const auto given = std::pair(features.rings, features.lines);
   for (;;) {
     // A feature that is valid alone may become invalid by corners of others on its sides.
     try {
-      CellRings cells = cells_with(faults);
-      if (std::ranges::any_of(faults, std::not_fn(&std::string::empty))) {
-        facts.faults = std::move(faults);
+      ConvertedFeatures result = converted(faults);
+      if (std::ranges::all_of(faults, &std::string::empty)) return result;
+      auto next = faults.begin();
+      for (std::size_t file = 0; file < features.files.size(); ++file) {
+        const auto last =
+            file + 1 < features.files.size()
+                ? next + static_cast<std::ptrdiff_t>(features.files[file].num_features)
+                : faults.end();
+        result.facts[file].faults.assign(std::move_iterator(next), std::move_iterator(last));
+        next = last;
       }
-      return cells;
+      return result;
     } catch (const FeatureFault& fault) {
       if (!faults[fault.feature()].empty()) throw;
       faults[fault.feature()] = fault.fault();
-      features.rings = given;
+      std::tie(features.rings, features.lines) = given;
     }
   }
 }
@@ -422,6 +488,8 @@ std::vector<std::string> faults_of_features(const map::PolygonFeatures& features
         for (std::size_t f = begin; f < end; ++f) {
           map::PolygonFeatures one;
           one.rings = {features.rings[f]};
+          one.lines = {f < features.lines.size() ? features.lines[f]
+                                                 : std::vector<std::vector<LonLat>>{}};
           for (const map::LonLatRing& ring : one.rings.front()) {
             if (faults[f].empty()) faults[f] = ring.fault;
           }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Converts the polygons of a file into cells.
+// Converts the polygons of files into cells, and their lines into arcs.
 //
-// in    features with rings of longitudes and latitudes
-// out   a cell for each feature
+// in    features with rings and lines of longitudes and latitudes
+// out   a cell and lines for each feature
 // index features
 #pragma once
 
@@ -16,18 +16,29 @@
 #include <vector>
 
 #include "map/polygon_features.h"
+#include "overlay/plane_arcs.h"
+#include "overlay/plane_sweep.h"
 #include "rondel/cell_rings.h"
 #include "rondel/error.h"
+#include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
-// Returns the cells of all features. Adds the faults of features that were repaired to the facts, and
-// remarks on these and on features that rounding of their corners has left without an area. Throws FileError for polygons that bound
-// no region, with the feature, the ring and a place, unless they are to be repaired.
-CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
-                            CellFacts& facts, const Execution& execution);
+// The cells and lines of features.
+struct ConvertedFeatures {
+  CellRings cells;
+  FeatureLines lines;            // divided together with the sides of the cells
+  std::vector<CellFacts> facts;  // of each file
+};
+
+// Converts all features. The facts have the faults of features that were repaired, and remarks on
+// these and on features that rounding of their corners has left without an area. Throws FileError
+// for polygons that bound no region, with the feature, the ring and a place, and for lines that do
+// not tell which way they go, unless they are to be repaired.
+ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
+                                     const Execution& execution);
 
 // Returns for each feature what is wrong with it, or an empty text.
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
@@ -47,12 +58,33 @@ std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 
 // Adds corners to neighboring features where only one of them has a corner on their common border.
 //
-// in, out  features[f][r]: ring r of feature f
-// Inserts corners into sides: those of other features that lie on the side up to rounding, and
-// those of the same feature that lie there after a shift by 360 degrees. Sides are then straight
-// only up to rounding, and neighbors have the same corners. A ring that is so thin that it may
-// run to and fro after that keeps its former positions in `thin_positions`.
-void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads);
+// Inserts corners into sides of rings: those of other features and of lines that lie on the side up
+// to rounding, and those of the same feature that lie there after a shift by 360 degrees. Inserts
+// all corners into lines. Sides are then straight only up to rounding, and neighbors have the same
+// corners. Positions that are equal but for the rounding of a turn of the globe become equal before.
+// A ring that is so thin that it may run to and fro after that keeps its former positions in
+// `thin_positions`.
+void share_corners(map::PolygonFeatures& features, unsigned threads);
+
+// --- lines of features; a side of more than 180 degrees of longitude goes the shorter way around
+// --- the globe
+
+// Throws FeatureFault for a line of a feature that has such a side, unless it is to be repaired, or
+// that is more than ten turns of the globe away.
+void require_lines(const map::PolygonFeatures& features, std::size_t feature, bool is_repaired);
+
+// Appends the sides of all lines. A line in one place has one side without a length.
+void append_line_sides(const map::PolygonFeatures& features, std::vector<PlaneSide>& sides);
+
+// Returns lines of divided sides, of which the first one is side `first`.
+FeatureLines divided_lines(const map::PolygonFeatures& features, const DividedSides& divided,
+                           std::size_t first);
+
+// Returns lines along great circles. Throws FeatureFault for a side between opposite places.
+FeatureLines geodesic_lines(const map::PolygonFeatures& features);
+
+// Positions may be this many turns of the globe away.
+constexpr double max_turns = 10;
 
 // Returns "longitude latitude" in degrees, with 10 significant digits.
 std::string text_of_place(const LonLat& place);

@@ -77,7 +77,21 @@ arrangement::KnownPlace known_pole(std::span<const PlaneSide> sides) {
           is_along_pole(sides, pole_deg, lon_deg)};
 }
 
-// True if sides of a ring go the shorter way around the globe.
+// Returns the place opposite to the middle of a ring, which is outside of its smaller side if its
+// corners are in a hemisphere.
+std::optional<arrangement::KnownPlace> known_outside(std::span<const Point> ring) {
+  Point sum = {};
+  for (const Point& corner : ring) sum = sum + corner;
+  const Point middle = normalized(sum);
+  constexpr double least_cosine = 1e-9;
+  const bool is_in_hemisphere = std::ranges::all_of(
+      ring, [&](const Point& corner) { return dot(middle, corner) > least_cosine; });
+  if (!is_in_hemisphere) return std::nullopt;
+  return arrangement::KnownPlace{-1.0 * middle, middle, false};
+}
+
+}  // namespace
+
 bool goes_shorter_way(const map::LonLatRing& ring) {
   if (ring.is_turn) return true;
   const std::vector<LonLat>& positions = ring.positions;
@@ -95,32 +109,13 @@ bool goes_shorter_way(const map::LonLatRing& ring) {
   return false;
 }
 
-// Returns the place opposite to the middle of a ring, which is outside of its smaller side if its
-// corners are in a hemisphere.
-std::optional<arrangement::KnownPlace> known_outside(std::span<const Point> ring) {
-  Point sum = {};
-  for (const Point& corner : ring) sum = sum + corner;
-  const Point middle = normalized(sum);
-  constexpr double least_cosine = 1e-9;
-  const bool is_in_hemisphere = std::ranges::all_of(
-      ring, [&](const Point& corner) { return dot(middle, corner) > least_cosine; });
-  if (!is_in_hemisphere) return std::nullopt;
-  return arrangement::KnownPlace{-1.0 * middle, middle, false};
-}
-
-}  // namespace
-
 std::vector<PlaneSide> given_sides(std::span<const map::LonLatRing> rings) {
   std::vector<PlaneSide> sides;
   for (const map::LonLatRing& ring : rings) {
-    const bool is_shorter = goes_shorter_way(ring);
     const std::size_t size = ring.positions.size();
     for (std::size_t k = 0; k < size; ++k) {
       PlaneSide side = {ring.positions[k], ring.positions[k + 1 < size ? k + 1 : 0]};
-      if (is_shorter) {
-        side.to.lon_deg =
-            side.from.lon_deg + std::remainder(side.to.lon_deg - side.from.lon_deg, 360.0);
-      }
+      if (ring.is_shorter) side.to = map::end_of_shorter(side.from, side.to);
       sides.push_back(side);
     }
   }

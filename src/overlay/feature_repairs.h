@@ -26,10 +26,13 @@
 
 namespace rondel::overlay {
 
-// Returns the sides of all rings. The sides of a ring that goes around the globe, or has a side of
-// more than 180 degrees of longitude that is neither at a pole nor between two meridians, as those of
-// a box are, go the shorter way around the globe. So a side may end a turn away from where the next
-// one begins.
+// True if a ring goes around the globe, or has a side of more than 180 degrees of longitude that is
+// neither at a pole nor between two meridians, as those of a box are: its sides go the shorter way
+// around the globe.
+bool goes_shorter_way(const map::LonLatRing& ring);
+
+// Returns the sides of all rings. Where they go the shorter way around the globe, a side may end a
+// turn away from where the next one begins.
 std::vector<PlaneSide> given_sides(std::span<const map::LonLatRing> rings);
 
 // Returns the cell of a feature. `corners` has a row for each of the given sides: the arcs between

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -22,13 +23,81 @@ bool is_one_place(const LonLat& p, const LonLat& q) {
          std::abs(p.lat_deg - q.lat_deg) <= 2 * on_side_deg;
 }
 
+// The positions of files that are a turn of the globe away, whose longitudes are rounded more
+// coarsely than others.
+class TurnedPositions {
+ public:
+  // Takes a position that is a turn away, and passes by others.
+  void add(const LonLat& p) {
+    if (std::abs(p.lon_deg) > 180) turned_.push_back({p.lat_deg, reduced(p), std::abs(p.lon_deg)});
+  }
+  // Ends the additions.
+  void sort() {
+    std::ranges::sort(turned_);
+    turned_.erase(std::unique(turned_.begin(), turned_.end()), turned_.end());
+  }
+  [[nodiscard]] bool is_empty() const { return turned_.empty(); }
+
+  // Moves positions to the coarsest ones that are the same place up to rounding. These are
+  // representable on every turn nearer to the map. Returns true if any has moved.
+  bool move(std::vector<LonLat>& positions) const {
+    bool has_moved = false;
+    for (LonLat& p : positions) {
+      const double lon = reduced(p);
+      Turned best = {p.lat_deg, lon, std::abs(p.lon_deg)};
+      const auto first =
+          std::ranges::lower_bound(turned_, Turned{p.lat_deg, lon - 2 * on_side_deg, 0});
+      for (auto q = first; q != turned_.end() && (*q)[0] == p.lat_deg; ++q) {
+        if ((*q)[1] > lon + 2 * on_side_deg) break;
+        if ((*q)[2] > best[2]) best = *q;
+      }
+      if (best[1] == lon) continue;
+      p.lon_deg = best[1] + (p.lon_deg - lon);
+      has_moved = true;
+    }
+    return has_moved;
+  }
+
+ private:
+  // Latitude, longitude from -180 to 180, and how far the given longitude is from 0: degrees.
+  using Turned = std::array<double, 3>;
+
+  // Returns a longitude from -180 to 180; exact.
+  static double reduced(const LonLat& p) {
+    return std::abs(p.lon_deg) > 180 ? std::remainder(p.lon_deg, 360.0) : p.lon_deg;
+  }
+
+  std::vector<Turned> turned_;
+};
+
 // Finds the corners on a side.
 class SideCorners {
  public:
   SideCorners(const PlaneCorners& corners, Index feature) : corners_(corners), feature_(feature) {}
 
+  // Returns a ring with the corners on its sides, or a line.
+  [[nodiscard]] std::vector<LonLat> along(const std::vector<LonLat>& positions, bool is_ring,
+                                          bool is_shorter) {
+    std::vector<LonLat> result;
+    const std::size_t size = positions.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const LonLat& from = positions[k];
+      result.push_back(from);
+      if (k + 1 == size && !is_ring) break;
+      LonLat to = positions[k + 1 < size ? k + 1 : 0];
+      if (is_shorter && std::abs(to.lon_deg - from.lon_deg) > 180) {
+        to = map::end_of_shorter(from, to);
+      }
+      if (from == to) continue;
+      const std::vector<LonLat>& between = on_side(from, to);
+      result.insert(result.end(), between.begin(), between.end());
+    }
+    return result;
+  }
+
+ private:
   // Returns the corners on a side between its ends, from its beginning on.
-  const std::vector<LonLat>& operator()(const LonLat& from, const LonLat& to) {
+  const std::vector<LonLat>& on_side(const LonLat& from, const LonLat& to) {
     found_.clear();
     const bool goes_east = is_west_of(from, to);
     const LonLat& west = goes_east ? from : to;
@@ -59,7 +128,6 @@ class SideCorners {
     return positions_;
   }
 
- private:
   // True if a corner has not been shifted by 360 degrees.
   static bool is_own(const LonLat& p) { return p.lon_deg > -180 && p.lon_deg < 180; }
 
@@ -85,38 +153,75 @@ bool is_thin(const std::vector<LonLat>& positions) {
   return std::abs(area) <= 8 * on_side_deg * length;
 }
 
-}  // namespace
+// Calls visit(positions, ring) for all rings and lines; the ring of a line is null.
+template <class Visit>
+void visit_positions(map::PolygonFeatures& features, const Visit& visit) {
+  for (std::vector<map::LonLatRing>& rings : features.rings) {
+    for (map::LonLatRing& ring : rings) visit(ring.positions, &ring);
+  }
+  for (std::vector<std::vector<LonLat>>& lines : features.lines) {
+    for (std::vector<LonLat>& line : lines) visit(line, nullptr);
+  }
+}
 
-void share_corners(std::vector<std::vector<map::LonLatRing>>& features, unsigned threads) {
+// Makes positions equal that are the same but for the rounding of a turn of the globe.
+void share_rounding(map::PolygonFeatures& features) {
+  TurnedPositions turned;
+  visit_positions(features, [&](const std::vector<LonLat>& positions, const void* /*ring*/) {
+    for (const LonLat& p : positions) turned.add(p);
+  });
+  if (turned.is_empty()) return;
+  turned.sort();
+  visit_positions(features, [&](std::vector<LonLat>& positions, map::LonLatRing* ring) {
+    std::vector<LonLat> before = positions;
+    if (turned.move(positions) && ring != nullptr && is_thin(before)) {
+      ring->thin_positions = std::move(before);
+    }
+  });
+}
+
+// Inserts corners of others into the sides on which they lie.
+void insert_corners(map::PolygonFeatures& features, unsigned threads) {
+  const std::size_t size = features.rings.size();
+  // Corners of lines belong to none of the features, as no exact sign has judged them.
+  const auto of_lines = static_cast<Index>(size);
   std::vector<PlaneCorners::OwnedCorner> all;
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    for (const map::LonLatRing& ring : features[f]) {
+  for (std::size_t f = 0; f < size; ++f) {
+    for (const map::LonLatRing& ring : features.rings[f]) {
       for (const LonLat& p : ring.positions) all.push_back({p, static_cast<Index>(f)});
     }
   }
+  for (const auto& lines : features.lines) {
+    for (const std::vector<LonLat>& line : lines) {
+      for (const LonLat& p : line) all.push_back({p, of_lines});
+    }
+  }
   const PlaneCorners corners(std::move(all));
-  system::parallel_for(
-      threads, features.size(), features_per_block, [&](std::size_t begin, std::size_t end) {
-        std::vector<LonLat> positions;
-        for (std::size_t f = begin; f < end; ++f) {
-          SideCorners corners_on(corners, static_cast<Index>(f));
-          for (map::LonLatRing& ring : features[f]) {
-            positions.clear();
-            for (std::size_t k = 0; k < ring.positions.size(); ++k) {
-              const LonLat& from = ring.positions[k];
-              const LonLat& to = ring.positions[k + 1 < ring.positions.size() ? k + 1 : 0];
-              positions.push_back(from);
-              if (from == to) continue;
-              const std::vector<LonLat>& between = corners_on(from, to);
-              positions.insert(positions.end(), between.begin(), between.end());
-            }
-            if (positions.size() > ring.positions.size() && is_thin(ring.positions)) {
-              ring.thin_positions = std::move(ring.positions);
-            }
-            ring.positions = positions;
-          }
+  system::parallel_for(threads, size, features_per_block, [&](std::size_t begin, std::size_t end) {
+    SideCorners any(corners, of_lines + 1);
+    for (std::size_t f = begin; f < end; ++f) {
+      SideCorners others(corners, static_cast<Index>(f));
+      for (map::LonLatRing& ring : features.rings[f]) {
+        std::vector<LonLat> positions = others.along(ring.positions, true, ring.is_shorter);
+        if (positions.size() > ring.positions.size() && ring.thin_positions.empty() &&
+            is_thin(ring.positions)) {
+          ring.thin_positions = std::move(ring.positions);
         }
-      });
+        ring.positions = std::move(positions);
+      }
+      if (features.lines.empty()) continue;
+      for (std::vector<LonLat>& line : features.lines[f]) line = any.along(line, false, true);
+    }
+  });
+}
+
+}  // namespace
+
+void share_corners(map::PolygonFeatures& features, unsigned threads) {
+  share_rounding(features);
+  insert_corners(features, threads);
+  // Corners that were inserted on another turn are rounded again.
+  share_rounding(features);
 }
 
 }  // namespace rondel::overlay

@@ -31,6 +31,26 @@ CellRings one_cell(const CellRings& cells, Index cell) {
   return one;
 }
 
+CellRings cells_between(const CellRings& cells, std::size_t first, std::size_t end) {
+  CellRings some;
+  std::vector<Index> numbers(cells.points.size(), no_index);
+  for (std::size_t c = first; c < end; ++c) {
+    if (cells.is_whole(c)) some.whole.push_back(static_cast<Index>(c - first));
+    for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
+      for (const Index corner : cells.corners_of(r)) {
+        if (numbers[corner] == no_index) {
+          numbers[corner] = static_cast<Index>(some.points.size());
+          some.points.push_back(cells.points[corner]);
+        }
+        some.corners.push_back(numbers[corner]);
+      }
+      some.end_ring();
+    }
+    some.end_cell();
+  }
+  return some;
+}
+
 CellRings beyond_cell(CellRings one) {
   for (std::size_t r = 0; r + 1 < one.rings.size(); ++r) {
     std::reverse(one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r]),

@@ -5,6 +5,7 @@
 // with the file's name; the cells have an area, and can be clipped to; cells that were made disjoint do not overlap, and
 // are what the others cover; the features have sites and cells.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -17,6 +18,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 
@@ -141,6 +143,33 @@ void test_reader(const std::string& path, const Read& read) {
   }
 }
 
+// What is read together with itself has the same places twice, and what is written is read again.
+void test_together(const ScratchFolder& folder, const std::string& path,
+                   const PolygonOptions& options) {
+  const std::array files = {FileName{path, {}}, FileName{path, {}}};
+  std::vector<FeatureTable> tables = read_features_together(files, options);
+  require(tables[0].lines == tables[1].lines, "equal files have equal lines");
+  require(tables[0].polygons.points == tables[1].polygons.points, "equal files have equal corners");
+  test_features(tables[0]);
+  const Geometries all = {std::move(tables[0].lines), std::move(tables[0].polygons)};
+  const std::string written = folder.file("written.geojson");
+  write_geometries({written, {}}, all, tables[0].facts.columns, 1);
+  const Geometries proper = without_touching_parts(all, all, all);
+  require(proper.size() == all.size(), "geometries stay");
+  LonLatGeometries places;
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    for (std::uint64_t k = all.lines.offsets[f]; k < all.lines.offsets[f + 1]; ++k) {
+      places.lines.rows.append(lonlats(all.lines.rows[k]));
+    }
+    places.lines.end_group();
+    places.polygons.end_group();
+  }
+  require(places.size() == all.size(), "a group for each feature");
+  const PolygonOptions repairing = {.edges = options.edges, .invalid = InvalidPolygons::repair};
+  const auto again = features_of_geometries({&places, 1}, repairing);
+  require(again.front().lines.size() == all.size(), "lines in memory are lines");
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -153,6 +182,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const PolygonOptions options = {.edges = edges, .tolerance_deg = 1};
     fuzz::test_reader(path, [&] { fuzz::test_cells(read_polygons(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
+    fuzz::test_reader(path, [&] { fuzz::test_together(folder, path, options); });
     fuzz::test_reader(path, [&] { fuzz::test_overlaps(path, options); });
     fuzz::test_reader(path, [&] { fuzz::test_repairs(path, options); });
     fuzz::test_reader(path, [&] { fuzz::test_arrow(read_polygons(path, options).cells); });

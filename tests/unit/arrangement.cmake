@@ -12,4 +12,6 @@ rondel_add_test(arrangement_test
   arrangement/set_operations_test.cpp
   arrangement/simplify_test.cpp
   arrangement/steps_test.cpp
+  arrangement/together_test.cpp
   LIBS rondel_geo rondel_test_support)
+target_compile_definitions(arrangement_test PRIVATE RONDEL_DATA="${PROJECT_SOURCE_DIR}/data")

@@ -37,7 +37,7 @@ PolygonFeatures read(const std::string& text, FeatureKinds kinds = FeatureKinds:
   const std::string path = file_of(R"({"type": "FeatureCollection", "features": [)" +
                                    feature(text) + ",\n" + feature("null") + "]}");
   PolygonFeatures features = io::read_polygon_features({path}, kinds);
-  EXPECT_EQ(features.name, path);
+  EXPECT_EQ(features.files.front().name, path);
   EXPECT_EQ(features.rings.size(), 2U);
   EXPECT_EQ(features.lines.size(), 2U);
   EXPECT_TRUE(features.rings.at(1).empty() && features.lines.at(1).empty());

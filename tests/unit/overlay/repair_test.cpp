@@ -151,6 +151,17 @@ TEST(overlay_repair, rings_around_a_pole_have_the_pole) {
   EXPECT_NEAR(area_of({{south}, {north}}), 2 * cap(70), 1e-3);
 }
 
+// A corner of another feature on the long side lies on the other side of the globe.
+TEST(overlay_repair, long_sides_get_no_corners_of_features_on_the_long_way) {
+  const RingInPlane around = {{-170, 61}, {-60, 62}, {60, 62}, {170, 61}};
+  for (const double lat : {61.0, 60.8}) {
+    const RingInPlane other = {{0, lat}, {1, 59}, {2, 60.5}};
+    const CellTable table =
+        planar_table({{planar_polygon({around})}, {planar_polygon({other})}}, repairing);
+    EXPECT_NEAR(areas(table.cells)[0], 0.7543, 1e-3) << lat;
+  }
+}
+
 TEST(overlay_repair, other_features_stay_bit_by_bit) {
   const RingInPlane bow = {{0, 0}, {10, 10}, {10, 0}, {0, 10}};
   const RingInPlane box = planar_box(10, 0, 20, 10);

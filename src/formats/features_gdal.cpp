@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Writes regions by GDAL: write_regions_gdal() and require_region_writer(). The polygons of a cell
-// become one feature, handed over as well-known binary. GDAL first writes into its memory, so that
+// Writes features by GDAL: write_features_gdal() and require_region_writer(). Geometries are handed
+// over as well-known binary. GDAL first writes into its memory, so that
 // the file appears whole or not at all.
-#include "formats/regions_gdal.h"
+#include "formats/features_gdal.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -15,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -36,7 +38,9 @@ constexpr std::array<GdalFormat, 3> gdal_formats = {
     {{".gpkg", "GPKG"}, {".fgb", "FlatGeobuf"}, {".parquet", "Parquet"}}};
 
 // Values of GDAL's enumerations.
-constexpr int type_multi_polygon = 6, type_polygon = 3;
+constexpr int type_point = 1, type_line = 2, type_polygon = 3, type_collection = 7;
+constexpr int type_unknown = 0;
+constexpr int to_multi = 3;  // from the type of a part to that of a geometry of several ones
 constexpr int field_real = 2, field_text = 4, field_integer = 12;
 constexpr int traditional_axes = 0;  // longitude first
 
@@ -80,21 +84,63 @@ class WkbWriter {
   std::vector<unsigned char> bytes_;
 };
 
-// Returns the polygons [first, past) as one MultiPolygon.
-std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t first,
-                                  std::size_t past) {
-  WkbWriter wkb;
-  wkb.begin(type_multi_polygon);
-  wkb.add_number(static_cast<std::uint32_t>(past - first));
-  const auto& [ends, rings] = regions.polygons;
-  for (std::size_t p = first; p < past; ++p) {
-    wkb.begin(type_polygon);
-    wkb.add_number(static_cast<std::uint32_t>(ends[p + 1] - ends[p]));
-    for (std::uint64_t r = ends[p]; r < ends[p + 1]; ++r) {
-      wkb.add_number(static_cast<std::uint32_t>(rings[r].size()));
-      for (const LonLat& position : rings[r]) wkb.add_position(position);
+constexpr std::array<PartKind, 3> part_kinds = {PartKind::point, PartKind::line, PartKind::polygon};
+
+// Returns the type of the geometries that have parts of one kind.
+int type_of(PartKind kind) {
+  return std::array{type_point, type_line, type_polygon}.at(static_cast<std::size_t>(kind)) +
+         to_multi;
+}
+
+// Returns the type of all geometries, type_unknown if they are of several ones.
+int common_type(std::span<const DrawnGeometry> geometries) {
+  int common = type_unknown;
+  for (const PartKind kind : part_kinds) {
+    const bool occurs = std::ranges::any_of(
+        geometries, [&](const DrawnGeometry& geometry) { return geometry.num_parts(kind) > 0; });
+    if (occurs && common != type_unknown) return type_unknown;
+    if (occurs) common = type_of(kind);
+  }
+  return common == type_unknown ? type_of(PartKind::polygon) : common;
+}
+
+// Writes the parts of one kind as one geometry.
+void add_parts(const DrawnGeometry& geometry, PartKind kind, WkbWriter& wkb) {
+  const auto add_positions = [&](std::span<const LonLat> positions) {
+    wkb.add_number(static_cast<std::uint32_t>(positions.size()));
+    for (const LonLat& position : positions) wkb.add_position(position);
+  };
+  wkb.begin(type_of(kind));
+  wkb.add_number(static_cast<std::uint32_t>(geometry.num_parts(kind)));
+  if (kind == PartKind::point) {
+    for (const LonLat& point : geometry.points) {
+      wkb.begin(type_point);
+      wkb.add_position(point);
+    }
+  } else if (kind == PartKind::line) {
+    for (const std::vector<LonLat>& line : geometry.lines) {
+      wkb.begin(type_line);
+      add_positions(line);
+    }
+  } else {
+    for (const map::PolygonWithHoles& polygon : geometry.polygons) {
+      wkb.begin(type_polygon);
+      wkb.add_number(static_cast<std::uint32_t>(polygon.rings.size()));
+      for (const std::vector<LonLat>& ring : polygon.rings) add_positions(ring);
     }
   }
+}
+
+// Returns a geometry: its parts of one kind, or a collection of those of several kinds.
+std::vector<unsigned char> wkb_of(const DrawnGeometry& geometry) {
+  std::vector<PartKind> kinds(part_kinds.begin(), part_kinds.end());
+  std::erase_if(kinds, [&](PartKind kind) { return geometry.num_parts(kind) == 0; });
+  WkbWriter wkb;
+  if (kinds.size() > 1) {
+    wkb.begin(type_collection);
+    wkb.add_number(static_cast<std::uint32_t>(kinds.size()));
+  }
+  for (const PartKind kind : kinds) add_parts(geometry, kind, wkb);
   return wkb.bytes();
 }
 
@@ -121,12 +167,13 @@ int field_type(const Column& column) {
 
 // Returns the names of the fields, one for each column. GeoPackage takes upper and lower case for
 // one, and has columns of its own.
-std::vector<std::string> field_names(std::span<const Column> columns, const GdalFormat& format) {
+std::vector<std::string> field_names(const DrawnFeatures& features, const GdalFormat& format) {
   const bool is_sqlite = format.ending == ".gpkg";
-  std::set<std::string> taken = {"area"};
+  std::set<std::string> taken;
+  for (const Measure& measure : features.measures) taken.insert(measure.name);
   if (is_sqlite) taken.insert({"fid", "geom"});
   std::vector<std::string> names;
-  for (const Column& column : columns) names.push_back(column.name);
+  for (const Column& column : features.columns) names.push_back(column.name);
   return free_names(std::move(names), std::move(taken), is_sqlite);
 }
 
@@ -159,20 +206,20 @@ class GdalFile {
                     "'; in Python, Regions.to_geopandas().to_parquet() writes such files");
   }
 
-  // Makes the table: its name, the coordinate system and the fields. Field 0 is the area, and field
-  // k + 1 is column k.
-  void make_layer(const std::string& layer_name, std::span<const Column> columns,
+  // Makes the table: its name, the coordinate system and the fields: what is computed, then the
+  // columns.
+  void make_layer(const std::string& layer_name, const DrawnFeatures& features,
                   std::span<const std::string> names) {
     GdalHandle const reference = gdal_.new_reference(nullptr);
     gdal_.set_well_known_reference(reference, "WGS84");
     gdal_.set_axis_mapping(reference, traditional_axes);
-    layer_ =
-        gdal_.create_layer(dataset_, layer_name.c_str(), reference, type_multi_polygon, nullptr);
+    layer_ = gdal_.create_layer(dataset_, layer_name.c_str(), reference,
+                                common_type(features.geometries), nullptr);
     gdal_.destroy_reference(reference);
     require(layer_ != nullptr);
-    add_field("area", field_real);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      types_.push_back(field_type(columns[k]));
+    for (const Measure& measure : features.measures) add_field(measure.name, field_real);
+    for (std::size_t k = 0; k < features.columns.size(); ++k) {
+      types_.push_back(field_type(features.columns[k]));
       add_field(names[k].c_str(), types_.back());
     }
     // Transactions make it faster, in formats that have them.
@@ -181,17 +228,21 @@ class GdalFile {
 
   // Adds a feature. A cell of a column that is empty stays NULL, unless it is an empty text of
   // GeoJSON.
-  void add(std::size_t row, double area, std::span<const Column> columns,
-           const std::vector<unsigned char>& wkb) {
+  void add(const DrawnFeatures& features, std::size_t row) {
+    const std::vector<unsigned char> wkb = wkb_of(features.geometries[row]);
     GdalHandle geometry = nullptr;
     require(gdal_.geometry_of_wkb(wkb.data(), nullptr, &geometry, static_cast<int>(wkb.size())) ==
             0);
     GdalHandle const feature = gdal_.create_feature(gdal_.definition(layer_));
     gdal_.give_geometry(feature, geometry);
-    gdal_.set_double(feature, 0, area);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const bool is_text = !columns[k].is_json.empty() && !columns[k].is_json[row];
-      if (is_text || !columns[k].cell(row).empty()) set(feature, k, columns[k].cell(row));
+    int field = 0;
+    for (const Measure& measure : features.measures) {
+      gdal_.set_double(feature, field++, measure.values[row]);
+    }
+    for (std::size_t k = 0; k < features.columns.size(); ++k, ++field) {
+      const Column& column = features.columns[k];
+      const bool is_text = !column.is_json.empty() && !column.is_json[row];
+      if (is_text || !column.cell(row).empty()) set(feature, field, types_[k], column.cell(row));
     }
     const int error = gdal_.add_feature(layer_, feature);
     gdal_.destroy_feature(feature);
@@ -226,12 +277,11 @@ class GdalFile {
     require(error == 0);
   }
 
-  // Sets column k of a feature from its text.
-  void set(GdalHandle feature, std::size_t k, std::string_view text) const {
-    const int field = static_cast<int>(k) + 1;
-    if (types_[k] == field_integer) {
+  // Sets a field of a feature from the text of a column.
+  void set(GdalHandle feature, int field, int type, std::string_view text) const {
+    if (type == field_integer) {
       gdal_.set_integer(feature, field, number_in<std::int64_t>(text).value_or(0));
-    } else if (types_[k] == field_real) {
+    } else if (type == field_real) {
       gdal_.set_double(feature, field, number_in<double>(text).value_or(std::nan("")));
     } else {
       gdal_.set_text(feature, field, std::string(text).c_str());
@@ -254,20 +304,15 @@ class GdalFile {
 
 bool is_format_of_gdal(const FileName& file) { return gdal_format(file) != nullptr; }
 
-void write_regions_gdal(const FileName& file, const LonLatRegions& regions,
-                        std::span<const double> areas, std::span<const Column> columns) {
+void write_features_gdal(const FileName& file, const DrawnFeatures& features) {
   const std::lock_guard lock(gdal_lock());
   const GdalFormat& format = *gdal_format(file);
   GdalFile made(file.path, format);
   const std::string stem = std::filesystem::path(file.path).stem().string();
   const bool has_name = file.path != "-" && file.bytes == nullptr;
-  made.make_layer(has_name ? stem : "cells", columns, field_names(columns, format));
-  // Polygons of one cell follow each other; they are one feature.
-  for (std::size_t p = 0; p < regions.owners.size();) {
-    const std::size_t first = p;
-    const Index owner = regions.owners[p];
-    while (p < regions.owners.size() && regions.owners[p] == owner) ++p;
-    made.add(owner, areas[owner], columns, wkb_of(regions, first, p));
+  made.make_layer(has_name ? stem : "cells", features, field_names(features, format));
+  for (std::size_t i = 0; i < features.geometries.size(); ++i) {
+    if (features.is_written[i] && !features.geometries[i].is_empty()) made.add(features, i);
   }
   write_file(file, made.finish());
 }
