@@ -56,18 +56,21 @@ CellDrawing drawing_of(const CellRings& cells, const Execution& execution) {
   return overlapping_cells(cells, execution).empty() ? CellDrawing::together : CellDrawing::apart;
 }
 
-void require_polygons(const FeatureTable& table) {
-  for (std::size_t f = 0; f < table.lines.size(); ++f) {
-    if (table.lines.offsets[f] == table.lines.offsets[f + 1]) continue;
-    throw FileError(table.facts.name + ": feature " + feature_name(table.facts.columns, f) +
-                    " has lines or points");
-  }
-}
-
 std::size_t num_not_empty(const CellRings& cells) {
   std::size_t number = cells.whole.size();
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
     number += cells.cells[c] < cells.cells[c + 1] ? 1 : 0;
+  }
+  return number;
+}
+
+std::size_t num_not_empty(const Geometries& geometries) {
+  const CellRings& polygons = geometries.polygons;
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < geometries.size(); ++i) {
+    const bool is_empty = geometries.lines.offsets[i] == geometries.lines.offsets[i + 1] &&
+                          polygons.cells[i] == polygons.cells[i + 1] && !polygons.is_whole(i);
+    number += is_empty ? 0 : 1;
   }
   return number;
 }

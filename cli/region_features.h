@@ -18,6 +18,7 @@
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 
@@ -44,11 +45,9 @@ inline constexpr double mean_earth_radius = 6371.0088;
 /// Returns how cells are drawn: apart if they overlap, so that none loses a part.
 CellDrawing drawing_of(const CellRings& cells, const Execution& execution);
 
-/// Throws FileError for a feature with lines or points, which would not be among written polygons.
-void require_polygons(const FeatureTable& table);
-
-/// Returns how many cells have a place.
+/// Returns how many cells or geometries have a place.
 std::size_t num_not_empty(const CellRings& cells);
+std::size_t num_not_empty(const Geometries& geometries);
 
 /// The rows of a table grouped by their text, groups in the order in which they occur. Rows without
 /// a text belong to no group.

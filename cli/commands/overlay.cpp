@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel overlay: set operations on polygons.
-// in    polygons of one or two files
-// out   pieces with the columns of both files; or one polygon
+// rondel overlay: set operations on points, lines and polygons.
+// in    features of one or two files
+// out   pieces with the columns of both files; or one feature
 // index features of A, of B; pieces
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -16,6 +16,7 @@
 #include "region_features.h"
 #include "report.h"
 #include "rondel/error.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "rondel/set_operations.h"
@@ -30,6 +31,7 @@ struct OverlayOptions {
   std::string second;    // B; empty: there is one operand
   SetOperation how = SetOperation::unite;
   bool is_dissolved = false;  // --dissolve
+  bool has_touching = false;  // --touching
   PolygonOptions read;
   double tolerance_deg = 0.01;
 
@@ -60,18 +62,64 @@ std::vector<Column> joined(std::vector<Column> first, std::vector<Column> second
 
 // The features to be written.
 struct Pieces {
-  CellRings rings;
+  Geometries geometries;
   std::vector<Column> columns;
+  std::size_t num_left_out = 0;  // lines and points in which features only meet
 };
 
-Pieces pieces_of(const CellTable& first, const CellTable& second, const OverlayOptions& options,
-                 const Execution& execution) {
-  if (options.is_joined()) {
-    return {combine(first.cells, second.cells, options.how, execution), {}};
+bool has_lines(const Geometries& geometries) { return geometries.lines.rows.size() > 0; }
+
+// Returns groups of lines, none of which has a line.
+Geometries without_lines(CellRings rings) {
+  Geometries geometries;
+  for (std::size_t i = 0; i < rings.num_cells(); ++i) geometries.lines.end_group();
+  geometries.polygons = std::move(rings);
+  return geometries;
+}
+
+// Returns the union, or another combination, of all features.
+Pieces combined(const Geometries& first, const Geometries& second, const OverlayOptions& options,
+                const Execution& execution) {
+  if (!has_lines(first) && !has_lines(second) && !options.has_touching) {
+    return {without_lines(combine(first.polygons, second.polygons, options.how, execution)), {}};
   }
-  RegionPieces pieces = overlay_pieces(first.cells, second.cells, options.how, execution);
-  return {std::move(pieces.rings), joined(rows_of_all(first.facts.columns, pieces.cells),
-                                          rows_of_all(second.facts.columns, pieces.regions))};
+  Geometries all = combine(first, second, options.how, execution);
+  if (options.has_touching) return {std::move(all), {}};
+  Geometries proper = without_touching_parts(all, first, second);
+  const std::size_t num_left_out = all.lines.rows.size() - proper.lines.rows.size();
+  return {std::move(proper), {}, num_left_out};
+}
+
+// Returns the pieces into which the features divide each other.
+Pieces divided(const Geometries& first, const Geometries& second, const FeatureTable& of_first,
+               const FeatureTable& of_second, const OverlayOptions& options,
+               const Execution& execution) {
+  const auto with_columns = [&](Geometries geometries, const std::vector<Index>& a,
+                                const std::vector<Index>& b) {
+    return Pieces{std::move(geometries), joined(rows_of_all(of_first.facts.columns, a),
+                                                rows_of_all(of_second.facts.columns, b))};
+  };
+  if (!has_lines(first) && !has_lines(second) && !options.has_touching) {
+    RegionPieces pieces = overlay_pieces(first.polygons, second.polygons, options.how, execution);
+    return with_columns(without_lines(std::move(pieces.rings)), pieces.cells, pieces.regions);
+  }
+  GeometryPieces pieces = overlay_pieces(first, second, options.how, execution);
+  const std::size_t num_lines = pieces.pieces.lines.rows.size();
+  if (!options.has_touching) pieces = without_touching_parts(pieces, first, second);
+  const std::size_t num_left_out = num_lines - pieces.pieces.lines.rows.size();
+  Pieces result = with_columns(std::move(pieces.pieces), pieces.first, pieces.second);
+  result.num_left_out = num_left_out;
+  return result;
+}
+
+// Reads the features of both files, if there are two. Throws FileError.
+std::vector<FeatureTable> read_operands(const OverlayOptions& options, const Execution& execution) {
+  std::vector<FileName> files = {options.common.source_beside(options.second)};
+  if (!options.second.empty()) files.push_back(options.common.other_source(options.second));
+  std::vector<FeatureTable> tables = read_features_together(files, options.read, execution);
+  for (const FeatureTable& table : tables) tell(table.facts.name, table.facts.remarks);
+  tables.resize(2);
+  return tables;
 }
 
 // Throws FileError for files that cannot be read or written, UsageError.
@@ -84,25 +132,38 @@ ExitStatus run_overlay(const OverlayOptions& options) {
   }
   require_region_writer(common.target());
   Job job(common);
-  CellTable first;
-  CellTable second;
   Pieces pieces;
   job.time(Stage::dual, [&] {
-    first = read_polygons(common.source_beside(options.second), options.read, job.execution());
-    tell(first.facts.name, first.facts.remarks);
-    if (options.second.empty()) return;
-    second = read_polygons(common.other_source(options.second), options.read, job.execution());
-    tell(second.facts.name, second.facts.remarks);
+    std::vector<FeatureTable> tables = read_operands(options, job.execution());
+    const auto taken = [](FeatureTable& table) {
+      return Geometries{std::move(table.lines), std::move(table.polygons)};
+    };
+    const Geometries first = taken(tables.front());
+    const Geometries second = taken(tables.back());
+    pieces = options.is_joined()
+                 ? combined(first, second, options, job.execution())
+                 : divided(first, second, tables.front(), tables.back(), options, job.execution());
   });
-  job.time(Stage::dual, [&] { pieces = pieces_of(first, second, options, job.execution()); });
+  if (pieces.num_left_out > 0) {
+    tell(common.output,
+         {"left out " + count(pieces.num_left_out, "line or point", "lines and points") +
+          " in which features only meet; --touching writes them"});
+  }
+  const Geometries& geometries = pieces.geometries;
   job.time(Stage::write, [&] {
-    write_regions(common.target(), pieces.rings, pieces.columns, options.tolerance_deg,
-                  job.execution(), {}, drawing_of(pieces.rings, job.execution()));
+    const CellDrawing drawing = drawing_of(geometries.polygons, job.execution());
+    if (has_lines(geometries)) {
+      write_geometries(common.target(), geometries, pieces.columns, options.tolerance_deg,
+                       job.execution(), {}, drawing);
+    } else {
+      write_regions(common.target(), geometries.polygons, pieces.columns, options.tolerance_deg,
+                    job.execution(), {}, drawing);
+    }
   });
-  const std::size_t number = num_not_empty(pieces.rings);
+  const std::size_t number = num_not_empty(geometries);
   const double seconds = job.seconds().total;
   job.report(nlohmann::ordered_json{{"features", number}, {"seconds", seconds}}.dump(2) + '\n',
-             "wrote " + count(number, "polygon", "polygons") + " to " + common.output + " in " +
+             "wrote " + count(number, "feature", "features") + " to " + common.output + " in " +
                  text_of_seconds(seconds) + '\n');
   return done;
 }
@@ -112,17 +173,17 @@ ExitStatus run_overlay(const OverlayOptions& options) {
 Command add_overlay_command(CLI::App& tool) {
   auto options = std::make_shared<OverlayOptions>();
   CLI::App* parser =
-      tool.add_subcommand("overlay", "Compute unions, intersections and differences of polygons");
+      tool.add_subcommand("overlay", "Compute unions, intersections and differences of features");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The polygons A: .geojson, or - for standard input")
+                 "The features A: .geojson, or - for standard input")
       ->type_name("");
   add_input_file(*parser, "SECOND", options->second,
-                 "The polygons B; without them the union of A is written")
+                 "The features B; without them the union of A is written")
       ->required(false)
       ->type_name("");
   add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
-                    "Where to write the polygons: .geojson; with GDAL installed .gpkg .fgb\n"
+                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
                     ".parquet")
       ->required();
   add_word<SetOperation>(
@@ -130,7 +191,10 @@ Command add_overlay_command(CLI::App& tool) {
       "union (default), intersection, difference (A without B), symmetric-difference\n"
       "(what is in one of A and B) or identity (A, divided by B)");
   parser->add_flag("--dissolve", options->is_dissolved,
-                   "Write one polygon: the places of all pieces, without properties");
+                   "Write one feature: the places of all pieces, without properties");
+  parser->add_flag("--touching", options->has_touching,
+                   "Write also the lines and points in which features only meet: where two lines\n"
+                   "cross, where a line touches a polygon, and the borders between polygons");
   add_word<PolygonEdges>(
       *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
       "What joins positions of the files: lonlat (default; straight in longitude and\n"
@@ -146,16 +210,19 @@ Command add_overlay_command(CLI::App& tool) {
   require_effect(
       options->common, parser->get_option("--dissolve"),
       [given = options.get()] { return !given->second.empty(); },
-      "without SECOND, as the union of INPUT is one polygon");
+      "without SECOND, as the union of INPUT is one feature");
   parser->footer(
-      "Each polygon of A is divided into its intersections with the polygons of B and what is\n"
+      "Each feature of A is divided into its intersections with the features of B and what is\n"
       "in none of them, and the same for B; --how says which of these pieces are written. A\n"
-      "piece has the properties of both polygons. Polygons of one file may overlap. Results are\n"
-      "exact but for the rounding of places where sides cross, by less than 2 nanometers.\n\n"
+      "piece has the properties of both features. Features are points, lines and polygons: a line\n"
+      "is clipped by polygons, and divided where it crosses other lines of its file. Features of\n"
+      "one file may overlap. Results are exact but for the rounding of places where sides cross,\n"
+      "by less than 2 nanometers.\n\n"
       "Examples:\n"
       "  rondel overlay countries.geojson -o land.geojson\n"
       "  rondel overlay countries.geojson basins.geojson --how intersection -o parts.geojson\n"
-      "  rondel overlay countries.geojson lakes.geojson --how difference -o dry.geojson");
+      "  rondel overlay countries.geojson lakes.geojson --how difference -o dry.geojson\n"
+      "  rondel overlay rivers.geojson countries.geojson --how intersection -o by_country.geojson");
   return {parser, [options] { return run_overlay(*options); }};
 }
 

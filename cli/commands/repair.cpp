@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel repair: polygons that are not valid become valid.
-// in    polygons of a file
+// in    features of a file
 // out   the same features with valid polygons
 // index features
 #include <CLI/CLI.hpp>
@@ -12,12 +12,14 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "job.h"
 #include "region_features.h"
 #include "report.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "validate.h"
@@ -48,28 +50,31 @@ ExitStatus run_repair(const RepairOptions& options) {
   require_region_writer(common.target());
   Job job(common);
   FeatureTable table;
+  Geometries geometries;
   job.time(Stage::dual, [&] {
-    table = read_features(common.source(), options.read, job.execution());
-    require_polygons(table);
+    table = std::move(
+        read_features_together(std::vector{common.source()}, options.read, job.execution())
+            .front());
     tell(table.facts.name, table.facts.remarks);
-    const std::size_t num_empty = table.polygons.num_cells() - num_not_empty(table.polygons);
-    if (num_empty > 0) {
+    geometries = {std::move(table.lines), std::move(table.polygons)};
+    const std::size_t num_empty = geometries.size() - num_not_empty(geometries);
+    if (num_empty > 0 && common.format() != "geojson") {
       tell(table.facts.name,
            {"left out " + count(num_empty, "feature", "features") + " without a place"});
     }
   });
   job.time(Stage::write, [&] {
-    write_regions(common.target(), table.polygons, table.facts.columns, options.tolerance_deg,
-                  job.execution(), table.ids, drawing_of(table.polygons, job.execution()));
+    write_geometries(common.target(), geometries, table.facts.columns, options.tolerance_deg,
+                     job.execution(), table.ids, drawing_of(geometries.polygons, job.execution()));
   });
-  const std::size_t size = table.polygons.num_cells();
+  const std::size_t size = geometries.size();
   const nlohmann::ordered_json repairs = repairs_of(table.facts);
   const double seconds = job.seconds().total;
   job.report(
       nlohmann::ordered_json{{"features", size}, {"repaired", repairs}, {"seconds", seconds}}.dump(
           2) +
           '\n',
-      "repaired " + std::to_string(repairs.size()) + " of " + count(size, "polygon", "polygons") +
+      "repaired " + std::to_string(repairs.size()) + " of " + count(size, "feature", "features") +
           "\nwrote them to " + common.output + " in " + text_of_seconds(seconds) + '\n');
   return done;
 }
@@ -80,7 +85,7 @@ Command add_repair_command(CLI::App& tool) {
   auto options = std::make_shared<RepairOptions>();
   CLI::App* parser = tool.add_subcommand("repair", "Make polygons valid");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The polygons: .geojson, or - for standard input")
+                 "The features: .geojson, or - for standard input")
       ->type_name("");
   add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
@@ -102,8 +107,10 @@ Command add_repair_command(CLI::App& tool) {
       "A polygon has the places that an odd number of its rings' sides divides from the outside,\n"
       "and a feature is the union of its polygons: where sides cross they get a corner, spikes\n"
       "and rings without an area vanish, and a ring around a pole has the pole. Features that\n"
-      "are valid keep their corners and sides. Properties and ids stay. --json lists what was\n"
-      "wrong with each feature.\n\n"
+      "are valid keep their corners and sides. Points and lines stay; a line that jumps more than\n"
+      "180 degrees of longitude goes the shorter way. Properties and ids stay, and a feature\n"
+      "without a place has a null geometry, or is left out of files that GDAL writes. --json\n"
+      "lists what was wrong with each feature.\n\n"
       "Examples:\n"
       "  rondel repair parcels.geojson -o valid.geojson\n"
       "  rondel repair parcels.geojson -o valid.gpkg --json");

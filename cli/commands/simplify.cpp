@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel simplify: polygons with fewer corners.
-// in    polygons of a file
+// rondel simplify: lines and polygons with fewer corners.
+// in    features of a file
 // out   the same features, within a distance of what they were
 // index features
 #include "rondel/simplify.h"
@@ -14,11 +14,14 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "job.h"
 #include "region_features.h"
 #include "report.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "validate.h"
@@ -49,25 +52,33 @@ ExitStatus run_simplify(SimplifyCommand options) {
   options.simplify.tolerance = 14 * options.share();
   Job job(common);
   FeatureTable table;
-  CellRings simple;
+  Geometries simple;
   job.time(Stage::dual, [&] {
-    table = read_features(common.source(), options.polygons, job.execution());
-    require_polygons(table);
+    table = std::move(
+        read_features_together(std::vector{common.source()}, options.polygons, job.execution())
+            .front());
     tell(table.facts.name, table.facts.remarks);
-    simple = simplified(table.polygons, options.simplify, job.execution());
+    SimplifiedFeatures features =
+        simplified(table.lines, table.polygons, options.simplify, job.execution());
+    simple = {std::move(features.lines), std::move(features.polygons)};
   });
-  const std::size_t number = num_not_empty(simple);
-  if (number < num_not_empty(table.polygons)) {
-    tell(table.facts.name,
-         {"left out " + count(num_not_empty(table.polygons) - number, "feature", "features") +
-          " whose rings are smaller than the tolerance"});
+  const std::size_t num_vanished =
+      num_not_empty(Geometries{table.lines, table.polygons}) - num_not_empty(simple);
+  if (num_vanished > 0) {
+    tell(table.facts.name, {"nothing is left of " + count(num_vanished, "feature", "features") +
+                            " whose rings are smaller than the tolerance"});
   }
   job.time(Stage::write, [&] {
-    write_regions(common.target(), simple, table.facts.columns, std::min(0.01, options.share_deg()),
-                  job.execution(), {}, drawing_of(simple, job.execution()));
+    write_geometries(common.target(), simple, table.facts.columns,
+                     std::min(0.01, options.share_deg()), job.execution(), table.ids,
+                     drawing_of(simple.polygons, job.execution()));
   });
-  const std::size_t before = table.polygons.corners.size();
-  const std::size_t after = simple.corners.size();
+  const std::size_t number = num_not_empty(simple);
+  const auto num_corners = [](const FeatureLines& lines, const CellRings& polygons) {
+    return lines.rows.values.size() + polygons.corners.size();
+  };
+  const std::size_t before = num_corners(table.lines, table.polygons);
+  const std::size_t after = num_corners(simple.lines, simple.polygons);
   const double seconds = job.seconds().total;
   job.report(nlohmann::ordered_json{{"features", number},
                                     {"corners", after},
@@ -76,7 +87,7 @@ ExitStatus run_simplify(SimplifyCommand options) {
                      .dump(2) +
                  '\n',
              "kept " + std::to_string(after) + " of " + count(before, "corner", "corners") +
-                 "\nwrote " + count(number, "polygon", "polygons") + " to " + common.output +
+                 "\nwrote " + count(number, "feature", "features") + " to " + common.output +
                  " in " + text_of_seconds(seconds) + '\n');
   return done;
 }
@@ -86,9 +97,9 @@ ExitStatus run_simplify(SimplifyCommand options) {
 Command add_simplify_command(CLI::App& tool) {
   auto options = std::make_shared<SimplifyCommand>();
   CLI::App* parser =
-      tool.add_subcommand("simplify", "Remove corners of polygons within a distance");
+      tool.add_subcommand("simplify", "Remove corners of lines and polygons within a distance");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The polygons: .geojson, or - for standard input")
+                 "The features: .geojson, or - for standard input")
       ->type_name("");
   add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,
@@ -120,12 +131,16 @@ Command add_simplify_command(CLI::App& tool) {
   add_report_options(*parser, options->common);
   parser->footer(
       "All features are simplified together: a border that two of them share stays common to\n"
-      "them, without gaps and overlaps, and corners where three meet stay. No ring crosses itself\n"
-      "or another one, turns around or vanishes, and holes stay in their polygons. Corners of\n"
-      "OUTPUT are corners of INPUT, but for those that lines along great circles get in longitude\n"
-      "and latitude. Distances are along great circles. Properties stay.\n\n"
+      "them, without gaps and overlaps, and corners where three meet stay. No ring or line "
+      "crosses\n"
+      "itself or another one that it did not cross before, no ring turns around or vanishes, and\n"
+      "holes stay in their polygons. Points and the ends of lines stay. Corners of OUTPUT are\n"
+      "corners of INPUT, but for those that lines along great circles get in longitude and\n"
+      "latitude. Distances are along great circles. Properties and ids stay; a feature of which\n"
+      "nothing is left has a null geometry.\n\n"
       "Examples:\n"
       "  rondel simplify countries.geojson --tolerance 5 -o few.geojson\n"
+      "  rondel simplify rivers.geojson --tolerance 2 -o rivers_few.geojson\n"
       "  rondel simplify islands.geojson --tolerance 1 --drop-small -o large.geojson");
   return {parser, [options] { return run_simplify(*options); }};
 }

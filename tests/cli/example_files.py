@@ -141,6 +141,7 @@ def makers(root):
         "sections.geojson": features(("LineString", [[-60, 50], [-10, 40]]), ("LineString", [[-70, 10], [-20, 10]])),
         "islands.geojson": features(box(-10, -10, 5, 8), box(100, 40, 130, 60), box(-80, -60, -50, -30)),
         "basins.geojson": features(box(-10, -20, 30, 20), box(20, 0, 60, 30), box(-70, -40, -50, 0)),
+        "roads.geojson": features(("LineString", [[0, 4], [10, 0]]), ("LineString", [[20, 0], [30, 0]])),
         "lakes.geojson": features(box(31, -3, 34, 1), box(50, 37, 54, 47), box(-80, 43, -76, 44)),
         "parcels.geojson": features(("Polygon", [[[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]]]), box(32, -2, 40, 6)),
         "region.geojson": features(box(-30, -20, 40, 50)),

@@ -36,9 +36,12 @@ class FilesOfGdal(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def voronoi(self, *arguments):
-        return subprocess.run([TOOL, "voronoi", *arguments, "--quiet"], cwd=self.folder, env=ENVIRONMENT,
+    def run_tool(self, *arguments):
+        return subprocess.run([TOOL, *arguments, "--quiet"], cwd=self.folder, env=ENVIRONMENT,
                               text=True, capture_output=True, check=False)
+
+    def voronoi(self, *arguments):
+        return self.run_tool("voronoi", *arguments)
 
     def written(self, name, *arguments):
         done = self.voronoi(*arguments, "-o", name)
@@ -61,6 +64,34 @@ class FilesOfGdal(unittest.TestCase):
                 parts = getattr(theirs, "geoms", [theirs])
                 self.assertTrue(all(p.equals_exact(q, 0) for p, q in zip(ours.geoms, parts)))
                 self.assertEqual(len(ours.geoms), len(parts))
+
+    def test_hold_points_and_lines(self):
+        """Each kind alone, and all of them; a feature without a place is left out."""
+        kinds = {"point": {"type": "Point", "coordinates": [3, 4]},
+                 "line": {"type": "LineString", "coordinates": [[170, 5], [190, 5]]},
+                 "polygon": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}}
+        everything = {"type": "GeometryCollection", "geometries": [*kinds.values()]}
+        cases = {kind: [geometry, None] for kind, geometry in kinds.items()}
+        cases["all"] = [*kinds.values(), everything, None]
+        for case, geometries in cases.items():
+            (self.folder / "in.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": [
+                {"type": "Feature", "properties": {"k": k}, "geometry": g} for k, g in enumerate(geometries)]}))
+            found = {}
+            for name in ("out.geojson", "out.gpkg", "out.fgb"):
+                done = self.run_tool("repair", "in.geojson", "-o", name)
+                self.assertEqual((done.returncode, bool(done.stderr)), (0, name != "out.geojson"), done.stderr)
+                found[name] = geopandas.read_file(self.folder / name).set_index("k").sort_index()
+            expected = found.pop("out.geojson")
+            self.assertEqual(len(expected), len(geometries))
+            for name, frame in found.items():
+                self.assertEqual(len(frame), len(geometries) - 1, name)
+                self.assertEqual([*frame.columns], [*expected.columns])
+                for ours, theirs in zip(frame.geometry, expected.geometry):
+                    self.assertTrue(ours.normalize().equals(theirs.normalize()), (case, name, ours, theirs))
+            if case != "all":
+                self.assertEqual(pyogrio.read_info(self.folder / "out.gpkg")["geometry_type"],
+                                 {"point": "MultiPoint", "line": "MultiLineString",
+                                  "polygon": "MultiPolygon"}[case])
 
     def test_names_that_are_taken_get_underscores(self):
         (self.folder / "s.csv").write_text("lon,lat,site,site_,area,Area,fid,geom,Name,name\n"
