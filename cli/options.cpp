@@ -305,7 +305,7 @@ CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::stri
 void add_polygon_format_option(CLI::App& parser, CommonOptions& options) {
   parser
       .add_option("--input-format", options.input_format,
-                  "Format of standard input, or of INPUT: geojson")
+                  "Format of standard input, or of INPUT: geojson csv tsv xyz txt npy")
       ->type_name("FORMAT");
 }
 

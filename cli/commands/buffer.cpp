@@ -24,6 +24,7 @@
 #include "report.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 #include "rondel/regions.h"
 #include "rondel/set_operations.h"
 #include "validate.h"
@@ -56,38 +57,12 @@ bool has_features(const FileName& file) {
   return format == "geojson" || format == "json";
 }
 
-// Returns sites as features, each of which is a point. Throws FileError for a site without a
-// direction.
-FeatureTable features_of_sites(SiteTable table) {
-  FeatureTable result;
-  for (std::size_t i = 0; i < table.sites.size(); ++i) {
-    Point p = table.sites[i];
-    if (!table.is_lonlat()) {
-      const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-      if (!(largest > 0)) throw FileError(table.where(i) + ": the site is the center");
-      p = {p.x / largest, p.y / largest, p.z / largest};
-      const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-      p = {p.x / length, p.y / length, p.z / length};
-    }
-    result.lines.rows.append(std::span(&p, 1));
-    result.lines.end_group();
-  }
-  result.ids = std::move(table.ids);
-  result.facts.name = std::move(table.name);
-  result.facts.columns = std::move(table.columns);
-  return result;
-}
-
 FeatureTable read_input(Job& job, const BufferCommand& options) {
-  const FileName file = options.common.source();
-  if (has_features(file)) {
-    FeatureTable table = read_features(file, options.polygons, job.execution());
-    tell(table.facts.name, table.facts.remarks);
-    return table;
-  }
-  ReadOptions with_columns;
-  with_columns.keep_columns = true;
-  return features_of_sites(job.read(file, with_columns));
+  FeatureTable table = std::move(read_features_together(std::vector{options.common.source()},
+                                                        options.polygons, job.execution())
+                                     .front());
+  tell(table.facts.name, table.facts.remarks);
+  return table;
 }
 
 CellRings buffers_of(const FeatureTable& table, const BufferCommand& options,

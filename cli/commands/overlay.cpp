@@ -175,7 +175,8 @@ Command add_overlay_command(CLI::App& tool) {
   CLI::App* parser =
       tool.add_subcommand("overlay", "Compute unions, intersections and differences of features");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The features A: .geojson, or - for standard input")
+                 "The features A: .geojson, or sites: .csv .tsv .xyz .txt .npy, the places of a\n"
+                 "netCDF file; or - for standard input")
       ->type_name("");
   add_input_file(*parser, "SECOND", options->second,
                  "The features B; without them the union of A is written")
@@ -217,12 +218,13 @@ Command add_overlay_command(CLI::App& tool) {
       "piece has the properties of both features. Features are points, lines and polygons: a line\n"
       "is clipped by polygons, and divided where it crosses other lines of its file. Features of\n"
       "one file may overlap. Results are exact but for the rounding of places where sides cross,\n"
-      "by less than 2 nanometers.\n\n"
+      "by less than 2 nanometers. Sites are points with the columns of their table.\n\n"
       "Examples:\n"
       "  rondel overlay countries.geojson -o land.geojson\n"
       "  rondel overlay countries.geojson basins.geojson --how intersection -o parts.geojson\n"
       "  rondel overlay countries.geojson lakes.geojson --how difference -o dry.geojson\n"
-      "  rondel overlay rivers.geojson countries.geojson --how intersection -o by_country.geojson");
+      "  rondel overlay rivers.geojson countries.geojson --how intersection -o by_country.geojson\n"
+      "  rondel overlay stations.csv countries.geojson --how identity -o with_country.geojson");
   return {parser, [options] { return run_overlay(*options); }};
 }
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// How polygons lie to each other: the DE-9IM relation of polygons whose sides are arcs of great
-/// circles, its named predicates, and spatial joins (target rondel::geo). All of it is exact.
+/// How points, lines and polygons lie to each other: the DE-9IM relation of geometries whose sides are
+/// arcs of great circles, its named predicates, and spatial joins (target rondel::geo). All of it is
+/// exact.
 #pragma once
 
 #include <array>
@@ -14,28 +15,33 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/export.h"
+#include "rondel/geometries.h"
 #include "rondel/types.h"
 
 namespace rondel {
 
-/// A question about two polygons A and B that their relation answers. Names are those of shapely
+/// A question about two geometries A and B that their relation answers. Names are those of shapely
 /// and GeoPandas, meanings those of OGC simple features.
 enum class SpatialPredicate : std::uint8_t {
   intersects,  ///< "intersects": A and B have a place in common
   disjoint,    ///< "disjoint": they have none
   contains,    ///< "contains": B is in A, and their interiors meet: T*****FF*
   within,      ///< "within": A is in B, and their interiors meet: T*F**F***
-  covers,      ///< "covers": B is in A; for polygons the same as `contains`
-  covered_by,  ///< "covered_by": A is in B; for polygons the same as `within`
-  touches,     ///< "touches": they have only places of their boundaries in common
-  overlaps,    ///< "overlaps": they share an interior, and each has one of its own: T*T***T**
-  equals       ///< "equals": they have the same places, or both are empty
+  covers,      ///< "covers": B is in A, its interior or its boundary; for polygons as `contains`
+  covered_by,  ///< "covered_by": A is in B; for polygons as `within`
+  touches,     ///< "touches": they have a place in common, but none of both interiors
+  overlaps,    ///< "overlaps": they have the same dimension, share an interior of that dimension,
+               ///< and each has one of its own
+  equals,      ///< "equals": they have the same places, or both are empty
+  /// "crosses": two lines whose interiors meet in points alone; or the interior of the geometry of
+  /// lower dimension is in part inside of the other one and in part outside
+  crosses
 };
 
 /// Returns the name of a predicate, as above; empty for other numbers.
 RONDEL_API std::string_view name_of(SpatialPredicate predicate) noexcept;
 
-/// How two polygons A and B lie to each other: the matrix of the dimensionally extended
+/// How two geometries A and B lie to each other: the matrix of the dimensionally extended
 /// nine-intersection model (Clementini, Di Felice and van Oosterom 1993; Egenhofer and Herring
 /// 1990). An entry is the dimension of what a part of A and a part of B have in common: '2' (area),
 /// '1' (lines), '0' (points) or 'F' (nothing).
@@ -103,6 +109,31 @@ struct RelatedPair {
 /// \throws InvalidInput as relate(); if the predicate is `disjoint`
 RONDEL_API std::vector<RelatedPair> related_pairs(
     const CellRings& first, const CellRings& second,
+    SpatialPredicate predicate = SpatialPredicate::intersects, const Execution& execution = {});
+
+/// Computes the relations of geometries as those of polygons. Each geometry has parts of one
+/// dimension.
+///
+/// 4. Points have no boundary. That of lines consists of the nodes in which an odd number of lines
+///    begins or ends, as in OGC simple features: a closed line has none. Lines may cross and repeat
+///    themselves and each other.
+///
+/// A pair with lines takes as many steps as one of polygons; a point in a polygon O(log n).
+/// \throws InvalidInput as for polygons; (the index) if a geometry has parts of several dimensions
+RONDEL_API std::vector<Relation> relate(const Geometries& first, const Geometries& second,
+                                        const Execution& execution = {});
+
+/// Computes the relations of pairs of geometries, as relate_pairs() does those of polygons.
+/// \throws InvalidInput as relate() of geometries; (the position of the pair) if one does not exist
+RONDEL_API std::vector<Relation> relate_pairs(const Geometries& first, const Geometries& second,
+                                              std::span<const std::array<Index, 2>> pairs,
+                                              const Execution& execution = {});
+
+/// Finds pairs of geometries, as related_pairs() does those of polygons; such as the polygon in which
+/// each point is.
+/// \throws InvalidInput as relate() of geometries; if the predicate is `disjoint`
+RONDEL_API std::vector<RelatedPair> related_pairs(
+    const Geometries& first, const Geometries& second,
     SpatialPredicate predicate = SpatialPredicate::intersects, const Execution& execution = {});
 
 }  // namespace rondel

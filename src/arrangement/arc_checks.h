@@ -6,11 +6,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "exact/vector.h"
 #include "rondel/error.h"
+#include "rondel/feature_cells.h"
 #include "rondel/types.h"
+#include "system/row_assembly.h"
 
 namespace rondel::arrangement {
 
@@ -50,6 +53,29 @@ inline void validate_line_arcs(std::span<const Point> line, std::size_t feature)
     for (std::size_t k = 1; k < line.size(); ++k) validate_ends(line[k - 1], line[k], k);
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), feature);
+  }
+}
+
+// Throws InvalidInput if the arrays of lines do not fit, or (the feature) a line has no point.
+inline void validate_rows(const FeatureLines& lines) {
+  if (!system::are_offsets(lines.rows.offsets, lines.rows.values.size()) ||
+      !system::are_offsets(lines.offsets, lines.rows.size())) {
+    throw InvalidInput("the arrays of the lines do not fit");
+  }
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
+      if (lines.rows[i].empty()) throw InvalidInput("a line has no point", f);
+    }
+  }
+}
+
+// Throws InvalidInput with the feature, counted from `first`, if lines are not as described.
+inline void validate_lines(const FeatureLines& lines, std::size_t first) {
+  validate_rows(lines);
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
+      validate_line_arcs(lines.rows[i], first + f);
+    }
   }
 }
 

@@ -27,28 +27,8 @@ namespace {
 using arrangement::joined_region;
 using arrangement::RegionParts;
 
-// Throws InvalidInput if the arrays of lines do not fit, or a line has no point.
-void validate_rows(const FeatureLines& lines) {
-  if (!system::are_offsets(lines.rows.offsets, lines.rows.values.size()) ||
-      !system::are_offsets(lines.offsets, lines.rows.size())) {
-    throw InvalidInput("the arrays of the lines do not fit");
-  }
-  for (std::size_t f = 0; f < lines.size(); ++f) {
-    for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
-      if (lines.rows[i].empty()) throw InvalidInput("a line has no point", f);
-    }
-  }
-}
-
-// Throws InvalidInput with the geometry, counted from `first`, if it is not as described.
-void validate_geometry(const FeatureLines& lines, std::size_t f, std::size_t first) {
-  for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
-    arrangement::validate_line_arcs(lines.rows[i], first + f);
-  }
-}
-
 void validate_arrays(const Geometries& geometries) {
-  validate_rows(geometries.lines);
+  arrangement::validate_rows(geometries.lines);
   arrangement::validate_rings(geometries.polygons);
   if (geometries.lines.size() != geometries.polygons.num_cells()) {
     throw InvalidInput("there are not as many cells as groups of lines");
@@ -66,8 +46,8 @@ void append_lines(const FeatureLines& lines, std::size_t f, Index feature,
 arrangement::Sides sides_of_all(const Geometries& first, const Geometries& second) {
   validate_arrays(first);
   validate_arrays(second);
-  for (std::size_t f = 0; f < first.size(); ++f) validate_geometry(first.lines, f, 0);
-  for (std::size_t f = 0; f < second.size(); ++f) validate_geometry(second.lines, f, first.size());
+  arrangement::validate_lines(first.lines, 0);
+  arrangement::validate_lines(second.lines, first.size());
   arrangement::Sides sides;
   sides.append(first.polygons, 0);
   sides.append(second.polygons, 1);
@@ -224,7 +204,7 @@ Geometries without_touching_parts(const Geometries& combined, const Geometries& 
 
 std::vector<double> lengths(const FeatureLines& lines) {
   const system::ArithmeticScope arithmetic;
-  validate_rows(lines);
+  arrangement::validate_rows(lines);
   std::vector<double> result;
   result.reserve(lines.size());
   for (std::size_t f = 0; f < lines.size(); ++f) {

@@ -10,8 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "arrangement/pair_meetings.h"
 #include "arrangement/prepared_polygon.h"
 #include "rondel/relate.h"
 #include "rondel/types.h"
@@ -31,36 +31,20 @@ struct SideFacts {
 class PairRelater {
  public:
   // `points` has the places of the nodes.
-  explicit PairRelater(std::span<const Point> points) : points_(points) {}
+  explicit PairRelater(std::span<const Point> points) : meetings_(points) {}
 
   Relation operator()(const PreparedPolygon& a, const PreparedPolygon& b);
   // Returns the relation of a polygon to itself.
   static Relation of_itself(const PreparedPolygon& polygon);
 
  private:
-  // A side that has a node where sides of both polygons meet, at an end or in its inside.
-  struct Incidence {
-    Index node;
-    Index polygon;  // 0: of A; 1: of B
-    Index side;
-    friend auto operator<=>(const Incidence&, const Incidence&) = default;
-  };
-
-  [[nodiscard]] const PolygonSide& side(const Incidence& i) const {
-    return polygons_[i.polygon]->sides()[i.side];
-  }
-  void find_meetings();
-  void meet(Index k, Index s, Index t);
-  void look_around_nodes();
-  void look_along(Index node, const SideDirection& direction, std::size_t k);
+  void look_along(Index node, const SideDirection& direction, std::span<const SideDirection> others,
+                  std::size_t k);
   void locate_components(std::size_t k);
 
-  std::span<const Point> points_;
+  PairMeetings meetings_;
   std::array<const PreparedPolygon*, 2> polygons_{};
   SideFacts facts_;
-  std::vector<Incidence> incidences_;                     // sorted
-  std::array<std::vector<SideDirection>, 2> directions_;  // of each polygon, from a node
-  std::vector<Index> met_;  // components of a polygon that meet the other one, sorted
 };
 
 }  // namespace rondel::arrangement

@@ -22,12 +22,6 @@
 namespace rondel::arrangement {
 namespace {
 
-// A node that is an end of a side, or in its inside.
-struct NodeOfSide {
-  Index node;
-  Index side;
-};
-
 bool are_opposite_sites(const Point& p, const Point& q) {
   return dot(p, q) < 0 && is_same_site(p, -1.0 * q);
 }
@@ -68,12 +62,12 @@ const SideDirection& direction_before(std::span<const Point> points, Index node,
 
 PreparedPolygon::PreparedPolygon(const CellRings& cells, std::size_t cell,
                                  std::span<const Point> points, std::span<const Index> numbers)
-    : points_(points), is_whole_(cells.is_whole(cell)) {
+    : PreparedSides(points), is_whole_(cells.is_whole(cell)) {
   if (is_whole_) extent_ = whole_box;
   if (cells.cells[cell] == cells.cells[cell + 1]) return;
   append_sides(cells, cell, numbers);
   make_boxes();
-  divide_sides();
+  if (divide_sides(true)) fault_ = PolygonFault::crossing_sides;
   if (fault_ == PolygonFault::none) cancel_sides();
   if (fault_ == PolygonFault::none) find_components();
   if (fault_ == PolygonFault::none && !do_components_agree()) {
@@ -110,53 +104,6 @@ void PreparedPolygon::append_sides(const CellRings& cells, std::size_t cell,
   }
 }
 
-void PreparedPolygon::make_boxes() {
-  std::vector<SpaceBox> boxes;
-  boxes.reserve(sides_.size());
-  for (const PolygonSide& side : sides_) {
-    boxes.push_back(box_of(points_[side.from], points_[side.to]));
-  }
-  boxes_ = BoxTree(std::move(boxes), 1);
-}
-
-// Divides sides at nodes in their inside.
-void PreparedPolygon::divide_sides() {
-  std::vector<NodeOfSide> inside;
-  for (std::size_t block = 0; block < boxes_.num_blocks(); ++block) {
-    boxes_.visit_pairs(block, [&](Index i, Index j) {
-      const PolygonSide& s = sides_[i];
-      const PolygonSide& t = sides_[j];
-      const SideMeeting meeting = meeting_of(points_, s.from, s.to, t.from, t.to);
-      if (meeting.is_crossing) fault_ = PolygonFault::crossing_sides;
-      for (std::size_t k = 0; k < meeting.num_nodes; ++k) {
-        const Index node = meeting.nodes[k];
-        if (node != s.from && node != s.to) inside.push_back({node, i});
-        if (node != t.from && node != t.to) inside.push_back({node, j});
-      }
-    });
-    if (fault_ != PolygonFault::none) return;
-  }
-  if (inside.empty()) return;
-  // Along its side a node is before another one if it is between the start of the side and that.
-  std::ranges::sort(inside, [&](const NodeOfSide& a, const NodeOfSide& b) {
-    if (a.side != b.side || a.node == b.node) return a.side < b.side;
-    return is_between(points_[sides_[a.side].from], points_[b.node], points_[a.node]);
-  });
-  std::vector<PolygonSide> divided;
-  std::size_t next = 0;
-  for (Index s = 0; s < sides_.size(); ++s) {
-    Index from = sides_[s].from;
-    for (; next < inside.size() && inside[next].side == s; ++next) {
-      if (inside[next].node == from) continue;
-      divided.push_back({from, inside[next].node});
-      from = inside[next].node;
-    }
-    divided.push_back({from, sides_[s].to});
-  }
-  sides_ = std::move(divided);
-  make_boxes();
-}
-
 // Leaves out sides that lead back and forth between two nodes.
 void PreparedPolygon::cancel_sides() {
   struct SideBetween {
@@ -186,19 +133,11 @@ void PreparedPolygon::cancel_sides() {
   }
   if (kept.size() == sides_.size()) return;
   std::ranges::sort(kept);
-  for (std::size_t k = 0; k < kept.size(); ++k) sides_[k] = sides_[kept[k]];
-  sides_.resize(kept.size());
-  make_boxes();
+  keep_sides(kept);
 }
 
 void PreparedPolygon::find_components() {
-  std::vector<NodeOfSide> ends;
-  ends.reserve(2 * sides_.size());
-  for (Index s = 0; s < sides_.size(); ++s) {
-    ends.push_back({sides_[s].from, s});
-    ends.push_back({sides_[s].to, s});
-  }
-  std::ranges::sort(ends, {}, [](const NodeOfSide& end) { return std::tuple(end.node, end.side); });
+  const std::vector<NodeOfSide> ends = sorted_ends();
   system::DisjointSets sets(sides_.size());
   std::vector<SideDirection> directions;
   for (std::size_t begin = 0; begin < ends.size();) {
@@ -216,20 +155,7 @@ void PreparedPolygon::find_components() {
     }
     begin = end;
   }
-  components_.resize(sides_.size());
-  std::vector<SpaceBox> boxes;
-  for (Index s = 0; s < sides_.size(); ++s) {
-    const Index first = sets[s];
-    if (first == s) {
-      components_[s] = static_cast<Index>(first_sides_.size());
-      first_sides_.push_back(s);
-      boxes.push_back(boxes_.box(s));
-    } else {
-      components_[s] = components_[first];
-      boxes[components_[s]].include(boxes_.box(s));
-    }
-  }
-  component_boxes_ = BoxTree(std::move(boxes), 1);
+  make_components(sets);
 }
 
 PreparedPolygon::Path PreparedPolygon::path(const Point& from, Index start, Index end) const {
@@ -257,9 +183,9 @@ PreparedPolygon::Path PreparedPolygon::path(const Point& from, Index start, Inde
 
 // Looks along a path from each component to the next one.
 bool PreparedPolygon::do_components_agree() const {
-  for (std::size_t k = 1; k < first_sides_.size(); ++k) {
-    const Index start = sides_[first_sides_[k - 1]].from;
-    const PolygonSide& side = sides_[first_sides_[k]];
+  for (Index k = 1; k < num_components(); ++k) {
+    const Index start = side_of(k - 1).from;
+    const PolygonSide& side = side_of(k);
     const Point& from = points_[start];
     const Index end = are_opposite_sites(from, points_[side.from]) ? side.to : side.from;
     const Path between = path(from, start, end);
@@ -284,7 +210,7 @@ bool PreparedPolygon::has(const Point& place) const {
 void PreparedPolygon::find_extent() {
   SpaceBox border = empty_box;
   for (std::size_t c = 0; c < num_components(); ++c) {
-    border.include(component_boxes_.box(static_cast<Index>(c)));
+    border.include(component_boxes().box(static_cast<Index>(c)));
   }
   extent_ = border;
   const Point low = {border.low[0], border.low[1], border.low[2]};

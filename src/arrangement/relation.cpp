@@ -36,31 +36,45 @@ std::string_view name_of(SpatialPredicate predicate) noexcept {
       return "touches";
     case SpatialPredicate::overlaps:
       return "overlaps";
+    case SpatialPredicate::crosses:
+      return "crosses";
     case SpatialPredicate::equals:
       return "equals";
   }
   return {};
 }
 
-// Polygons that have a place in common, but no interior, touch: where the boundary of one is in the
-// interior of the other, their interiors meet, too. So `covers` needs no more patterns than
-// `contains`.
+// A geometry has the dimension of what its interior has in common with the interior, the boundary and
+// the exterior of another one; these cover the sphere.
 bool Relation::is(SpatialPredicate predicate) const {
+  const auto dimension = [](char a, char b, char c) {
+    int highest = -1;
+    for (const char entry : {a, b, c}) highest = std::max(highest, entry == 'F' ? -1 : entry - '0');
+    return highest;
+  };
+  const int first = dimension(matrix[0], matrix[1], matrix[2]);
+  const int second = dimension(matrix[0], matrix[3], matrix[6]);
+  const bool do_meet = !matches("FF*FF****");
   switch (predicate) {
     case SpatialPredicate::intersects:
-      return !matches("FF*FF****");
+      return do_meet;
     case SpatialPredicate::disjoint:
-      return matches("FF*FF****");
+      return !do_meet;
     case SpatialPredicate::contains:
-    case SpatialPredicate::covers:
       return matches("T*****FF*");
+    case SpatialPredicate::covers:
+      return do_meet && matches("******FF*");
     case SpatialPredicate::within:
-    case SpatialPredicate::covered_by:
       return matches("T*F**F***");
+    case SpatialPredicate::covered_by:
+      return do_meet && matches("**F**F***");
     case SpatialPredicate::touches:
-      return matches("F***T****");
+      return do_meet && matches("F********");
     case SpatialPredicate::overlaps:
-      return matches("T*T***T**");
+      return first == second && matches("T*T***T**") && matrix[0] - '0' == first;
+    case SpatialPredicate::crosses:
+      if (first == 1 && second == 1) return matches("0********");
+      return first != second && matches(first < second ? "T*T******" : "T*****T**");
     case SpatialPredicate::equals:
       return matches("**F**FFF*");
   }

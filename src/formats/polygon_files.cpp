@@ -5,6 +5,7 @@
 // lines and points. The rings become cells in overlay/feature_polygons.h; lines are divided here.
 #include "rondel/polygon_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -13,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "exact/vector.h"
+#include "io/ending.h"
 #include "io/geojson_polygons.h"
 #include "overlay/feature_polygons.h"
 #include "overlay/plane_arcs.h"
@@ -21,6 +24,8 @@
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/geometries.h"
+#include "rondel/io.h"
+#include "rondel/read_cells.h"
 #include "rondel/types.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -36,6 +41,48 @@ constexpr const char* no_features = "there are no features";
 
 // The name of features in memory, which messages leave out.
 constexpr std::string_view in_memory_name = "polygons";
+
+// True if a file has features, by its format or its ending; other files have sites.
+bool is_geojson(const FileName& file) {
+  const std::string ending = io::ending(file);
+  return ending == ".geojson" || ending == ".json";
+}
+
+// Returns the sites of a file as points. Throws FileError for a site without a direction.
+map::PolygonFeatures features_of_sites(const FileName& file, std::vector<std::string>& remarks,
+                                       const Execution& execution) {
+  SiteTable table;
+  if (is_netcdf_file(file)) {
+    NetcdfSites sites = read_netcdf_sites(file, {}, true);
+    const std::vector<bool> is_kept = sites.unmasked();
+    const auto num_masked = static_cast<std::size_t>(std::ranges::count(is_kept, false));
+    if (num_masked > 0) {
+      remarks.push_back("left out " + std::to_string(num_masked) + " masked " +
+                        (num_masked > 1 ? "sites" : "site"));
+    }
+    table = num_masked > 0 ? sites.table.selection(is_kept) : std::move(sites.table);
+  } else {
+    ReadOptions with_columns;
+    with_columns.keep_columns = true;
+    table = read_sites(file, with_columns, execution);
+  }
+  map::PolygonFeatures features;
+  features.rings.resize(table.sites.size());
+  for (std::size_t i = 0; i < table.sites.size(); ++i) {
+    LonLat position;
+    if (table.is_lonlat()) {
+      position = table.positions[i];
+    } else {
+      const Point& p = table.sites[i];
+      const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      if (!(largest > 0)) throw FileError(table.where(i) + ": the site is the center");
+      position = lonlats(std::vector<Point>{(1 / largest) * p}).front();
+    }
+    features.lines.push_back({{position}});
+  }
+  features.files.front() = {std::move(table.name), std::move(table.columns), std::move(table.ids)};
+  return features;
+}
 
 // Throws InvalidInput if a position is none.
 void require_position(const LonLat& place, std::size_t feature) {
@@ -303,12 +350,20 @@ std::vector<FeatureTable> read_features_together(std::span<const FileName> files
                                                  const Execution& execution) {
   const system::Call call(execution);
   require_overlaps_kept(options);
+  require_tolerance(options);
   std::vector<map::PolygonFeatures> sets;
+  std::vector<std::vector<std::string>> remarks(files.size());
   sets.reserve(files.size());
-  for (const FileName& file : files) {
-    sets.push_back(features_of(file, io::FeatureKinds::all, options));
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    sets.push_back(is_geojson(files[k]) ? features_of(files[k], io::FeatureKinds::all, options)
+                                        : features_of_sites(files[k], remarks[k], execution));
   }
-  return tables_of(std::move(sets), options, execution);
+  std::vector<FeatureTable> tables = tables_of(std::move(sets), options, execution);
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    std::vector<std::string>& all = tables[k].facts.remarks;
+    all.insert(all.begin(), remarks[k].begin(), remarks[k].end());
+  }
+  return tables;
 }
 
 std::vector<FeatureTable> features_of_geometries(std::span<const LonLatGeometries> sets,

@@ -178,6 +178,44 @@ Geometries geometries_of(ByteSource& source, const CellRings& polygons,
   return made;
 }
 
+bool is_of_one_dimension(const Geometries& geometries, std::size_t g) {
+  std::array<bool, 3> has = {};
+  for (std::uint64_t i = geometries.lines.offsets[g]; i < geometries.lines.offsets[g + 1]; ++i) {
+    has[geometries.lines.rows[i].size() > 1 ? 1 : 0] = true;
+  }
+  has[2] = geometries.polygons.cells[g] < geometries.polygons.cells[g + 1];
+  return has[0] + has[1] + has[2] < 2;
+}
+
+// Relations say where places are, as set operations do, if no place has to be rounded.
+void test_relations(const Geometries& a, const Geometries& b) {
+  for (const Geometries* operand : {&a, &b}) {
+    for (std::size_t g = 0; g < operand->size(); ++g) {
+      if (!is_of_one_dimension(*operand, g)) return;
+    }
+  }
+  std::vector<RelatedPair> pairs;
+  try {
+    pairs = related_pairs(a, b, SpatialPredicate::intersects, {1});
+  } catch (const InvalidInput&) {  // polygons that are not valid
+    return;
+  }
+  for (const RelatedPair& pair : pairs) {
+    const std::array<Index, 2> turned = {pair.second, pair.first};
+    require(relate_pairs(b, a, {&turned, 1}, {1})[0] == pair.relation.transposed(),
+            "relations can be turned around");
+    require(pair.relation.is(SpatialPredicate::intersects), "pairs meet");
+  }
+  if (a.size() == b.size()) {
+    const std::vector<Relation> rows = relate(a, b, {1});
+    for (Index i = 0; i < rows.size(); ++i) {
+      const bool is_listed = std::ranges::any_of(
+          pairs, [&](const RelatedPair& pair) { return pair.first == i && pair.second == i; });
+      require(rows[i].is(SpatialPredicate::disjoint) != is_listed, "a join has each pair");
+    }
+  }
+}
+
 void test_geometries(const Geometries& a, const Geometries& b) {
   const auto length_of = [&](SetOperation operation) {
     return lengths(combine(a, b, operation, {1}).lines)[0];
@@ -197,6 +235,7 @@ void test_geometries(const Geometries& a, const Geometries& b) {
   const GeometryPieces pieces = overlay_pieces(a, b, SetOperation::identity, {1});
   require(pieces.pieces.size() == pieces.first.size(), "pieces have geometries");
   for (const Index first : pieces.first) require(first < a.size(), "pieces are of the first ones");
+  test_relations(a, b);
 }
 
 bool is_within(const CellRings& a, const CellRings& b) {

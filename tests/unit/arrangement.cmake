@@ -7,6 +7,7 @@ rondel_add_test(arrangement_test
   arrangement/exact_places_test.cpp
   arrangement/geometries_test.cpp
   arrangement/halfedges_test.cpp
+  arrangement/relate_lines_test.cpp
   arrangement/relate_test.cpp
   arrangement/relation_oracle.cpp
   arrangement/set_operations_test.cpp
@@ -14,4 +15,3 @@ rondel_add_test(arrangement_test
   arrangement/steps_test.cpp
   arrangement/together_test.cpp
   LIBS rondel_geo rondel_test_support)
-target_compile_definitions(arrangement_test PRIVATE RONDEL_DATA="${PROJECT_SOURCE_DIR}/data")

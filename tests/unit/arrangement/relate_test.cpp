@@ -489,9 +489,9 @@ TEST(relate, ends_when_it_is_told_to_stop) {
 }
 
 TEST(relate, of_nothing_is_nothing) {
-  EXPECT_TRUE(relate({}, {}).empty());
+  EXPECT_TRUE(relate(CellRings{}, {}).empty());
   EXPECT_TRUE(relate({}, box(-1, -1, 1, 1)).empty());
-  EXPECT_TRUE(related_pairs({}, {}).empty());
+  EXPECT_TRUE(related_pairs(CellRings{}, {}).empty());
 }
 
 TEST(relation, fits_to_patterns) {
@@ -515,7 +515,7 @@ TEST(spatial_predicate, has_names_of_its_own) {
   for (const auto name : names_of<SpatialPredicate>()) {
     EXPECT_EQ(name_of(*from_name<SpatialPredicate>(name)), name);
   }
-  EXPECT_EQ(names_of<SpatialPredicate>().size(), 9U);
+  EXPECT_EQ(names_of<SpatialPredicate>().size(), 10U);
 }
 
 }  // namespace

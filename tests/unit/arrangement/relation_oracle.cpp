@@ -62,9 +62,26 @@ bool is_on(const Ray& p, const Arc& s) {
          dot(cross(p, s.to), s.normal) >= 0;
 }
 
-class Polygon {
+// A geometry of one dimension.
+class Shape {
  public:
-  Polygon(const CellRings& cells, std::size_t cell) : is_whole_(cells.is_whole(cell)) {
+  Shape(const Geometries& geometries, std::size_t g) : Shape(geometries.polygons, g) {
+    const FeatureLines& lines = geometries.lines;
+    is_polygon_ = lines.offsets[g] == lines.offsets[g + 1];
+    for (std::uint64_t i = lines.offsets[g]; i < lines.offsets[g + 1]; ++i) {
+      const auto line = lines.rows[i];
+      if (line.size() == 1) {
+        points_.push_back(ray_of(line[0]));
+        continue;
+      }
+      ends_.push_back(ray_of(line.front()));
+      ends_.push_back(ray_of(line.back()));
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        sides_.push_back(arc(ray_of(line[k]), ray_of(line[k + 1])));
+      }
+    }
+  }
+  Shape(const CellRings& cells, std::size_t cell) : is_whole_(cells.is_whole(cell)) {
     for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
       const auto ring = cells.corners_of(r);
       for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -74,10 +91,21 @@ class Polygon {
     }
   }
   [[nodiscard]] const std::vector<Arc>& sides() const { return sides_; }
+  [[nodiscard]] const std::vector<Ray>& points() const { return points_; }
+  // True if a place inside has to be known.
+  [[nodiscard]] bool has_inside() const { return is_polygon_ && !sides_.empty(); }
   void set_inside(const Ray& place) { inside_ = place; }
 
   // Returns 0 for the interior, 1 for the boundary, 2 for the exterior.
   [[nodiscard]] int part(const Ray& place) const {
+    const auto is_place = [&](const Ray& other) { return is_same(place, other); };
+    if (!is_polygon_) {
+      if (std::ranges::count_if(ends_, is_place) % 2 != 0) return 1;
+      const bool is_on_any =
+          std::ranges::any_of(points_, is_place) ||
+          std::ranges::any_of(sides_, [&](const Arc& side) { return is_on(place, side); });
+      return is_on_any ? 0 : 2;
+    }
     if (sides_.empty()) return is_whole_ ? 0 : 2;
     for (const Arc& side : sides_) {
       if (is_on(place, side)) return 1;
@@ -114,8 +142,11 @@ class Polygon {
   }
 
   std::vector<Arc> sides_;
+  std::vector<Ray> ends_;  // of lines
+  std::vector<Ray> points_;
   Ray inside_;
   bool is_whole_;
+  bool is_polygon_ = true;
 };
 
 // Returns a place in the middle of an arc, or so.
@@ -154,12 +185,14 @@ Ray beside(const Ray& place, const Ray& normal, const std::vector<Arc>& sides) {
   }
 }
 
-// Returns the places where an arc meets others and its ends, from its start to its end.
-std::vector<Ray> places_along(const Arc& s, const std::vector<Arc>& sides) {
+// Returns the places where an arc meets others or points, and its ends, from its start to its end.
+std::vector<Ray> places_along(const Arc& s, const std::vector<Arc>& sides,
+                              const std::vector<Ray>& points) {
   std::vector<Ray> places = {s.from, s.to};
   const auto add = [&](const Ray& place) {
     if (is_on(place, s)) places.push_back(place);
   };
+  for (const Ray& point : points) add(point);
   for (const Arc& t : sides) {
     add(t.from);
     add(t.to);
@@ -176,27 +209,26 @@ std::vector<Ray> places_along(const Arc& s, const std::vector<Arc>& sides) {
   return places;
 }
 
-}  // namespace
-
-std::string relation_by_places(const CellRings& a, std::size_t cell_a, const CellRings& b,
-                               std::size_t cell_b) {
-  std::array<Polygon, 2> polygons = {Polygon(a, cell_a), Polygon(b, cell_b)};
-  std::vector<Arc> sides = polygons[0].sides();
-  sides.insert(sides.end(), polygons[1].sides().begin(), polygons[1].sides().end());
-  for (Polygon& polygon : polygons) {
-    if (polygon.sides().empty()) continue;
-    const Arc& side = polygon.sides()[0];
-    const std::vector<Ray> places = places_along(side, sides);
-    polygon.set_inside(beside(middle(places[0], places[1]), side.normal, sides));
+std::string relation_of(std::array<Shape, 2> shapes) {
+  std::vector<Arc> sides = shapes[0].sides();
+  sides.insert(sides.end(), shapes[1].sides().begin(), shapes[1].sides().end());
+  std::vector<Ray> points = shapes[0].points();
+  points.insert(points.end(), shapes[1].points().begin(), shapes[1].points().end());
+  for (Shape& shape : shapes) {
+    if (!shape.has_inside()) continue;
+    const Arc& side = shape.sides()[0];
+    const std::vector<Ray> places = places_along(side, sides, {});
+    shape.set_inside(beside(middle(places[0], places[1]), side.normal, sides));
   }
   std::string matrix(9, 'F');
   const auto add = [&](const Ray& place, char dimension) {
     char& entry =
-        matrix[static_cast<std::size_t>(3 * polygons[0].part(place) + polygons[1].part(place))];
+        matrix[static_cast<std::size_t>(3 * shapes[0].part(place) + shapes[1].part(place))];
     if (entry == 'F' || entry < dimension) entry = dimension;
   };
+  for (const Ray& point : points) add(point, '0');
   for (const Arc& side : sides) {
-    const std::vector<Ray> places = places_along(side, sides);
+    const std::vector<Ray> places = places_along(side, sides, points);
     for (std::size_t k = 0; k < places.size(); ++k) {
       add(places[k], '0');
       if (k + 1 == places.size()) break;
@@ -206,8 +238,20 @@ std::string relation_by_places(const CellRings& a, std::size_t cell_a, const Cel
       add(beside(place, times(-1, side.normal), sides), '2');
     }
   }
-  if (sides.empty()) add({1, 2, 3}, '2');
+  if (sides.empty()) add({101, 203, 307}, '2');
   return matrix;
+}
+
+}  // namespace
+
+std::string relation_by_places(const Geometries& a, std::size_t of_a, const Geometries& b,
+                               std::size_t of_b) {
+  return relation_of({Shape(a, of_a), Shape(b, of_b)});
+}
+
+std::string relation_by_places(const CellRings& a, std::size_t cell_a, const CellRings& b,
+                               std::size_t cell_b) {
+  return relation_of({Shape(a, cell_a), Shape(b, cell_b)});
 }
 
 }  // namespace rondel::test

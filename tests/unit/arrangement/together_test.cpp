@@ -24,6 +24,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/geometries.h"
+#include "rondel/relate.h"
 #include "support/random.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
@@ -185,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(all, Together, testing::Range(0, 200));
 
 // Calls visit(ring) for each ring of the countries, closed.
 void visit_borders(const std::function<void(const Ring&)>& visit) {
-  std::ifstream file(RONDEL_DATA "/countries-110m.geojson");
+  std::ifstream file(RONDEL_SOURCE_DIR "/data/countries-110m.geojson");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   Ring ring;
   const char* at = text.data();
@@ -235,7 +236,7 @@ std::vector<Line> borders(int variant) {
 
 TEST(together, borders_lie_on_their_polygons) {
   const TemporaryDirectory folder;
-  const FileName countries = {RONDEL_DATA "/countries-110m.geojson", {}};
+  const FileName countries = {RONDEL_SOURCE_DIR "/data/countries-110m.geojson", {}};
   for (int variant = 0; variant < 4; ++variant) {
     const std::vector<Line> lines = borders(variant);
     ASSERT_GT(lines.size(), 280U);
@@ -359,6 +360,30 @@ TEST(together, faults_are_told_of_their_file) {
   EXPECT_EQ(tables[0].facts.name, fine);
   EXPECT_EQ(tables[1].facts.columns.front().name, "name");
   EXPECT_TRUE(read_features_together({}).empty());
+}
+
+TEST(together, sites_are_points) {
+  const TemporaryDirectory folder;
+  const std::string table =
+      folder.with("sites.csv", "lon,lat,name\n5,5,in\n10,5,border\n11,5,out\n");
+  const std::string space = folder.with("sites.xyz", "0 2 0\n-3 0 0\n");
+  const std::string box = folder.with(
+      "box.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]})");
+  const std::array files = {FileName{table, {}}, FileName{space, {}}, FileName{box, {}}};
+  const auto tables = read_features_together(files);
+  EXPECT_EQ(tables[0].facts.columns.back().text, "inborderout");
+  EXPECT_EQ(tables[0].is_located, std::vector<bool>(3, true));
+  EXPECT_EQ(tables[1].lines.rows.values, (std::vector<Point>{{0, 1, 0}, {-1, 0, 0}}));
+  const Geometries polygon = {tables[2].lines, tables[2].polygons};
+  const auto relations = relate({tables[0].lines, tables[0].polygons}, polygon);
+  EXPECT_EQ(relations[0].text(), "0FFFFF212");
+  EXPECT_EQ(relations[1].text(), "F0FFFF212");
+  EXPECT_EQ(relations[2].text(), "FF0FFF212");
+  const std::string center = folder.with("center.xyz", "1 0 0\n0 0 0\n");
+  EXPECT_EQ(thrown_message<FileError>([&] {
+              (void)read_features_together(std::array{FileName{center, {}}});
+            }),
+            center + ":2: the site is the center");
 }
 
 // --- parts in which geometries only meet ---
