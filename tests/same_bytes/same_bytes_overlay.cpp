@@ -3,8 +3,8 @@
 
 // Hashes of the overlay: of the cells of each kind of sites of tests/support with those of uniform sites, with
 // themselves and with a grid of parallels, and of halves of both, the pieces and the weights of both orders; of their cells clipped to
-// uniform ones, and dissolved, and of the polygons in longitude and latitude of these and of all cells and faces; with 1, 2 and 5
-// threads.
+// uniform ones, and dissolved, and of the polygons in longitude and latitude of these and of all cells and faces; of set operations,
+// buffers, simplified cells and relations; with 1, 2 and 5 threads.
 //
 //     same_bytes_overlay EXPECTED              compares with the hashes that are recorded, and tells
 //                                              what differs
@@ -16,11 +16,16 @@
 #include <string>
 #include <vector>
 
+#include "rondel/buffer.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
+#include "rondel/geometries.h"
 #include "rondel/polygons.h"
 #include "rondel/regions.h"
+#include "rondel/relate.h"
 #include "rondel/remap.h"
+#include "rondel/set_operations.h"
+#include "rondel/simplify.h"
 #include "same_bytes/portable/hash.h"
 #include "same_bytes/recorded.h"
 #include "support/generators.h"
@@ -99,6 +104,67 @@ CellSet grid_of(std::size_t num_lon, std::size_t num_lat) {
   return CellSet::lonlat_grid(grid);
 }
 
+std::string hash_of_geometries(const GeometryPieces& all) {
+  Hash hash;
+  hash.add(all.first);
+  hash.add(all.second);
+  const FeatureLines& lines = all.pieces.lines;
+  hash.add(lines.offsets);
+  hash.add(lines.rows.offsets);
+  for (const Point& p : lines.rows.values) {
+    for (const double c : {p.x, p.y, p.z}) hash.add(std::span(&c, 1));
+  }
+  return hash.text() + hash_of_rings(all.pieces.polygons);
+}
+
+// Returns the rings of cells as closed lines, all of one feature.
+Geometries outlines_of(const CellRings& cells) {
+  Geometries outlines;
+  for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
+    std::vector<Point> line;
+    for (const Index corner : cells.corners_of(r)) line.push_back(cells.points[corner]);
+    if (!line.empty()) line.push_back(line.front());
+    if (!line.empty()) outlines.lines.rows.append(line);
+  }
+  outlines.lines.end_group();
+  outlines.polygons.end_cell();
+  return outlines;
+}
+
+// Set operations, buffers, simplified cells and relations of two sets of cells.
+template <class Record>
+void record_operations(const CellRings& cells, const CellRings& others, const Record& record) {
+  const Geometries outlines = outlines_of(cells);
+  Geometries polygons;
+  for (std::size_t i = 0; i < others.num_cells(); ++i) polygons.lines.end_group();
+  polygons.polygons = others;
+  record("set-operations", [&](unsigned threads) {
+    const RegionPieces pieces = overlay_pieces(cells, others, SetOperation::unite, {threads});
+    return hash_of_rings(combine(cells, others, SetOperation::symmetric_difference, {threads})) +
+           hash_of_rings(pieces.rings);
+  });
+  record("lines", [&](unsigned threads) {
+    return hash_of_geometries(
+        overlay_pieces(outlines, polygons, SetOperation::identity, {threads}));
+  });
+  record("buffers", [&](unsigned threads) {
+    return hash_of_rings(buffered(cells, {0.02, 1e-3}, {threads})) +
+           hash_of_rings(buffered(cells, {-0.02, 1e-3}, {threads}));
+  });
+  record("simplified", [&](unsigned threads) {
+    return hash_of_rings(simplified(cells, {.tolerance = 0.1}, {threads}));
+  });
+  record("relations", [&](unsigned threads) {
+    Hash hash;
+    for (const RelatedPair& pair :
+         related_pairs(cells, others, SpatialPredicate::intersects, {threads})) {
+      for (const char entry : pair.relation.matrix)
+        hash.add_word(static_cast<unsigned char>(entry));
+    }
+    return hash.text();
+  });
+}
+
 void add_lines(const std::string& name, const SiteSet& set, std::size_t num_others,
                std::vector<std::string>& lines) {
   // What differs between turns of threads is there twice, and fails.
@@ -146,6 +212,7 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
     return hash_of_rings(dissolve(cells.rings(), groups, 3, {.threads = threads}));
   });
   if (!is_drawn) return;
+  record_operations(half_of(cells).rings(), others.rings(), record);
   const CellRings clipped = clip(cells, half_of(others));
   const CellRings dissolved = dissolve(cells.rings(), groups, 3);
   record("polygons", [&](unsigned threads) {

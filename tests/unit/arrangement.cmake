@@ -4,6 +4,7 @@ rondel_add_test(arrangement_test
   arrangement/arc_sets.cpp
   arrangement/arrange_test.cpp
   arrangement/buffer_test.cpp
+  arrangement/divided_again_test.cpp
   arrangement/exact_places_test.cpp
   arrangement/geometries_test.cpp
   arrangement/halfedges_test.cpp
