@@ -27,11 +27,11 @@ class LineRelater {
   // `points` has the places of the nodes.
   explicit LineRelater(std::span<const Point> points) : meetings_(points) {}
 
-  static Relation relate(PointNodes a, PointNodes b);
-  static Relation relate(PointNodes a, const PreparedLines& b);
-  Relation relate(PointNodes a, const PreparedPolygon& b) const;
-  Relation relate(const PreparedLines& a, const PreparedLines& b);
-  Relation relate(const PreparedLines& a, const PreparedPolygon& b);
+  [[nodiscard]] static Relation relate(PointNodes a, PointNodes b);
+  [[nodiscard]] static Relation relate(PointNodes a, const PreparedLines& b);
+  [[nodiscard]] Relation relate(PointNodes a, const PreparedPolygon& b) const;
+  [[nodiscard]] Relation relate(const PreparedLines& a, const PreparedLines& b);
+  [[nodiscard]] Relation relate(const PreparedLines& a, const PreparedPolygon& b);
 
  private:
   PairMeetings meetings_;

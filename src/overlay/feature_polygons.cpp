@@ -132,6 +132,26 @@ class FeatureCells {
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
+  // Throws FeatureFault if a feature is not valid. Straight lines need not become arcs for that,
+  // unless parts of a feature are 360 degrees apart.
+  void check() {
+    const std::size_t size = features_.rings.size();
+    bool needs_cells = options_.edges == PolygonEdges::geodesic;
+    for (std::size_t f = 0; f < size && !needs_cells; ++f) needs_cells = is_wide(f);
+    if (needs_cells) {
+      (void)(*this)();
+      return;
+    }
+    for (std::size_t f = 0; f < size; ++f) {
+      require_turns(f);
+      require_lines(features_, f, false);
+    }
+    share_corners(features_, execution_.threads);
+    std::vector<PlaneSide> sides;
+    std::vector<Index> owners;
+    std::vector<std::size_t> turns(size);
+    sweep(sides, owners, turns);
+  }
   // Returns the lines of all features.
   [[nodiscard]] FeatureLines& lines() { return lines_; }
   // Returns sentences on what was repaired and what is too thin for a cell, of each file.
@@ -229,21 +249,26 @@ class FeatureCells {
     return overlaps;
   }
 
+  // True if places of a feature are more than 360 degrees apart.
+  [[nodiscard]] bool is_wide(std::size_t feature) const {
+    double west = std::numeric_limits<double>::infinity();
+    double east = -west;
+    for (const map::LonLatRing& ring : features_.rings[feature]) {
+      for (const LonLat& p : ring.positions) {
+        west = std::min(west, p.lon_deg);
+        east = std::max(east, p.lon_deg);
+      }
+    }
+    return east - west > 360;
+  }
+
   // Throws FileError if parts of a feature that are disjoint in the plane overlap on the sphere,
   // because they are 360 degrees apart.
   void require_parts_apart(const CellRings& cells) const {
     std::vector<Index> features;
     CellRings wide;
     for (Index f = 0; f < features_.rings.size(); ++f) {
-      double west = std::numeric_limits<double>::infinity();
-      double east = -west;
-      for (const map::LonLatRing& ring : features_.rings[f]) {
-        for (const LonLat& p : ring.positions) {
-          west = std::min(west, p.lon_deg);
-          east = std::max(east, p.lon_deg);
-        }
-      }
-      if (!(east - west > 360)) continue;
+      if (!is_wide(f)) continue;
       features.push_back(f);
       append(one_cell(cells, f), wide);
     }
@@ -495,7 +520,7 @@ std::vector<std::string> faults_of_features(const map::PolygonFeatures& features
           }
           if (!faults[f].empty()) continue;
           try {
-            (void)FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop})();
+            FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check();
           } catch (const FeatureFault& fault) {
             faults[f] = fault.fault();
           }
