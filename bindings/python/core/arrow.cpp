@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "arrays.h"
-#include "interrupt.h"
 #include "module.h"
 #include "named.h"
-#include "rondel/cell_set.h"
+#include "rondel/geometries.h"
 #include "rondel/regions.h"
 
 namespace rondel::python {
@@ -36,29 +35,20 @@ nb::tuple capsules_of(const LonLatRegions& drawn, std::size_t num_cells, nb::han
   return nb::make_tuple(std::move(schema), std::move(array));
 }
 
-// Returns the cells of polygons that another library has handed over.
-CellSet cells_of_capsules(const nb::capsule& schema, const nb::capsule& array, nb::handle edges,
-                          nb::handle overlap, nb::handle invalid, unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                               .invalid = named<InvalidPolygons>("invalid", invalid),
-                               .overlap = named<PolygonOverlap>("overlap", overlap)};
-  const LonLatMultiPolygons features =
-      import_arrow(*static_cast<const ArrowSchema*>(schema.data("arrow_schema")),
-                   *static_cast<const ArrowArray*>(array.data("arrow_array")));
-  return unlocked([&] {
-    const Execution execution{.threads = threads};
-    return CellSet::of(cells_of_polygons(features, options, execution), GridSides::parallels,
-                       execution);
-  });
+// Returns polygons that another library has handed over.
+LonLatGeometries geometries_of_capsules(const nb::capsule& schema, const nb::capsule& array) {
+  LonLatGeometries made;
+  made.polygons = import_arrow(*static_cast<const ArrowSchema*>(schema.data("arrow_schema")),
+                               *static_cast<const ArrowArray*>(array.data("arrow_array")));
+  made.lines.offsets.resize(made.polygons.offsets.size());
+  return made;
 }
 
 }  // namespace
 
 void add_arrow(nb::module_& module) {
   module.def("capsules_of", capsules_of, nb::arg("drawn"), nb::arg("num_cells"), nb::arg("edges"));
-  module.def("cells_of_capsules", cells_of_capsules, nb::arg("schema"), nb::arg("array"),
-             nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
-             nb::arg("threads"));
+  module.def("geometries_of_capsules", geometries_of_capsules, nb::arg("schema"), nb::arg("array"));
 }
 
 }  // namespace rondel::python

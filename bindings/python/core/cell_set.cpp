@@ -24,6 +24,8 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/geometries.h"
+#include "rondel/polygon_files.h"
 #include "rondel/read_cells.h"
 
 namespace rondel::python {
@@ -41,21 +43,40 @@ std::optional<LinesOut> lines_out(const CellSet& cells) {
                   to_array<double>(std::move(lines.lat_deg)), std::string(name_of(sides))};
 }
 
+// Returns a choice of the polygons whose group is not below 0, or of all without groups.
+FeatureChoice chosen(const std::optional<IndicesIn>& groups) {
+  if (!groups) return {};
+  return [taken = vector_of<std::int32_t>(*groups)](std::size_t feature, auto&&) {
+    return feature >= taken.size() || taken[feature] >= 0;
+  };
+}
+
 // Reads the cells of a file, or of bytes of GeoJSON; polygons whose group is below 0 are left out.
 CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb::handle overlap,
                       nb::handle invalid, const std::optional<IndicesIn>& groups,
                       unsigned threads) {
-  CellFileOptions options{.sides = named<GridSides>("sides", sides),
-                          .edges = named<PolygonEdges>("edges", edges),
-                          .invalid = named<InvalidPolygons>("invalid", invalid),
-                          .overlap = named<PolygonOverlap>("overlap", overlap)};
-  if (groups) {
-    options.is_taken = [taken = vector_of<std::int32_t>(*groups)](std::size_t feature, auto&&) {
-      return feature >= taken.size() || taken[feature] >= 0;
-    };
-  }
+  const CellFileOptions options{.sides = named<GridSides>("sides", sides),
+                                .edges = named<PolygonEdges>("edges", edges),
+                                .invalid = named<InvalidPolygons>("invalid", invalid),
+                                .overlap = named<PolygonOverlap>("overlap", overlap),
+                                .is_taken = chosen(groups)};
   return read_from(path, [&](const FileName& file) {
     return unlocked([&] { return CellSet::read(file, options, {.threads = threads}); });
+  });
+}
+
+// Returns the cells of polygons, those whose group is below 0 left out.
+CellSet cells_of_geometries(const LonLatGeometries& geometries, nb::handle edges,
+                            nb::handle overlap, nb::handle invalid,
+                            const std::optional<IndicesIn>& groups, unsigned threads) {
+  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
+                               .invalid = named<InvalidPolygons>("invalid", invalid),
+                               .overlap = named<PolygonOverlap>("overlap", overlap),
+                               .is_taken = chosen(groups)};
+  return unlocked([&] {
+    const Execution execution{.threads = threads};
+    return CellSet::of(cells_of_polygons(geometries.polygons, options, execution),
+                       GridSides::parallels, execution);
   });
 }
 
@@ -157,6 +178,9 @@ void add_makers(nb::class_<CellSet>& cells) {
           },
           nb::arg("rings"), nb::arg("threads"))
       .def_static("read", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
+                  nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
+                  nb::arg("groups").noconvert().none(), nb::arg("threads"))
+      .def_static("of_geometries", &cells_of_geometries, nb::arg("geometries"),
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("threads"));
 }

@@ -14,12 +14,11 @@
 #include <vector>
 
 #include "arrays.h"
-#include "file_name.h"
+#include "geometries_in.h"
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
 #include "rondel/buffer.h"
-#include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
@@ -29,25 +28,26 @@
 namespace rondel::python {
 namespace {
 
-// Returns the polygons of a file, or of bytes of GeoJSON, and what is to be said of them.
-std::tuple<CellRings, std::vector<std::string>> polygons_in(const PathIn& path, nb::handle edges,
-                                                            nb::handle invalid, unsigned threads) {
+// Returns the polygons as cells, and what is to be said of them.
+std::tuple<CellRings, std::vector<std::string>> cells_of(const GeometriesIn& given,
+                                                         nb::handle edges, nb::handle invalid,
+                                                         unsigned threads) {
   const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
                                .invalid = named<InvalidPolygons>("invalid", invalid)};
-  return read_from(path, [&](const FileName& file) {
+  return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
-      CellTable table = read_polygons(file, options, execution);
+      CellTable table = cells_in(geometries, options, execution);
       return std::tuple(std::move(table.cells), std::move(table.facts.remarks));
     });
   });
 }
 
 // Returns what is wrong with each polygon.
-std::vector<std::string> faults_in(const PathIn& path, nb::handle edges, unsigned threads) {
+std::vector<std::string> faults_of(const GeometriesIn& given, nb::handle edges, unsigned threads) {
   const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
-  return read_from(path, [&](const FileName& file) {
+  return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
-      return polygon_faults(file, options, execution);
+      return faults_in(geometries, options, execution);
     });
   });
 }
@@ -138,15 +138,16 @@ void add_relations(nb::module_& module) {
              nb::arg("pairs").noconvert(), nb::arg("threads"));
 }
 
-// Returns the buffers of the features of a file, or of bytes of GeoJSON, and remarks.
-std::tuple<CellRings, std::vector<std::string>> buffers_in(const PathIn& path, double distance,
-                                                           double tolerance, nb::handle edges,
-                                                           nb::handle invalid, unsigned threads) {
+// Returns the buffers of points, lines and polygons, and remarks.
+std::tuple<CellRings, std::vector<std::string>> buffers_in(const GeometriesIn& given,
+                                                           double distance, double tolerance,
+                                                           nb::handle edges, nb::handle invalid,
+                                                           unsigned threads) {
   const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
                                .invalid = named<InvalidPolygons>("invalid", invalid)};
-  return read_from(path, [&](const FileName& file) {
+  return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
-      FeatureTable table = read_features(file, options, execution);
+      FeatureTable table = features_in(geometries, options, execution);
       return std::tuple(buffered(table.lines, table.polygons, {distance, tolerance}, execution),
                         std::move(table.facts.remarks));
     });
@@ -159,19 +160,18 @@ CellRings buffers_of(const CellRings& cells, double distance, double tolerance, 
   });
 }
 
-// Returns the simplified polygons of a file, or of bytes of GeoJSON, remarks, and whether they
-// overlap.
+// Returns the simplified polygons, remarks, and whether they overlap.
 std::tuple<CellRings, std::vector<std::string>, bool> simplified_in(
-    const PathIn& path, double tolerance, bool drop_small, bool keep_boundary, double read_deg,
-    nb::handle edges, nb::handle invalid, unsigned threads) {
+    const GeometriesIn& given, double tolerance, bool drop_small, bool keep_boundary,
+    double read_deg, nb::handle edges, nb::handle invalid, unsigned threads) {
   PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
                          .invalid = named<InvalidPolygons>("invalid", invalid)};
   options.tolerance_deg = std::min(options.tolerance_deg, read_deg);
   const SimplifyOptions how{
       .tolerance = tolerance, .drop_small = drop_small, .keep_boundary = keep_boundary};
-  return read_from(path, [&](const FileName& file) {
+  return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
-      CellTable table = read_polygons(file, options, execution);
+      CellTable table = cells_in(geometries, options, execution);
       CellRings made = simplified(table.cells, how, execution);
       const bool do_overlap = !overlapping_cells(made, execution).empty();
       return std::tuple(std::move(made), std::move(table.facts.remarks), do_overlap);
@@ -191,9 +191,9 @@ CellRings simplified_of(const CellRings& cells, double tolerance, bool drop_smal
 }  // namespace
 
 void add_polygons(nb::module_& module) {
-  module.def("read_polygons", &polygons_in, nb::arg("path"), nb::arg("edges").none(),
+  module.def("cells_of_polygons", &cells_of, nb::arg("given"), nb::arg("edges").none(),
              nb::arg("invalid").none(), nb::arg("threads"));
-  module.def("polygon_faults", &faults_in, nb::arg("path"), nb::arg("edges").none(),
+  module.def("polygon_faults", &faults_of, nb::arg("given"), nb::arg("edges").none(),
              nb::arg("threads"));
   module.def("combine_pairs", &pairs_combined, nb::arg("first"), nb::arg("second"),
              nb::arg("pairs").noconvert(), nb::arg("how").none(), nb::arg("threads"));
@@ -207,11 +207,11 @@ void add_polygons(nb::module_& module) {
       },
       nb::arg("cells"), nb::arg("threads"));
   add_relations(module);
-  module.def("buffers_in", &buffers_in, nb::arg("path"), nb::arg("distance"), nb::arg("tolerance"),
+  module.def("buffers_in", &buffers_in, nb::arg("given"), nb::arg("distance"), nb::arg("tolerance"),
              nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
   module.def("buffers_of", &buffers_of, nb::arg("cells"), nb::arg("distance"), nb::arg("tolerance"),
              nb::arg("threads"));
-  module.def("simplified_in", &simplified_in, nb::arg("path"), nb::arg("tolerance"),
+  module.def("simplified_in", &simplified_in, nb::arg("given"), nb::arg("tolerance"),
              nb::arg("drop_small"), nb::arg("keep_boundary"), nb::arg("read_deg"),
              nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
   module.def("simplified_of", &simplified_of, nb::arg("cells"), nb::arg("tolerance"),

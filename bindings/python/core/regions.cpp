@@ -21,6 +21,7 @@
 #include "named.h"
 #include "rondel/cell_set.h"
 #include "rondel/feature_cells.h"
+#include "rondel/geometries.h"
 
 namespace rondel::python {
 namespace {
@@ -84,17 +85,37 @@ void add_region_functions(nb::module_& module) {
       nb::arg("cells"));
 }
 
+using LonLatRows = CompressedRows<LonLat>;
+using LonLatRowGroups = RowGroups<LonLatRows>;
+
+void add_lonlat_geometries(nb::module_& module) {
+  using Given = LonLatGeometries;
+  nb::class_<Given> given(module, "LonLatGeometries");
+  add_array<std::int64_t, &Given::lines, &LonLatRowGroups::offsets>(given, "line_groups");
+  add_array<std::int64_t, &Given::lines, &LonLatRowGroups::rows, &LonLatRows::offsets>(given,
+                                                                                       "lines");
+  add_array<double, &Given::lines, &LonLatRowGroups::rows, &LonLatRows::values>(given,
+                                                                                "line_positions");
+  add_array<std::int64_t, &Given::polygons, &LonLatMultiPolygons::offsets>(given, "polygon_groups");
+  add_array<std::int64_t, &Given::polygons, &LonLatMultiPolygons::rows, &LonLatRowGroups::offsets>(
+      given, "polygons");
+  add_array<std::int64_t, &Given::polygons, &LonLatMultiPolygons::rows, &LonLatRowGroups::rows,
+            &LonLatRows::offsets>(given, "rings");
+  add_array<double, &Given::polygons, &LonLatMultiPolygons::rows, &LonLatRowGroups::rows,
+            &LonLatRows::values>(given, "ring_positions");
+  given.def(nb::init<>());
+}
+
 }  // namespace
 
 void add_regions(nb::module_& module) {
-  using Polygons = RowGroups<CompressedRows<LonLat>>;
-  using Rings = CompressedRows<LonLat>;
   nb::class_<LonLatRegions> drawn(module, "LonLatRegions");
-  add_fixed_array<double, &LonLatRegions::polygons, &Polygons::rows, &Rings::values>(drawn,
-                                                                                     "positions");
-  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &Polygons::rows, &Rings::offsets>(
-      drawn, "rings");
-  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &Polygons::offsets>(drawn, "polygons");
+  add_fixed_array<double, &LonLatRegions::polygons, &LonLatRowGroups::rows, &LonLatRows::values>(
+      drawn, "positions");
+  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &LonLatRowGroups::rows,
+                  &LonLatRows::offsets>(drawn, "rings");
+  add_fixed_array<std::int64_t, &LonLatRegions::polygons, &LonLatRowGroups::offsets>(drawn,
+                                                                                     "polygons");
   add_fixed_array<std::int32_t, &LonLatRegions::owners>(drawn, "owners");
   nb::class_<CellRings> rings(module, "CellRings");
   add_array<std::int64_t, &CellRings::cells>(rings, "cells");
@@ -135,6 +156,7 @@ void add_regions(nb::module_& module) {
             });
           },
           nb::arg("path").none(), nb::arg("columns"), nb::arg("tolerance_deg"));
+  add_lonlat_geometries(module);
   add_region_functions(module);
 }
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
 
@@ -16,6 +17,7 @@ from . import _core
 from ._errors import InvalidInput, warn_caller
 from ._projected import in_lonlat
 from ._properties import json_cells
+from ._taken_apart import shapely_array, taken_apart
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
 Invalid: TypeAlias = Literal["error", "repair"]
@@ -51,13 +53,18 @@ def polygons_of(
 ) -> _core.CellSet:
     """The polygons of objects: a cell for each of them, empty where the group is below 0."""
     rules = edges, overlap, invalid
-    cells = _cells_of_arrow(geometries, *rules, threads) if groups is None else None
-    if cells is None:
+    arrays = _arrays_of(geometries, edges)
+    if arrays is None:
         cells = _of_objects(
             geometries,
             edges,
             lambda file: _core.CellSet.read(file, "parallels", *rules, groups, threads),
         )
+    else:
+        try:
+            cells = _core.CellSet.of_geometries(arrays, *rules, groups, threads)
+        except InvalidInput as error:
+            raise ValueError(_told_of_geometries(str(error))) from None
     for remark in cells.facts.remarks:
         warn_caller(remark)
     facts = _core.CellFacts(cells.facts)
@@ -65,7 +72,7 @@ def polygons_of(
     return cells.with_facts(facts)
 
 
-def features_of(features: Any, edges: Edges, read: Callable[[str | bytes], Any]) -> Any:
+def features_of(features: Any, edges: Edges, read: Callable[[Any], Any]) -> Any:
     """The result of `read`, which gets a file or bytes with the features."""
     if is_file(features):
         return read(os.fspath(features))
@@ -88,20 +95,29 @@ def require_rules(edges: str = "lonlat", overlap: str = "error", invalid: str = 
             raise ValueError(f"{name} must be {one!r} or {other!r}, not {word!r}")
 
 
-def _cells_of_arrow(
-    geometries: Any, edges: Edges, overlap: PolygonOverlap, invalid: Invalid, threads: int
-) -> _core.CellSet | None:
-    """The cells of an array of GeoArrow in degrees; None of anything else, as WKB."""
-    if hasattr(geometries, "__geo_interface__") or not hasattr(geometries, "__arrow_c_array__"):
-        return None
-    schema, array = geometries.__arrow_c_array__()
-    try:
-        return _core.cells_of_capsules(schema, array, edges, overlap, invalid, threads)
-    except InvalidInput as error:
-        problem = str(error)
-        if problem.startswith("the array of Arrow"):
+def _arrays_of(geometries: Any, edges: Edges) -> _core.LonLatGeometries | None:
+    """Polygons of GeoArrow in degrees, of shapely, or of a GeoSeries; None of anything else, as WKB
+    and GeoJSON, and of tables with properties.
+    """
+    if hasattr(geometries, "__arrow_c_array__") and not hasattr(geometries, "__geo_interface__"):
+        try:
+            return _core.geometries_of_capsules(*geometries.__arrow_c_array__())
+        except InvalidInput:
             return None
-        raise ValueError(_told_of_geometries(problem)) from None
+    shapely: Any = sys.modules.get("shapely")
+    if shapely is None:
+        return None
+    if isinstance(geometries, shapely.GeometryCollection):
+        shapes = shapely.get_parts(geometries)
+    elif isinstance(geometries, shapely.Geometry):
+        shapes = np.array([geometries], object)
+    elif hasattr(geometries, "crs") and not hasattr(geometries, "columns"):
+        shapes = np.asarray(in_degrees(geometries, edges), object)
+    elif isinstance(geometries, (list, tuple, np.ndarray)):
+        shapes = shapely_array(geometries)
+    else:
+        shapes = None
+    return None if shapes is None else taken_apart(shapes)
 
 
 def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any]) -> Any:

@@ -9,7 +9,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -30,7 +30,12 @@ from ._geometries import (
 )
 from ._pickled import with_arrays
 from ._regions import Regions
+from ._taken_apart import shapely_array, taken_apart
 from ._types import ArrayLike, BoolArray, IntArray
+
+# A function of the library that gets geometries, in arrays or as GeoJSON. It returns its result and
+# remarks.
+Call: TypeAlias = Callable[[Any], tuple[Any, Sequence[str]]]
 
 
 @dataclass
@@ -43,10 +48,11 @@ class Operand:
         The name of the argument.
     shape : tuple of int
         The shape of the array; () for one geometry.
-    features : sequence of mapping
-        The polygons as GeoJSON, none if cells are given.
     given : sequence of object
-        The same polygons as they are given.
+        The polygons as they are given, none if cells are; an array of objects if each of them is a
+        geometry of shapely or None.
+    features : sequence of mapping or None
+        The polygons as GeoJSON, or None if they are geometries of shapely.
     source : GeoSeries, GeoDataFrame or None
         What has the polygons, in degrees.
     encoding : str or None
@@ -60,8 +66,8 @@ class Operand:
 
     name: str
     shape: tuple[int, ...]
-    features: Sequence[Mapping[str, Any]] = ()
-    given: Sequence[Any] = ()
+    given: Any = ()
+    features: Sequence[Mapping[str, Any]] | None = None
     is_of_cells: bool = False
     source: Any = None
     encoding: str | None = None
@@ -88,6 +94,8 @@ class Operand:
         """Which polygons are None."""
         if self.is_of_cells:
             return np.zeros(self.num_polygons, bool)
+        if self.features is None:
+            return np.array([shape is None for shape in self.given], bool)
         return np.array([feature.get("geometry") is None for feature in self.features], bool)
 
     def shapes(self) -> np.ndarray[Any, Any]:
@@ -95,6 +103,9 @@ class Operand:
         import shapely.geometry
 
         made = np.full(self.num_polygons, None)
+        if self.features is None:
+            made[:] = self.given
+            return made
         for k, (given, feature) in enumerate(zip(self.given, self.features, strict=True)):
             known = feature.get("geometry")
             if isinstance(given, shapely.Geometry):
@@ -102,6 +113,12 @@ class Operand:
             elif known is not None:
                 made[k] = shapely.geometry.shape(known)
         return made
+
+    def geojson(self) -> Sequence[Mapping[str, Any]]:
+        """The polygons as features of GeoJSON."""
+        if self.features is None:
+            return [feature_of(shape) for shape in self.given]
+        return self.features
 
     def rings(self) -> _core.CellRings:
         """The polygons of this argument alone."""
@@ -145,31 +162,38 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
         raise ValueError(f"{name}: {error}") from None
     if source is not None:
         source = in_degrees(source, edges)
-        shapes = [*source.geometry]
-        features = [feature_of(shape) for shape in shapes]
-        return Operand(name, (len(features),), features, shapes, source=source, encoding=encoding)
+        flat: Any = np.asarray(source.geometry, object)
+        return Operand(name, flat.shape, flat, source=source, encoding=encoding)
     if is_box(given):
         given = box_of(*map(float, given))
+    shapes = shapely_array([given])
+    if shapes is not None:
+        return Operand(name, (), shapes)
     known = given if isinstance(given, Mapping) else getattr(given, "__geo_interface__", None)
     if known is not None:
         return _operand_of_mapping(name, known, given)
     if given is None:
-        return Operand(name, (), [feature_of(None)], [None])
+        return Operand(name, (), [None], [feature_of(None)])
     if not isinstance(given, Iterable):
         raise TypeError(f"{name} must be polygons or a CellSet, not {type(given).__name__}")
     flat = given.ravel() if isinstance(given, np.ndarray) else list(given)
     shape = given.shape if isinstance(given, np.ndarray) else (len(flat),)
-    return Operand(name, shape, [feature_of(geometry) for geometry in flat], [*flat])
+    shapes = shapely_array(flat)
+    if shapes is not None:
+        return Operand(name, shape, shapes)
+    return Operand(name, shape, [*flat], [feature_of(geometry) for geometry in flat])
 
 
 def _operand_of_mapping(name: str, known: Mapping[str, Any], given: Any) -> Operand:
     if "crs" in known:  # refused if it is not in degrees
         nothing = {"type": "FeatureCollection", "features": [], "crs": known["crs"]}
-        features_of(nothing, "lonlat", lambda file: _core.read_polygons(file, "lonlat", "error", 1))
+        features_of(
+            nothing, "lonlat", lambda text: _core.cells_of_polygons(text, "lonlat", "error", 1)
+        )
     if known.get("type") == "FeatureCollection" and "features" in known:
         features = [feature_of(feature) for feature in known["features"]]
-        return Operand(name, (len(features),), features, [None] * len(features))
-    return Operand(name, (), [feature_of(known)], [given])
+        return Operand(name, (len(features),), [None] * len(features), features)
+    return Operand(name, (), [given], [feature_of(known)])
 
 
 def _frame_of(given: Any) -> tuple[Any, str | None]:
@@ -203,12 +227,10 @@ def _frame_of(given: Any) -> tuple[Any, str | None]:
 def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> _core.CellRings:
     if not any(operand.num_polygons for operand in read):
         return _core.CellRings()
-    cells, remarks = _told(
-        read, edges, lambda file: _core.read_polygons(file, edges, invalid, threads)
+    made: _core.CellRings = told_by_core(
+        read, edges, lambda given: _core.cells_of_polygons(given, edges, invalid, threads)
     )
-    for remark in remarks:
-        warn_caller(remark)
-    return cells
+    return made
 
 
 @dataclass
@@ -287,22 +309,18 @@ def buffers(
         return made
     if not operand.num_polygons:
         return _core.CellRings()
-    cells, remarks = _told(
+    made = told_by_core(
         [operand],
         edges,
-        lambda file: _core.buffers_in(file, distance, tolerance, edges, invalid, threads),
+        lambda given: _core.buffers_in(given, distance, tolerance, edges, invalid, threads),
+        with_lines=True,
     )
-    for remark in remarks:
-        warn_caller(remark)
-    made = cells
     return made
 
 
-def told_by_core(
-    operand: Operand, edges: Edges, call: Callable[[str | bytes], tuple[Any, Sequence[str]]]
-) -> Any:
-    """The result of a call with the polygons as a file; remarks become warnings."""
-    result, remarks = _told([operand], edges, call)
+def told_by_core(read: list[Operand], edges: Edges, call: Call, *, with_lines: bool = False) -> Any:
+    """The result of a call with all geometries; remarks become warnings."""
+    result, remarks = _told(read, edges, call, with_lines=with_lines)
     for remark in remarks:
         warn_caller(remark)
     return result
@@ -315,7 +333,7 @@ def faults_of(operand: Operand, edges: Edges, threads: int | None) -> list[str]:
     if not operand.num_polygons:
         return []
     faults, _ = _told(
-        [operand], edges, lambda file: (_core.polygon_faults(file, edges, number), ())
+        [operand], edges, lambda given: (_core.polygon_faults(given, edges, number), ())
     )
     return [*faults]
 
@@ -324,28 +342,28 @@ def repaired_cells(
     operand: Operand, is_faulty: BoolArray, edges: Edges, threads: int | None
 ) -> _core.CellRings:
     """The cells of some polygons, repaired; those of others have no rings."""
-    nothing = feature_of(None)
-    features = [
-        feature if is_taken else nothing
-        for feature, is_taken in zip(operand.features, is_faulty, strict=True)
-    ]
+    if operand.features is None:
+        shapes = operand.given.copy()
+        shapes[~is_faulty] = None
+        taken = replace(operand, given=shapes)
+    else:
+        nothing = feature_of(None)
+        pairs = zip(operand.features, is_faulty, strict=True)
+        taken = replace(operand, features=[feature if k else nothing for feature, k in pairs])
     number = as_threads(threads)
     cells, _ = _told(
-        [replace(operand, features=features)],
-        edges,
-        lambda file: _core.read_polygons(file, edges, "repair", number),
+        [taken], edges, lambda given: _core.cells_of_polygons(given, edges, "repair", number)
     )
     made: _core.CellRings = cells
     return made
 
 
 def _told(
-    read: list[Operand], edges: Edges, call: Callable[[str | bytes], tuple[Any, Sequence[str]]]
+    read: list[Operand], edges: Edges, call: Call, *, with_lines: bool = False
 ) -> tuple[Any, list[str]]:
-    """The result of a call with all polygons as a file, and remarks. These and errors have the name
-    of the argument and the number of the geometry.
+    """The result of a call with all geometries, and remarks. These and errors have the name of the
+    argument and the number of the geometry.
     """
-    features = [feature for operand in read for feature in operand.features]
 
     def owner(match: re.Match[str]) -> str:
         number = int(match[1])
@@ -359,9 +377,13 @@ def _told(
         return re.sub(r"^(?:geometries: )?(?:geometry|feature) ([0-9]+)", owner, text)
 
     try:
-        result, remarks = features_of(
-            {"type": "FeatureCollection", "features": features}, edges, call
-        )
+        if all(operand.features is None for operand in read):
+            shapes = np.concatenate([operand.given for operand in read])
+            result, remarks = call(taken_apart(shapes, with_lines=with_lines))
+        else:
+            features = [feature for operand in read for feature in operand.geojson()]
+            known = {"type": "FeatureCollection", "features": features}
+            result, remarks = features_of(known, edges, call)
     except ValueError as error:
         raise ValueError(named(str(error))) from None
     return result, [named(remark) for remark in remarks]

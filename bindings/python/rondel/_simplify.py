@@ -94,13 +94,13 @@ def simplify(
     if given.num_polygons:
         share = allowed * (1 - 2 * DRAWN_SHARE)
 
-        def call(file: Any) -> Any:
+        def call(geometries: Any) -> Any:
             made, remarks, do_overlap = _core.simplified_in(
-                file, share, drop_small, keeps, drawn_deg, edges, invalid, number
+                geometries, share, drop_small, keeps, drawn_deg, edges, invalid, number
             )
             return (made, do_overlap), remarks
 
-        made, do_overlap = told_by_core(given, edges, call)
+        made, do_overlap = told_by_core([given], edges, call)
     else:
         made, do_overlap = _core.CellRings(), False
     drawing = "apart" if do_overlap else "together"
