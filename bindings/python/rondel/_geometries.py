@@ -53,21 +53,34 @@ def polygons_of(
 ) -> _core.CellSet:
     """The polygons of objects: a cell for each of them, empty where the group is below 0."""
     rules = edges, overlap, invalid
-    arrays = _arrays_of(geometries, edges)
-    if arrays is None:
-        cells = _of_objects(
-            geometries,
+
+    def from_text(given: Any) -> _core.CellSet:
+        made: _core.CellSet = _of_objects(
+            given,
             edges,
             lambda file: _core.CellSet.read(file, "parallels", *rules, groups, threads),
         )
-    else:
-        try:
-            cells = _core.CellSet.of_geometries(arrays, *rules, groups, threads)
-        except InvalidInput as error:
+        return made
+
+    arrays = _arrays_of(geometries, edges)
+    rows = _properties(geometries) if is_of_geopandas(geometries) else []
+    try:
+        cells = (
+            None if arrays is None else _core.CellSet.of_geometries(arrays, *rules, groups, threads)
+        )
+    except InvalidInput as error:
+        if not rows:
             raise ValueError(_told_of_geometries(str(error))) from None
+        cells = None
+    if cells is None or (rows and cells.facts.remarks):
+        # Messages have the names of geometries, which are among their properties.
+        cells = from_text(geometries)
     for remark in cells.facts.remarks:
         warn_caller(remark)
     facts = _core.CellFacts(cells.facts)
+    if arrays is not None and rows:
+        plain = [{**feature_of(None), "properties": row} for row in rows]
+        facts.columns = from_text({"type": "FeatureCollection", "features": plain}).facts.columns
     facts.name = ""  # that of a file which is gone
     return cells.with_facts(facts)
 
@@ -96,8 +109,8 @@ def require_rules(edges: str = "lonlat", overlap: str = "error", invalid: str = 
 
 
 def _arrays_of(geometries: Any, edges: Edges) -> _core.LonLatGeometries | None:
-    """Polygons of GeoArrow in degrees, of shapely, or of a GeoSeries; None of anything else, as WKB
-    and GeoJSON, and of tables with properties.
+    """Polygons of GeoArrow in degrees, of shapely and of GeoPandas; None of others, as of GeoJSON
+    and WKB.
     """
     if hasattr(geometries, "__arrow_c_array__") and not hasattr(geometries, "__geo_interface__"):
         try:
@@ -111,8 +124,9 @@ def _arrays_of(geometries: Any, edges: Edges) -> _core.LonLatGeometries | None:
         shapes = shapely.get_parts(geometries)
     elif isinstance(geometries, shapely.Geometry):
         shapes = np.array([geometries], object)
-    elif hasattr(geometries, "crs") and not hasattr(geometries, "columns"):
-        shapes = np.asarray(in_degrees(geometries, edges), object)
+    elif is_of_geopandas(geometries):
+        shapes = in_degrees(geometries, edges)
+        shapes = np.asarray(getattr(shapes, "geometry", shapes), object)
     elif isinstance(geometries, (list, tuple, np.ndarray)):
         shapes = shapely_array(geometries)
     else:
@@ -158,6 +172,14 @@ def _first_not_finite(collection: Mapping[str, Any]) -> str:
         except ValueError:
             return f"geometry {i}"
     return "what is beside the geometries"
+
+
+def is_of_geopandas(geometries: Any) -> bool:
+    geopandas: Any = sys.modules.get("geopandas")
+    if geopandas is None:
+        return False
+    kinds = geopandas.GeoSeries, geopandas.GeoDataFrame, geopandas.array.GeometryArray
+    return isinstance(geometries, kinds)
 
 
 def is_file(regions: Any) -> bool:

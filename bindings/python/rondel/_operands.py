@@ -26,6 +26,7 @@ from ._geometries import (
     in_degrees,
     is_box,
     is_file,
+    is_of_geopandas,
     require_rules,
 )
 from ._pickled import with_arrays
@@ -201,11 +202,9 @@ def _frame_of(given: Any) -> tuple[Any, str | None]:
     Arrow.
     """
     geopandas: Any = sys.modules.get("geopandas")
-    if geopandas is not None:
-        if isinstance(given, (geopandas.GeoSeries, geopandas.GeoDataFrame)):
-            return given, None
-        if isinstance(given, geopandas.array.GeometryArray):
-            return geopandas.GeoSeries(given), None
+    if is_of_geopandas(given):
+        is_array = isinstance(given, geopandas.array.GeometryArray)
+        return geopandas.GeoSeries(given) if is_array else given, None
     if hasattr(given, "__geo_interface__"):
         return None, None
     if not (hasattr(given, "__arrow_c_array__") or hasattr(given, "__arrow_c_stream__")):

@@ -179,6 +179,21 @@ def test_tables_have_the_same_results():
     assert np.allclose(found, wanted, 1e-7, 0, equal_nan=True)
 
 
+def test_names_of_rows_are_told():
+    geopandas = pytest.importorskip("geopandas")
+    name = ["Sudan", "Chad", None]
+    frame = geopandas.GeoDataFrame({"name": name}, geometry=[BOX, None, shapely.box(0, 0, 2, 2)])
+    for rules in ({"overlap": "error"}, {"invalid": "repair"}):
+        for given in (frame, frame.set_geometry([BOX, TIE, TIE])):
+            text = json.loads(given.to_json())
+            found = outcome(rondel.CellSet.from_geometries, given, **rules)
+            assert found == outcome(rondel.CellSet.from_geometries, text, **rules)
+            assert "(Sudan)" in str(found) or "(Chad)" in str(found) or not found[1]
+    cells = rondel.CellSet.from_geometries(frame, overlap="first")
+    wanted = rondel.CellSet.from_geometries(json.loads(frame.to_json()), overlap="first")
+    assert cells._cells.facts.columns[0].__reduce__() == wanted._cells.facts.columns[0].__reduce__()
+
+
 def test_lines_and_points_are_taken_apart_too():
     line = shapely.LineString([(0, 0, 5), (1, 1, 5), (2, 0, 5)])
     several = shapely.GeometryCollection(
