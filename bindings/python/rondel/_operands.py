@@ -167,6 +167,10 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
         return Operand(name, flat.shape, flat, source=source, encoding=encoding)
     if is_box(given):
         given = box_of(*map(float, given))
+        if "shapely" in sys.modules:  # else nothing is of it, and shapely may be missing
+            import shapely.geometry
+
+            given = shapely.geometry.shape(given)
     shapes = shapely_array([given])
     if shapes is not None:
         return Operand(name, (), shapes)
