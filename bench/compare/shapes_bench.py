@@ -5,11 +5,11 @@
     python3 shapes_bench.py coasts.npz [TURNS]          (of gshhg.py)
 
 The polygons are islands of GSHHG within 12 degrees of the equator, each fourth one, and 20,000
-boxes of which neighbors share sides. The second operand of `intersection`, `contains` and `relate` are the same
-polygons, moved by 0.05 degrees. Rondel reads them with geodesic edges, as spherely (S2) does;
-`rondel, text` gets them as GeoJSON, as those have to go that other libraries have. GEOS computes in
-the plane. Prints medians of the turns in seconds; what a program does not have is left out, and
-spherely if it is not installed.
+boxes of which neighbors share sides. The second operand of `intersection`, `contains` and `relate`
+are the same polygons, moved by 0.05 degrees. Rondel reads them with geodesic edges, as spherely (S2)
+does; `rondel, text` gets them as GeoJSON, as those have to go that other libraries have. GEOS
+computes in the plane. Prints medians of the turns in seconds of processors, which other work on the
+machine changes less; what a program does not have is left out, and spherely if it is not installed.
 """
 
 from __future__ import annotations
@@ -95,13 +95,13 @@ PROGRAMS = {
 
 
 def seconds_of(call: Callable[[], Any]) -> float:
-    begin = time.perf_counter()
+    begin = time.process_time()
     call()
-    return time.perf_counter() - begin
+    return time.process_time() - begin
 
 
 def main(path: str, turns: int) -> None:
-    print("| polygons | positions | function | program | s | least | most |")
+    print("| polygons | positions | function | program | processor s | least | most |")
     print("| --- | --- | --- | --- | --- | --- | --- |")
     for name, first in (("islands", islands(path)[::4]), ("boxes", boxes())):
         second = shapely.transform(first, lambda positions: positions + SHIFT)

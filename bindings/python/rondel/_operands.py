@@ -380,7 +380,7 @@ def _told(
         return re.sub(r"^(?:geometries: )?(?:geometry|feature) ([0-9]+)", owner, text)
 
     try:
-        if all(operand.features is None for operand in read):
+        if not any(operand.features for operand in read):
             shapes = np.concatenate([operand.given for operand in read])
             result, remarks = call(taken_apart(shapes, with_lines=with_lines))
         else:

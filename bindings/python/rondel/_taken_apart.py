@@ -22,9 +22,9 @@ Objects = np.ndarray[Any, Any]
 
 
 def shapely_array(given: Sequence[Any] | Objects) -> Objects | None:
-    """The objects as an array if each of them is a geometry of shapely or None, and one is."""
+    """The objects as an array if each of them is a geometry of shapely or None."""
     shapely: Any = sys.modules.get("shapely")
-    if shapely is None or not len(given):
+    if shapely is None:
         return None
     objects = np.empty(len(given), object)
     for k, item in enumerate(given):
