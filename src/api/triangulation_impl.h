@@ -51,7 +51,7 @@ RONDEL_API Triangulation make_triangulation(Sites sites, TriangulationArrays arr
 RONDEL_API void require_delaunay(const Triangulation& triangulation, const Execution& execution);
 
 // Throws InvalidInput if the arrays are not those of the triangulation of their sites.
-void prove_delaunay(const Triangulation& triangulation, const Execution& execution);
+RONDEL_API void prove_delaunay(const Triangulation& triangulation, const Execution& execution);
 
 }  // namespace api
 }  // namespace rondel

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Steps: triangulate, insert the constraints one by one along the spatial order, write the faces in
+// canonical order, and list which constraint each edge comes from.
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "api/triangulation_impl.h"
+#include "api/validation.h"
+#include "constrained/constrained_faces.h"
+#include "constrained/constrained_order.h"
+#include "constrained/constraints.h"
+#include "constrained/split_constraints.h"
+#include "exact/vector.h"
+#include "rondel/constrained.h"
+#include "rondel/delaunay.h"
+#include "system/job.h"
+#include "system/message_text.h"
+
+namespace rondel {
+namespace constrained {
+namespace {
+
+using Ends = std::array<Index, 2>;
+
+std::string text_of(const Ends& constraints, const LonLat& place) {
+  return "constraints " + std::to_string(constraints[0]) + " and " +
+         std::to_string(constraints[1]) + " cross at longitude " +
+         system::shortest_text(place.lon_deg) + ", latitude " +
+         system::shortest_text(place.lat_deg);
+}
+
+// Returns where two arcs cross, up to rounding.
+LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
+                         const Sphere& sphere) {
+  const auto direction = [&](Index v) {
+    return normalized(exact::to_vector(sites.point(v)) - exact::to_vector(sphere.center));
+  };
+  const auto a = direction(e[0]);
+  const auto b = direction(e[1]);
+  const auto c = direction(f[0]);
+  const auto d = direction(f[1]);
+  auto place = cross(cross(a, b - a), cross(c, d - c));
+  if (dot(place, a + b) < 0) place = -1.0 * place;
+  // Arcs that are nearly one have their places from the middle of one.
+  if (!(dot(place, place) > 0)) place = a + b;
+  const Point point = exact::to_point(place);
+  return lonlats(std::span(&point, 1))[0];
+}
+
+// Inserts all constraints, and returns their pieces, sorted.
+std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSites& sites,
+                                         std::span<const Ends> ends, const system::Job& job) {
+  // Neighbors in this order are close to each other; so a long constraint finds few short ones
+  // that were inserted far away, and memory that is known.
+  std::vector<Index> order(ends.size());
+  for (Index i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](Index i) {
+    const Index f = faces.face_at(ends[i][0]);
+    const Index g = faces.face_at(ends[i][1]);
+    return std::tuple(std::min(f, g), std::max(f, g), i);
+  });
+  std::vector<ConstrainedPiece> pieces;
+  pieces.reserve(ends.size());
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    constexpr std::size_t pause = 4096;
+    if (k % pause == 0) {
+      system::obey_stop();
+      system::announce(job, "constrain", k, order.size());
+    }
+    const Index i = order[k];
+    const auto crossed = faces.insert(ends[i][0], ends[i][1], i, pieces);
+    if (!crossed) continue;
+    const ConstrainedPiece edge = piece_between((*crossed)[0], (*crossed)[1], 0);
+    const auto other = std::ranges::find_if(pieces, [&](const ConstrainedPiece& piece) {
+      return piece.low == edge.low && piece.high == edge.high;
+    });
+    const auto [low, high] = std::minmax(i, other->constraint);
+    throw CrossingConstraints(low, high,
+                              place_of_crossing(sites, ends[low], ends[high], job.sphere));
+  }
+  std::ranges::sort(pieces);
+  return pieces;
+}
+
+// Lists edges with their constraints, or with the sources of these.
+void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
+                ConstrainedTriangulation& result) {
+  for (std::size_t begin = 0; begin < pieces.size();) {
+    const Ends edge = {pieces[begin].low, pieces[begin].high};
+    std::vector<Index> row;
+    std::size_t end = begin;
+    for (; end < pieces.size() && Ends{pieces[end].low, pieces[end].high} == edge; ++end) {
+      const Index constraint = pieces[end].constraint;
+      if (sources == nullptr) {
+        row.push_back(constraint);
+      } else {
+        row.insert(row.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
+      }
+    }
+    std::ranges::sort(row);
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    result.edges.push_back(edge);
+    result.sources.values.insert(result.sources.values.end(), row.begin(), row.end());
+    result.sources.end_row();
+    begin = end;
+  }
+}
+
+// Returns a triangulation of faces that are not all Delaunay: what relies on that proves it first.
+Triangulation with_faces(const Triangulation& before, TriangulationArrays arrays) {
+  arrays.num_sites = before.num_sites();
+  arrays.dimension = 2;
+  arrays.duplicates.assign(before.duplicates().begin(), before.duplicates().end());
+  const Options options = {before.model(), before.sphere()};
+  const auto impl = std::make_shared<Triangulation::Impl>(before.sites(), std::move(arrays),
+                                                          options, before.report());
+  impl->proof = &api::prove_delaunay;
+  return Triangulation(impl);
+}
+
+ConstrainedTriangulation constrain(const Triangulation& before, std::span<const Ends> constraints,
+                                   const CompressedRows<Index>* sources, const system::Job& job) {
+  const NamedSites sites(before);
+  std::vector<Ends> ends;
+  ends.reserve(constraints.size());
+  for (const auto& [a, b] : constraints) ends.push_back({sites.name(a), sites.name(b)});
+  ConstrainedTriangulation result;
+  if (before.dimension() < 2) {
+    std::vector<ConstrainedPiece> pieces = pieces_on_ring(before, sites, ends);
+    std::ranges::sort(pieces);
+    list_edges(pieces, sources, result);
+    result.triangulation = before;
+    return result;
+  }
+  ConstrainedFaces faces(before, sites);
+  list_edges(insert_all(faces, sites, ends, job), sources, result);
+  if (faces.has_changes()) {
+    TriangulationArrays arrays;
+    write_in_order(faces, sites, before, job.threads, arrays, result.sides);
+    result.triangulation = with_faces(before, std::move(arrays));
+  } else {
+    result.triangulation = before;
+    result.sides = faces.sides();
+  }
+  system::announce(job, "constrain", 1);
+  return result;
+}
+
+}  // namespace
+}  // namespace constrained
+
+CrossingConstraints::CrossingConstraints(Index first, Index second, const LonLat& place)
+    : InvalidInput(constrained::text_of({first, second}, place), second),
+      constraints_{first, second},
+      place_(place) {}
+
+CrossingConstraints::~CrossingConstraints() = default;
+
+ConstrainedTriangulation constrained_delaunay(Sites sites,
+                                              std::span<const std::array<Index, 2>> constraints,
+                                              const ConstrainedOptions& options,
+                                              const Execution& execution) {
+  const system::Call call(execution);
+  const system::Job job = {{Model::projected, options.sphere}, execution};
+  const bool has_split = options.crossings == Crossings::split && !constraints.empty();
+  if (!has_split) {
+    const Triangulation before = delaunay(std::move(sites), job, execution);
+    constrained::require_arcs(before.sites().points(), constraints, options.sphere);
+    return constrained::constrain(before, constraints, nullptr, job);
+  }
+  if (!(options.sphere.center == Point{})) {
+    throw InvalidInput("crossings of constraints are split around the origin only");
+  }
+  api::validate_some(sites.points(), job, 0);
+  constrained::require_arcs(sites.points(), constraints, options.sphere);
+  const auto split = constrained::split_constraints(sites, constraints, execution);
+  const Triangulation before = delaunay(split.sites, job, execution);
+  return constrained::constrain(before, split.ends, &split.sources, job);
+}
+
+}  // namespace rondel

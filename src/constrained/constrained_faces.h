@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Faces into which constraints are inserted one by one; docs/theory/constrained.md has the proof.
+//
+//            left chain                An arc from v to w crosses the edges of the faces of its
+//            o----o----o               cavity. They are replaced by triangulations of the two
+//          / |  / | \  | \             polygons beside the arc: left of v -> w and left of w -> v.
+//        v --+-/--+--\-+-- w           A polygon may touch itself, where an edge has its faces on
+//          \ |/   |   \| /             both sides in the cavity.
+//            o----o----o
+//            right chain
+//
+// in    the faces of a triangulation, pairs of vertices
+// out   the faces that have these edges; in any order, those that were kept under their numbers
+// index names of vertices; faces; halfedges 3 * face + i, the edge opposite to corner i
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "constrained/constraints.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+#include "system/large_arrays.h"
+
+namespace rondel::constrained {
+
+class ConstrainedFaces {
+ public:
+  // Sites and triangulation must outlive the object. Dimension 2.
+  ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites);
+
+  // Inserts the arc between two vertices, which are not opposite to each other, and appends the
+  // pieces of it. If it crosses a constraint, some pieces are appended, and an edge of that
+  // constraint is returned; then nothing may be inserted any more.
+  std::optional<std::array<Index, 2>> insert(Index a, Index b, Index constraint,
+                                             std::vector<ConstrainedPiece>& pieces);
+
+  // Returns a number that is less for faces that come earlier in the triangulation: one of a face
+  // at a vertex.
+  [[nodiscard]] Index face_at(Index vertex) const { return face_at_[vertex]; }
+
+  [[nodiscard]] bool has_changes() const { return has_changes_; }
+  [[nodiscard]] bool is_changed(Index face) const { return (states_[face] & changed) != 0; }
+  [[nodiscard]] bool is_solid(Index face) const { return (states_[face] & ghost) == 0; }
+  [[nodiscard]] const LargeVector<Triple>& faces() const { return faces_; }
+  [[nodiscard]] const LargeVector<Triple>& neighbors() const { return neighbors_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }
+  // Returns the same edge seen from the other face.
+  [[nodiscard]] Index opposite(Index halfedge) const;
+
+ private:
+  // What is true of a face: it is a ghost face, it was made by an insertion, it is in the cavity.
+  static constexpr std::uint8_t ghost = 1;
+  static constexpr std::uint8_t changed = 2;
+  static constexpr std::uint8_t in_cavity = 4;
+
+  // How an arc leaves a vertex: along the halfedge, or across it if the vertex is opposite to it.
+  struct Departure {
+    Index halfedge;
+    bool is_along;
+  };
+  // The solid faces around a vertex, one after the other, counterclockwise and then clockwise from
+  // the first one.
+  class Fan;
+
+  // An edge of a polygon: from vertex i of its chain to vertex i + 1.
+  struct PolygonEdge {
+    Index inner;     // the halfedge in the cavity, backwards
+    Index outer;     // its opposite
+    bool is_double;  // the opposite is in the cavity, too
+    bool is_constrained;
+  };
+  // Vertices from one end of an arc to the other one, and the edges between them.
+  struct Polygon {
+    std::vector<Index> vertices;
+    std::vector<PolygonEdge> edges;
+    void clear() {
+      vertices.clear();
+      edges.clear();
+    }
+  };
+  struct SubPolygon {
+    Index first;
+    Index last;
+    Index halfedge;  // of the face beyond its base; no_index: none yet
+  };
+  // Two halfedges of new faces that are opposite to each other if the old one is the same.
+  struct DoubleEdge {
+    Index old;
+    Index halfedge;
+  };
+
+  [[nodiscard]] const Point& point(Index v) const { return sites_.point(v); }
+  [[nodiscard]] Sign side(Index a, Index b, Index v) const;
+  [[nodiscard]] Departure departure(Index& a, Index& b) const;
+  [[nodiscard]] bool is_constrained(Index h) const {
+    return (static_cast<unsigned>(sides_[h / 3]) >> h % 3 & 1U) != 0;
+  }
+  void link(Index h, Index g);
+  void constrain(Index halfedge);
+  std::optional<std::array<Index, 2>> dig(Index a, Index b, Index halfedge);
+  void append(Polygon& polygon, Index vertex, Index halfedge);
+  void refill();
+  void look_outside(Polygon& polygon);
+  Index fill(const Polygon& polygon);
+  void close(const PolygonEdge& edge, Index halfedge);
+  [[nodiscard]] Index apex_of(const Polygon& polygon, Index first, Index last) const;
+  Index add_face(Index a, Index b, Index c);
+
+  const NamedSites& sites_;
+  Sphere sphere_;
+  LargeVector<Triple> faces_;
+  LargeVector<Triple> neighbors_;
+  std::vector<std::uint8_t> sides_;
+  std::vector<std::uint8_t> states_;
+  std::vector<Index> face_at_;  // a solid face at each vertex
+  bool has_changes_ = false;
+
+  // Of the arc that is inserted.
+  std::vector<Index> cavity_;
+  Polygon left_;
+  Polygon right_;  // from the same end as left_ until it is filled
+  std::vector<SubPolygon> to_fill_;
+  std::vector<DoubleEdge> double_edges_;
+};
+
+}  // namespace rondel::constrained

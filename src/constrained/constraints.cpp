@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "constrained/constraints.h"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+
+#include "proof/sites_by_place.h"
+#include "rondel/error.h"
+#include "rondel/predicates.h"
+
+namespace rondel::constrained {
+namespace {
+
+bool is_less(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+std::string text_of(std::size_t number) { return std::to_string(number); }
+
+// Two vectors are on one line with the center iff each axis is in one plane with them.
+bool are_dependent(const Point& a, const Point& b, const Sphere& sphere) {
+  return std::ranges::all_of(std::array{0U, 1U, 2U}, [&](unsigned axis) {
+    return orientation(a, b, proof::axis_point(sphere.center, axis), sphere) == Sign::zero;
+  });
+}
+
+// The places of names along the ring of a triangulation, and which way around an arc goes.
+class RingArcs {
+ public:
+  RingArcs(const Triangulation& triangulation, const NamedSites& sites)
+      : ring_(triangulation.ring()),
+        sites_(sites),
+        sphere_(triangulation.sphere()),
+        places_(triangulation.num_sites(), no_index) {
+    for (std::size_t i = 0; i < ring_.size(); ++i) places_[ring_[i]] = static_cast<Index>(i);
+  }
+
+  // Appends the pieces of the arc between two vertices.
+  void append(Index a, Index b, Index constraint, std::vector<ConstrainedPiece>& pieces) {
+    axis_ = axis_beside(a, b);
+    sense_ = sense(a, b);
+    const std::size_t step = is_on_arc(a, b, next(a, 1)) ? 1 : ring_.size() - 1;
+    for (Index v = a; v != b;) {
+      const Index w = next(v, step);
+      pieces.push_back(piece_between(v, w, constraint));
+      v = w;
+    }
+  }
+
+ private:
+  [[nodiscard]] Index next(Index v, std::size_t step) const {
+    return ring_[(places_[v] + step) % ring_.size()];
+  }
+  [[nodiscard]] Sign sense(Index a, Index b) const {
+    return orientation(sites_.point(a), sites_.point(b), axis_, sphere_);
+  }
+  // True if a vertex other than a is in the inside of the arc ab, or b.
+  [[nodiscard]] bool is_on_arc(Index a, Index b, Index v) const {
+    return v == b || (sense(a, v) == sense_ && sense(v, b) == sense_);
+  }
+  // Returns a point that is not in one plane with the arc.
+  [[nodiscard]] Point axis_beside(Index a, Index b) const {
+    unsigned axis = 0;
+    while (orientation(sites_.point(a), sites_.point(b), proof::axis_point(sphere_.center, axis),
+                       sphere_) == Sign::zero) {
+      ++axis;
+    }
+    return proof::axis_point(sphere_.center, axis);
+  }
+
+  std::span<const Index> ring_;
+  const NamedSites& sites_;
+  Sphere sphere_;
+  std::vector<Index> places_;
+  Point axis_;
+  Sign sense_ = Sign::zero;
+};
+
+}  // namespace
+
+NamedSites::NamedSites(const Triangulation& triangulation)
+    : sites_(triangulation.sites().points()) {
+  if (triangulation.duplicates().empty()) return;
+  names_.resize(sites_.size());
+  for (Index i = 0; i < sites_.size(); ++i) names_[i] = i;
+  speakers_ = names_;
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    names_[site] = representative;
+    Index& speaker = speakers_[representative];
+    if (is_less(sites_[site], sites_[speaker])) speaker = site;
+  }
+}
+
+void require_arcs(std::span<const Point> sites, std::span<const std::array<Index, 2>> constraints,
+                  const Sphere& sphere) {
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto [a, b] = constraints[i];
+    const auto what = [i] { return "constraint " + text_of(i); };
+    for (const Index site : constraints[i]) {
+      if (site < sites.size()) continue;
+      throw InvalidInput(what() + " ends at site " + text_of(site) + ", but there are " +
+                             text_of(sites.size()) + " sites",
+                         i);
+    }
+    if (a == b) throw InvalidInput(what() + " begins and ends at site " + text_of(a), i);
+    const auto both = [&, first = a, second = b] {
+      return what() + " joins sites " + text_of(first) + " and " + text_of(second);
+    };
+    if (is_same_site(sites[a], sites[b], Model::projected, sphere)) {
+      throw InvalidInput(both() + ", which are in one place", i);
+    }
+    if (are_dependent(sites[a], sites[b], sphere)) {
+      throw InvalidInput(both() + ", which are opposite to each other", i);
+    }
+  }
+}
+
+std::vector<ConstrainedPiece> pieces_on_ring(const Triangulation& triangulation,
+                                             const NamedSites& sites,
+                                             std::span<const std::array<Index, 2>> ends) {
+  std::vector<ConstrainedPiece> pieces;
+  RingArcs arcs(triangulation, sites);
+  for (Index i = 0; i < ends.size(); ++i) arcs.append(ends[i][0], ends[i][1], i, pieces);
+  return pieces;
+}
+
+}  // namespace rondel::constrained
