@@ -191,13 +191,15 @@ class ConstrainedCheck {
     for (Index f = 0; f < delaunay_.num_faces(); ++f) {
       if (!delaunay_.is_ghost(f)) expected_faces.push_back(delaunay_.faces()[f]);
     }
-    // Directions with other ratios each time: some are in no plane of an edge.
+    // Directions with other ratios each time: some are in no plane of an edge. Steps towards zero
+    // do not leave the range of doubles.
+    const auto step = [](double center, double size) {
+      return center - std::copysign(std::max(1.0, std::abs(center)), center) / size;
+    };
     for (double k = 1;; ++k) {
       const Point& center = sphere_.center;
-      const double size =
-          std::max({1.0, std::abs(center.x), std::abs(center.y), std::abs(center.z)});
-      const Point place = {center.x + size * k, center.y + size * std::sqrt(k + 1),
-                           center.z + size * std::sqrt(k + 2)};
+      const Point place = {step(center.x, k), step(center.y, std::sqrt(k + 1)),
+                           step(center.z, std::sqrt(k + 2))};
       const auto found = count_around(place, solid_);
       const auto expected = count_around(place, expected_faces);
       if (!found || !expected) continue;

@@ -42,7 +42,15 @@ class RingArcs {
   void append(Index a, Index b, Index constraint, std::vector<ConstrainedPiece>& pieces) {
     axis_ = axis_beside(a, b);
     sense_ = sense(a, b);
-    const std::size_t step = is_on_arc(a, b, next(a, 1)) ? 1 : ring_.size() - 1;
+    // The first vertex in the inside of the arc tells the direction. Without one the two are
+    // neighbors, perhaps on both sides.
+    const std::size_t back = ring_.size() - 1;
+    const bool is_ahead = is_inside(a, b, next(a, 1));
+    if (!is_ahead && !is_inside(a, b, next(a, back))) {
+      pieces.push_back(piece_between(a, b, constraint));
+      return;
+    }
+    const std::size_t step = is_ahead ? 1 : back;
     for (Index v = a; v != b;) {
       const Index w = next(v, step);
       pieces.push_back(piece_between(v, w, constraint));
@@ -57,9 +65,9 @@ class RingArcs {
   [[nodiscard]] Sign sense(Index a, Index b) const {
     return orientation(sites_.point(a), sites_.point(b), axis_, sphere_);
   }
-  // True if a vertex other than a is in the inside of the arc ab, or b.
-  [[nodiscard]] bool is_on_arc(Index a, Index b, Index v) const {
-    return v == b || (sense(a, v) == sense_ && sense(v, b) == sense_);
+  // True if a vertex is in the inside of the arc ab.
+  [[nodiscard]] bool is_inside(Index a, Index b, Index v) const {
+    return sense(a, v) == sense_ && sense(v, b) == sense_;
   }
   // Returns a point that is not in one plane with the arc.
   [[nodiscard]] Point axis_beside(Index a, Index b) const {

@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(constrained_test
+  constrained/constrained_oracle.cpp
+  constrained/constrained_errors_test.cpp
+  constrained/constrained_laws_test.cpp
+  constrained/constrained_oracle_test.cpp
+  LIBS rondel_geo rondel_test_support)
