@@ -59,13 +59,20 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
                                          std::span<const Ends> ends, const system::Job& job) {
   // Neighbors in this order are close to each other; so a long constraint finds few short ones
   // that were inserted far away, and memory that is known.
-  std::vector<Index> order(ends.size());
-  for (Index i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::sort(order, {}, [&](Index i) {
-    const Index f = faces.face_at(ends[i][0]);
-    const Index g = faces.face_at(ends[i][1]);
-    return std::tuple(std::min(f, g), std::max(f, g), i);
-  });
+  struct Place {
+    Index low;
+    Index high;
+    Index constraint;
+    auto operator<=>(const Place&) const = default;
+  };
+  std::vector<Place> order;
+  order.reserve(ends.size());
+  for (Index i = 0; i < ends.size(); ++i) {
+    const auto [low, high] =
+        std::minmax({faces.vertex_of(ends[i][0]), faces.vertex_of(ends[i][1])});
+    order.push_back({low, high, i});
+  }
+  std::ranges::sort(order);
   std::vector<ConstrainedPiece> pieces;
   pieces.reserve(ends.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -74,7 +81,7 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
       system::obey_stop();
       system::announce(job, "constrain", k, order.size());
     }
-    const Index i = order[k];
+    const Index i = order[k].constraint;
     const auto crossed = faces.insert(ends[i][0], ends[i][1], i, pieces);
     if (!crossed) continue;
     const ConstrainedPiece edge = piece_between((*crossed)[0], (*crossed)[1], 0);
@@ -139,11 +146,11 @@ ConstrainedTriangulation constrain(const Triangulation& before, std::span<const 
     result.triangulation = before;
     return result;
   }
-  ConstrainedFaces faces(before, sites);
+  ConstrainedFaces faces(before, sites, job.threads);
   list_edges(insert_all(faces, sites, ends, job), sources, result);
   if (faces.has_changes()) {
     TriangulationArrays arrays;
-    write_in_order(faces, sites, before, job.threads, arrays, result.sides);
+    write_in_order(faces, before, job.threads, arrays, result.sides);
     result.triangulation = with_faces(before, std::move(arrays));
   } else {
     result.triangulation = before;

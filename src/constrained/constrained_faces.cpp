@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "constrained/constrained_order.h"
 #include "rondel/predicates.h"
+#include "system/prefetch.h"
 #include "topology/mesh.h"
 
 namespace rondel::constrained {
@@ -94,18 +96,42 @@ class ConstrainedFaces::Fan {
   bool is_clockwise_ = false;
 };
 
-ConstrainedFaces::ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites)
-    : sites_(sites),
-      sphere_(triangulation.sphere()),
+ConstrainedFaces::ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites,
+                                   unsigned threads)
+    : sphere_(triangulation.sphere()),
       sides_(triangulation.num_faces()),
-      states_(triangulation.num_faces()),
-      face_at_(triangulation.num_sites(), no_index) {
+      states_(triangulation.num_faces()) {
   faces_.assign(triangulation.faces().begin(), triangulation.faces().end());
   neighbors_.assign(triangulation.neighbors().begin(), triangulation.neighbors().end());
   for (const Index f : triangulation.ghost_faces()) states_[f] = ghost;
+  number_vertices(sites, names_in_order(triangulation, sites, threads));
+  face_at_.resize(names_.size());
   for (Index f = 0; f < faces_.size(); ++f) {
     if (!is_solid(f)) continue;
     for (const Index v : faces_[f]) face_at_[v] = f;
+  }
+}
+
+void ConstrainedFaces::number_vertices(const NamedSites& sites, std::vector<Index> names) {
+  names_ = std::move(names);
+  vertices_.resize(sites.size());
+  points_.resize(names_.size());
+  for (std::size_t v = 0; v < names_.size(); ++v) {
+    if (v + system::prefetch_distance < names_.size()) {
+      const Index ahead = names_[v + system::prefetch_distance];
+      system::prefetch_to_write(&vertices_[ahead]);
+      system::prefetch(&sites.point(ahead));
+    }
+    vertices_[names_[v]] = static_cast<Index>(v);
+    points_[v] = sites.point(names_[v]);
+  }
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (f + system::prefetch_distance < faces_.size()) {
+      for (const Index name : faces_[f + system::prefetch_distance]) {
+        system::prefetch(&vertices_[name]);
+      }
+    }
+    for (Index& corner : faces_[f]) corner = vertices_[corner];
   }
 }
 
@@ -153,6 +179,8 @@ ConstrainedFaces::Departure ConstrainedFaces::departure(Index& a, Index& b) cons
 
 std::optional<std::array<Index, 2>> ConstrainedFaces::insert(
     Index a, Index b, Index constraint, std::vector<ConstrainedPiece>& pieces) {
+  a = vertices_[a];
+  b = vertices_[b];
   while (a != b) {
     const Departure first = departure(a, b);
     Index end = no_index;
@@ -162,11 +190,13 @@ std::optional<std::array<Index, 2>> ConstrainedFaces::insert(
       end = from == a ? face[previous_corner[edge_of(first.halfedge)]] : from;
       constrain(first.halfedge);
     } else {
-      if (const auto crossed = dig(a, b, first.halfedge)) return crossed;
+      if (const auto crossed = dig(a, b, first.halfedge)) {
+        return std::array{names_[(*crossed)[0]], names_[(*crossed)[1]]};
+      }
       end = left_.vertices.back();
       refill();
     }
-    pieces.push_back(piece_between(a, end, constraint));
+    pieces.push_back(piece_between(names_[a], names_[end], constraint));
     a = end;
   }
   return {};

@@ -13,13 +13,15 @@
 //
 // in    the faces of a triangulation, pairs of vertices
 // out   the faces that have these edges; in any order, those that were kept under their numbers
-// index names of vertices; faces; halfedges 3 * face + i, the edge opposite to corner i
+// index vertices along the spatial order, so that neighbors are close in memory; faces; halfedges
+//       3 * face + i, the edge opposite to corner i
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "constrained/constraints.h"
@@ -32,17 +34,18 @@ namespace rondel::constrained {
 class ConstrainedFaces {
  public:
   // Sites and triangulation must outlive the object. Dimension 2.
-  ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites);
+  ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites, unsigned threads);
 
-  // Inserts the arc between two vertices, which are not opposite to each other, and appends the
-  // pieces of it. If it crosses a constraint, some pieces are appended, and an edge of that
-  // constraint is returned; then nothing may be inserted any more.
+  // Inserts the arc between two sites, by their names, which are not opposite to each other, and
+  // appends the pieces of it. If it crosses a constraint, some pieces are appended, and an edge of that
+  // constraint is returned, by names; then nothing may be inserted any more.
   std::optional<std::array<Index, 2>> insert(Index a, Index b, Index constraint,
                                              std::vector<ConstrainedPiece>& pieces);
 
-  // Returns a number that is less for faces that come earlier in the triangulation: one of a face
-  // at a vertex.
-  [[nodiscard]] Index face_at(Index vertex) const { return face_at_[vertex]; }
+  [[nodiscard]] Index vertex_of(Index name) const { return vertices_[name]; }
+  [[nodiscard]] Index name_of(Index vertex) const { return names_[vertex]; }
+  // The points of the vertices.
+  [[nodiscard]] std::span<const Point> points() const { return points_; }
 
   [[nodiscard]] bool has_changes() const { return has_changes_; }
   [[nodiscard]] bool is_changed(Index face) const { return (states_[face] & changed) != 0; }
@@ -95,7 +98,8 @@ class ConstrainedFaces {
     Index halfedge;
   };
 
-  [[nodiscard]] const Point& point(Index v) const { return sites_.point(v); }
+  void number_vertices(const NamedSites& sites, std::vector<Index> names);
+  [[nodiscard]] const Point& point(Index v) const { return points_[v]; }
   [[nodiscard]] Sign side(Index a, Index b, Index v) const;
   [[nodiscard]] Departure departure(Index& a, Index& b) const;
   [[nodiscard]] bool is_constrained(Index h) const {
@@ -112,13 +116,15 @@ class ConstrainedFaces {
   [[nodiscard]] Index apex_of(const Polygon& polygon, Index first, Index last) const;
   Index add_face(Index a, Index b, Index c);
 
-  const NamedSites& sites_;
   Sphere sphere_;
+  LargeVector<Index> vertices_;  // by name
+  std::vector<Index> names_;
+  LargeVector<Point> points_;
   LargeVector<Triple> faces_;
   LargeVector<Triple> neighbors_;
   std::vector<std::uint8_t> sides_;
   std::vector<std::uint8_t> states_;
-  std::vector<Index> face_at_;  // a solid face at each vertex
+  LargeVector<Index> face_at_;  // a solid face at each vertex
   bool has_changes_ = false;
 
   // Of the arc that is inserted.

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// constrained_bench N CONSTRAINTS [THREADS] [--seed S]: measures the constrained triangulation of
+// uniform sites beside delaunay() of the same sites. Each constraint joins two random sites in a
+// square of the cube around the sphere, up to four in each square, so that none cross. Prints medians, and
+// nanoseconds for each edge that the constraints cross, as one JSON object.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "inputs.h"
+#include "measure.h"
+#include "rondel/constrained.h"
+#include "rondel/delaunay.h"
+#include "rondel/predicates.h"
+
+namespace {
+
+using rondel::Index;
+using rondel::Point;
+using rondel::bench::median;
+using rondel::bench::seconds_of;
+using Edge = std::array<Index, 2>;
+
+constexpr int repetitions = 5;
+
+// Returns the number of the square, of side^2 on each face of the cube.
+std::size_t square_of(const Point& p, std::size_t side) {
+  const double ax = std::abs(p.x);
+  const double ay = std::abs(p.y);
+  const double az = std::abs(p.z);
+  const double longest = std::max({ax, ay, az});
+  const bool is_x = ax == longest;
+  const bool is_y = !is_x && ay == longest;
+  const double out = is_x ? p.x : is_y ? p.y : p.z;
+  const double u = (is_x ? p.y : p.x) / longest;
+  const double v = (is_x || is_y ? p.z : p.y) / longest;
+  const auto cell = [side](double ratio) {
+    const auto place = static_cast<std::size_t>((ratio + 1) / 2 * static_cast<double>(side));
+    return std::min(place, side - 1);
+  };
+  const std::size_t face = (is_x ? 0U : is_y ? 2U : 4U) + (out < 0 ? 1U : 0U);
+  return (face * side + cell(u)) * side + cell(v);
+}
+
+bool do_cross(const std::vector<Point>& sites, const Edge& e, const Edge& f) {
+  const auto side = [&](const Edge& edge, Index v) {
+    return static_cast<int>(rondel::orientation(sites[edge[0]], sites[edge[1]], sites[v]));
+  };
+  return side(e, f[0]) * side(e, f[1]) < 0 && side(f, e[0]) * side(f, e[1]) < 0;
+}
+
+// The sites are in random order, so that those that follow each other in a square are random ones.
+std::vector<Edge> random_constraints(const std::vector<Point>& sites, std::size_t wanted) {
+  constexpr std::size_t each = 4;
+  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(wanted / each) / 6));
+  std::vector<std::vector<Index>> in_square(6 * side * side);
+  for (Index i = 0; i < sites.size(); ++i) in_square[square_of(sites[i], side)].push_back(i);
+  std::vector<Edge> constraints;
+  for (const std::vector<Index>& square : in_square) {
+    const std::size_t first = constraints.size();
+    for (std::size_t k = 1; k < square.size() && constraints.size() < first + each; ++k) {
+      const Edge edge = {square[k - 1], square[k]};
+      const auto crosses = [&](const Edge& other) { return do_cross(sites, edge, other); };
+      if (std::none_of(constraints.begin() + static_cast<std::ptrdiff_t>(first), constraints.end(),
+                       crosses)) {
+        constraints.push_back(edge);
+      }
+    }
+  }
+  return constraints;
+}
+
+std::vector<Edge> edges_of(const rondel::Triangulation& triangulation) {
+  std::vector<Edge> edges;
+  for (const auto& [a, b, c] : triangulation.faces()) {
+    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
+      if (from < to) edges.push_back({from, to});
+    }
+  }
+  std::ranges::sort(edges);
+  return edges;
+}
+
+// Returns how many edges the constraints have removed: at least those that they cross.
+std::size_t num_crossed(const rondel::Triangulation& before, const rondel::Triangulation& after) {
+  std::vector<Edge> gone;
+  std::ranges::set_difference(edges_of(before), edges_of(after), std::back_inserter(gone));
+  return gone.size();
+}
+
+void run(std::size_t n, std::size_t wanted, unsigned threads, std::uint64_t seed) {
+  const rondel::Execution execution{.threads = threads};
+  std::vector<double> plain;
+  std::vector<double> constrained;
+  std::size_t crossed = 0;
+  std::size_t num_constraints = 0;
+  for (int i = 0; i < repetitions; ++i) {
+    const auto sites = rondel::bench::make_input("uniform", n, seed + static_cast<unsigned>(i));
+    const std::vector<Edge> constraints = random_constraints(sites, wanted);
+    rondel::Triangulation before;
+    rondel::ConstrainedTriangulation after;
+    plain.push_back(
+        seconds_of([&] { before = delaunay(rondel::Sites::view(sites), {}, execution); }));
+    constrained.push_back(seconds_of([&] {
+      after = constrained_delaunay(rondel::Sites::view(sites), constraints, {}, execution);
+    }));
+    crossed = num_crossed(before, after.triangulation);
+    num_constraints = constraints.size();
+  }
+  const double more = median(constrained) - median(plain);
+  std::printf(R"({"sites": %zu, "constraints": %zu, "threads": %u, "crossed": %zu, )", n,
+              num_constraints, threads, crossed);
+  std::printf(R"("delaunay_seconds": %.4f, "constrained_seconds": %.4f, )", median(plain),
+              median(constrained));
+  std::printf(R"("ns_per_crossed_edge": %.1f})"
+              "\n",
+              more / static_cast<double>(std::max<std::size_t>(crossed, 1)) * 1e9);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: constrained_bench N CONSTRAINTS [THREADS] [--seed S]\n");
+    return 2;
+  }
+  rondel::bench::keep_freed_memory();
+  run(static_cast<std::size_t>(std::atoll(argv[1])), static_cast<std::size_t>(std::atoll(argv[2])),
+      argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1, seed);
+  return 0;
+}
