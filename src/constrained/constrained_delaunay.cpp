@@ -5,6 +5,7 @@
 // canonical order, and list which constraint each edge comes from.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -40,7 +41,11 @@ std::string text_of(const Ends& constraints, const LonLat& place) {
 LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
                          const Sphere& sphere) {
   const auto direction = [&](Index v) {
-    return normalized(exact::to_vector(sites.point(v)) - exact::to_vector(sphere.center));
+    const exact::Vector3<double> point = exact::to_vector(sites.point(v));
+    const exact::Vector3<double> center = exact::to_vector(sphere.center);
+    const exact::Vector3<double> ray = point - center;
+    const bool is_finite = std::isfinite(largest_coordinate(ray));
+    return normalized(scaled(is_finite ? ray : 0.5 * point - 0.5 * center));
   };
   const auto a = direction(e[0]);
   const auto b = direction(e[1]);
@@ -48,8 +53,10 @@ LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
   const auto d = direction(f[1]);
   auto place = cross(cross(a, b - a), cross(c, d - c));
   if (dot(place, a + b) < 0) place = -1.0 * place;
-  // Arcs that are nearly one have their places from the middle of one.
-  if (!(dot(place, place) > 0)) place = a + b;
+  // What rounding leaves nothing of has another place of the arcs.
+  for (const auto& other : {a + b, c + d, a}) {
+    if (!(dot(place, place) > 0)) place = other;
+  }
   const Point point = exact::to_point(place);
   return lonlats(std::span(&point, 1))[0];
 }

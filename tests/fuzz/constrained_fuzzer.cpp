@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel/constrained.h: what it promises of any sites and any pairs of them.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "rondel/constrained.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::fuzz {
+namespace {
+
+using Edge = std::array<Index, 2>;
+
+// Removes constraints until none is refused, and returns the triangulation of the rest.
+ConstrainedTriangulation without_refused(const std::vector<Point>& sites,
+                                         std::vector<Edge>& constraints, const Sphere& sphere) {
+  while (true) {
+    try {
+      return constrained_delaunay(sites, constraints, {.sphere = sphere});
+    } catch (const CrossingConstraints& error) {
+      const auto [first, second] = error.constraints();
+      require(first < second && second < constraints.size() && error.index() == second,
+              "two constraints cross");
+      const LonLat place = error.place();
+      require(place.lon_deg >= -180 && place.lon_deg <= 180 && place.lat_deg >= -90 &&
+                  place.lat_deg <= 90,
+              "they cross at a place");
+      const std::vector<Edge> both = {constraints[first], constraints[second]};
+      refuse(1, [&] { return constrained_delaunay(sites, both, {.sphere = sphere}); });
+      constraints.erase(constraints.begin() + second);
+    } catch (const InvalidInput& error) {
+      require(error.index() < constraints.size(), "a constraint is named");
+      constraints.erase(constraints.begin() + static_cast<std::ptrdiff_t>(error.index()));
+    }
+  }
+}
+
+void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
+               const Sphere& sphere) {
+  const ConstrainedTriangulation result = without_refused(sites, constraints, sphere);
+  const Triangulation& t = result.triangulation;
+  const CheckReport report = check_constrained(sites, constraints, t.faces(), sphere);
+  require(report.is_valid, report.reason);
+  require(result.sides.size() == t.num_faces(), "sides belong to faces");
+  require(result.sources.size() == result.edges.size(), "edges come from constraints");
+  require(std::ranges::is_sorted(result.edges), "edges are in order");
+  const auto again = constrained_delaunay(sites, result.edges, {.sphere = sphere});
+  require(std::ranges::equal(again.triangulation.faces(), t.faces()), "edges are constraints");
+  std::ranges::reverse(constraints);
+  for (Edge& edge : constraints) std::swap(edge[0], edge[1]);
+  const auto reversed =
+      constrained_delaunay(sites, constraints, {.sphere = sphere}, {.threads = 2});
+  require(std::ranges::equal(reversed.triangulation.faces(), t.faces()) &&
+              reversed.edges == result.edges,
+          "the order of constraints changes nothing");
+}
+
+// Sites that are not unit vectors are refused; otherwise what crosses is divided.
+void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constraints) {
+  try {
+    const auto result = constrained_delaunay(sites, constraints, {.crossings = Crossings::split});
+    const Triangulation& t = result.triangulation;
+    const CheckReport report = check_constrained(t.sites().points(), result.edges, t.faces());
+    require(report.is_valid, report.reason);
+  } catch (const InvalidInput&) {
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  fuzz::ByteSource source(data, size);
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const std::size_t limit = fuzz::next_limit(source, 40);
+  const Sphere sphere = fuzz::next_sphere(source, scales);
+  std::vector<std::array<Index, 2>> constraints(source.below(24));
+  for (auto& [a, b] : constraints) {
+    a = source.byte() % 16;
+    b = source.byte() % 16;
+  }
+  const std::vector<Point> sites =
+      fuzz::all_sites(source, limit, scales, {Model::projected, sphere});
+  fuzz::test_laws(sites, constraints, sphere);
+  std::vector<LonLat> positions;
+  for (const Point& p : sites) positions.push_back(lonlats(std::span(&p, 1))[0]);
+  std::erase_if(positions, [](const LonLat& p) { return !(p.lat_deg <= 90); });
+  fuzz::test_split(unit_vectors(positions), constraints);
+  return 0;
+}
