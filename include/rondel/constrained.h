@@ -21,7 +21,7 @@
 namespace rondel {
 
 /// What becomes of constraints that cross each other in the inside of both.
-enum class Crossings : std::uint8_t {
+enum class ConstraintCrossings : std::uint8_t {
   refuse,  ///< an error, CrossingConstraints
   split,   ///< each crossing, rounded to doubles, becomes a site
 };
@@ -30,7 +30,7 @@ enum class Crossings : std::uint8_t {
 struct ConstrainedOptions {
   /// The sphere around whose center the sites lie. Each site is projected on it exactly.
   Sphere sphere{};
-  Crossings crossings = Crossings::refuse;
+  ConstraintCrossings crossings = ConstraintCrossings::refuse;
 };
 
 /// Two constraints cross in the inside of both. index() is the larger one of their positions.
@@ -56,7 +56,7 @@ class RONDEL_API CrossingConstraints : public InvalidInput {
 
 /// A triangulation with edges that were asked for.
 struct ConstrainedTriangulation {
-  /// The sites and the faces. Sites that Crossings::split has added come after those that were
+  /// The sites and the faces. Sites that ConstraintCrossings::split has added come after those that were
   /// given, along the spatial order.
   Triangulation triangulation;
   /// The two sites of each constrained edge, the lower one first, in lexicographic order. Of
@@ -88,8 +88,8 @@ struct ConstrainedTriangulation {
 ///    have, too. Of two faces of an owner with the same second corner, the solid one comes first.
 /// 6. Below dimension 2 there are no faces, and `edges` are pairs of neighbors in the ring.
 ///
-/// A Locator and a DynamicTriangulation, which rely on Delaunay faces, refuse the triangulation
-/// unless it happens to be that of delaunay().
+/// A Locator, an Interpolator and a DynamicTriangulation, which rely on Delaunay faces, refuse the
+/// triangulation unless all constraints are edges of delaunay(); and its dual is no Voronoi diagram.
 ///
 /// A constraint takes time in proportion to the edges that it crosses, times their logarithm on
 /// average, and their square at worst. The proof is in docs/theory/constrained.md (Chew, Constrained

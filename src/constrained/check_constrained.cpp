@@ -66,7 +66,7 @@ class ConstrainedCheck {
     return orientation(sites_.point(a), sites_.point(b), sites_.point(c), sphere_);
   }
 
-  std::string find_wrong_corner() const {
+  [[nodiscard]] std::string find_wrong_corner() const {
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       const Triple& face = triangles_[f];
       for (std::size_t i = 0; i < 3; ++i) {
@@ -87,7 +87,7 @@ class ConstrainedCheck {
   }
 
   static Triple turned(Triple face) {
-    std::ranges::rotate(face, std::ranges::min_element(face));
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
     return face;
   }
 
@@ -171,7 +171,8 @@ class ConstrainedCheck {
 
   // Returns how many faces have a place, or nothing if it is on the plane of an edge.
   template <class Faces>
-  std::optional<std::size_t> count_around(const Point& place, const Faces& faces) const {
+  [[nodiscard]] std::optional<std::size_t> count_around(const Point& place,
+                                                        const Faces& faces) const {
     std::size_t count = 0;
     for (const Triple& face : faces) {
       bool is_inside = true;

@@ -66,13 +66,13 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
                                          std::span<const Ends> ends, const system::Job& job) {
   // Neighbors in this order are close to each other; so a long constraint finds few short ones
   // that were inserted far away, and memory that is known.
-  struct Place {
+  struct PlacedConstraint {
     Index low;
     Index high;
     Index constraint;
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const PlacedConstraint&) const = default;
   };
-  std::vector<Place> order;
+  std::vector<PlacedConstraint> order;
   order.reserve(ends.size());
   for (Index i = 0; i < ends.size(); ++i) {
     const auto [low, high] =
@@ -106,22 +106,22 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
 // Lists edges with their constraints, or with the sources of these.
 void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
                 ConstrainedTriangulation& result) {
+  std::vector<Index>& values = result.sources.values;
   for (std::size_t begin = 0; begin < pieces.size();) {
     const Ends edge = {pieces[begin].low, pieces[begin].high};
-    std::vector<Index> row;
+    const auto first = static_cast<std::ptrdiff_t>(values.size());
     std::size_t end = begin;
     for (; end < pieces.size() && Ends{pieces[end].low, pieces[end].high} == edge; ++end) {
       const Index constraint = pieces[end].constraint;
       if (sources == nullptr) {
-        row.push_back(constraint);
+        values.push_back(constraint);
       } else {
-        row.insert(row.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
+        values.insert(values.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
       }
     }
-    std::ranges::sort(row);
-    row.erase(std::unique(row.begin(), row.end()), row.end());
+    std::sort(values.begin() + first, values.end());
+    values.erase(std::unique(values.begin() + first, values.end()), values.end());
     result.edges.push_back(edge);
-    result.sources.values.insert(result.sources.values.end(), row.begin(), row.end());
     result.sources.end_row();
     begin = end;
   }
@@ -146,22 +146,23 @@ ConstrainedTriangulation constrain(const Triangulation& before, std::span<const 
   ends.reserve(constraints.size());
   for (const auto& [a, b] : constraints) ends.push_back({sites.name(a), sites.name(b)});
   ConstrainedTriangulation result;
+  result.triangulation = before;
   if (before.dimension() < 2) {
     std::vector<ConstrainedPiece> pieces = pieces_on_ring(before, sites, ends);
     std::ranges::sort(pieces);
     list_edges(pieces, sources, result);
-    result.triangulation = before;
-    return result;
-  }
-  ConstrainedFaces faces(before, sites, job.threads);
-  list_edges(insert_all(faces, sites, ends, job), sources, result);
-  if (faces.has_changes()) {
-    TriangulationArrays arrays;
-    write_in_order(faces, before, job.threads, arrays, result.sides);
-    result.triangulation = with_faces(before, std::move(arrays));
+  } else if (ends.empty()) {
+    result.sides.resize(before.num_faces());
   } else {
-    result.triangulation = before;
-    result.sides = faces.sides();
+    ConstrainedFaces faces(before, sites, job.threads);
+    list_edges(insert_all(faces, sites, ends, job), sources, result);
+    if (faces.has_changes()) {
+      TriangulationArrays arrays;
+      write_in_order(faces, before, job.threads, arrays, result.sides);
+      result.triangulation = with_faces(before, std::move(arrays));
+    } else {
+      result.sides = faces.sides();
+    }
   }
   system::announce(job, "constrain", 1);
   return result;
@@ -183,7 +184,7 @@ ConstrainedTriangulation constrained_delaunay(Sites sites,
                                               const Execution& execution) {
   const system::Call call(execution);
   const system::Job job = {{Model::projected, options.sphere}, execution};
-  const bool has_split = options.crossings == Crossings::split && !constraints.empty();
+  const bool has_split = options.crossings == ConstraintCrossings::split && !constraints.empty();
   if (!has_split) {
     const Triangulation before = delaunay(std::move(sites), job, execution);
     constrained::require_arcs(before.sites().points(), constraints, options.sphere);

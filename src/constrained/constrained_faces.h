@@ -127,7 +127,7 @@ class ConstrainedFaces {
   LargeVector<Index> face_at_;  // a solid face at each vertex
   bool has_changes_ = false;
 
-  // Of the arc that is inserted.
+  // The rest belongs to the arc that is inserted.
   std::vector<Index> cavity_;
   Polygon left_;
   Polygon right_;  // from the same end as left_ until it is filled

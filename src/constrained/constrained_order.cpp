@@ -97,7 +97,7 @@ class FaceOrder {
     return topology::first_corner(all_.faces()[f]);
   }
 
-  // Of two faces with the same second corner the solid one comes first.
+  // The face with the earlier second corner comes first, or the solid one if they have the same.
   [[nodiscard]] bool starts_before(Index g, Index h) const {
     const Index v = all_.faces()[face_of(g)][next_corner[edge_of(g)]];
     const Index w = all_.faces()[face_of(h)][next_corner[edge_of(h)]];
@@ -113,7 +113,7 @@ class FaceOrder {
   }
 
   // Puts the faces in order behind the first one if each of them meets the one before.
-  bool is_chain(std::span<Index> faces) const {
+  [[nodiscard]] bool is_chain(std::span<Index> faces) const {
     constexpr std::size_t many = 16;  // where looking for the next one takes longer than a walk
     if (faces.size() > many) return false;
     for (std::size_t i = 1; i < faces.size(); ++i) {

@@ -117,6 +117,7 @@ NamedSites::NamedSites(const Triangulation& triangulation)
 
 void require_arcs(std::span<const Point> sites, std::span<const std::array<Index, 2>> constraints,
                   const Sphere& sphere) {
+  if (constraints.size() >= no_index) throw InvalidInput("there are too many constraints");
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const auto [a, b] = constraints[i];
     const auto what = [i] { return "constraint " + text_of(i); };

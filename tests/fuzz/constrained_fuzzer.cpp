@@ -66,7 +66,8 @@ void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
 // Sites that are not unit vectors are refused; otherwise what crosses is divided.
 void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constraints) {
   try {
-    const auto result = constrained_delaunay(sites, constraints, {.crossings = Crossings::split});
+    const auto result =
+        constrained_delaunay(sites, constraints, {.crossings = ConstraintCrossings::split});
     const Triangulation& t = result.triangulation;
     const CheckReport report = check_constrained(t.sites().points(), result.edges, t.faces());
     require(report.is_valid, report.reason);

@@ -4,6 +4,7 @@
 // What constrained_delaunay() refuses, and how check_constrained() names what is wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "rondel/constrained.h"
@@ -65,7 +66,7 @@ TEST(constrained_errors, crossing_constraints_are_named_with_their_place) {
 }
 
 TEST(constrained_errors, split_needs_unit_vectors) {
-  ConstrainedOptions options{.crossings = Crossings::split};
+  ConstrainedOptions options{.crossings = ConstraintCrossings::split};
   const std::vector<Ends> constraints = {{0, 1}};
   EXPECT_THROW(constrained_delaunay(square, constraints, options), InvalidInput);
   options.sphere.center = {1, 0, 0};

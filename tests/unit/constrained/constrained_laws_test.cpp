@@ -81,7 +81,7 @@ std::vector<std::string> flaws_of_order(const ConstrainedTriangulation& result) 
   for (std::size_t f = 0; f < t.num_faces();) {
     std::size_t end = f;
     for (; end < t.num_faces() && t.faces()[end][0] == t.faces()[f][0]; ++end) {
-      if (rank[t.faces()[end][1]] < rank[t.faces()[f][1]]) flaws.push_back("first of owner");
+      if (rank[t.faces()[end][1]] < rank[t.faces()[f][1]]) flaws.emplace_back("first of owner");
     }
     f = end;
   }
@@ -220,14 +220,14 @@ TEST(constrained_laws, hold_for_crossings_that_are_split) {
       if (a != b) constraints.push_back({a, b});
     }
     const auto result =
-        constrained_delaunay(set.sites, constraints, {.crossings = Crossings::split});
+        constrained_delaunay(set.sites, constraints, {.crossings = ConstraintCrossings::split});
     const Triangulation& t = result.triangulation;
     EXPECT_EQ(check_constrained(t.sites().points(), result.edges, t.faces()).reason, "");
     EXPECT_TRUE(std::ranges::equal(t.sites().points().subspan(0, n), set.sites));
     expect_paths(result, constraints);
     std::ranges::reverse(constraints);
-    const auto reversed = constrained_delaunay(set.sites, constraints,
-                                               {.crossings = Crossings::split}, {.threads = 2});
+    const auto reversed = constrained_delaunay(
+        set.sites, constraints, {.crossings = ConstraintCrossings::split}, {.threads = 2});
     EXPECT_TRUE(std::ranges::equal(reversed.triangulation.faces(), t.faces()));
     EXPECT_EQ(reversed.triangulation.sites(), t.sites());
     EXPECT_EQ(reversed.edges, result.edges);
