@@ -3,7 +3,6 @@
 #include "region_features.h"
 
 #include <algorithm>
-#include <set>
 #include <span>
 #include <string_view>
 #include <unordered_map>
@@ -11,8 +10,6 @@
 
 #include "column_values.h"
 #include "report.h"
-#include "rondel/error.h"
-#include "rondel/relate.h"
 
 namespace rondel::cli {
 namespace {
@@ -53,25 +50,6 @@ Column rows_of(const Column& column, std::span<const Index> rows) {
 std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns) {
   columns.insert(columns.begin(), index_column(name, size));
   return columns;
-}
-
-CellDrawing drawing_of(const CellRings& cells, const Execution& execution) {
-  if (num_not_empty(cells) < 2) return CellDrawing::together;
-  // Exact relations are found quickly. Cells that they know to overlap may do so by rounding alone.
-  std::set<Index> doubtful;
-  try {
-    for (const auto& [first, second, relation] :
-         related_pairs(cells, cells, SpatialPredicate::intersects, execution)) {
-      if (first != second && relation.matrix[0] != 'F') doubtful.insert({first, second});
-    }
-  } catch (const InvalidInput&) {  // a cell is not valid
-    for (Index c = 0; c < cells.num_cells(); ++c) doubtful.insert(doubtful.end(), c);
-  }
-  if (doubtful.empty()) return CellDrawing::together;
-  CellRings some;
-  some.points = cells.points;
-  for (const Index c : doubtful) some.append_cell(cells, c);
-  return overlapping_cells(some, execution).empty() ? CellDrawing::together : CellDrawing::apart;
 }
 
 std::size_t num_not_empty(const CellRings& cells) {

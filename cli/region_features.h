@@ -42,9 +42,6 @@ struct RegionsOptions {
 /// The mean radius of the Earth in kilometers: (2 a + b) / 3 of WGS 84.
 inline constexpr double mean_earth_radius = 6371.0088;
 
-/// Returns how cells are drawn: apart if they overlap, so that none loses a part.
-CellDrawing drawing_of(const CellRings& cells, const Execution& execution);
-
 /// Returns how many cells or geometries have a place.
 std::size_t num_not_empty(const CellRings& cells);
 std::size_t num_not_empty(const Geometries& geometries);

@@ -142,6 +142,18 @@ RONDEL_API GeometryPieces without_touching_parts(const GeometryPieces& pieces,
 RONDEL_API Geometries without_touching_parts(const Geometries& combined, const Geometries& first,
                                              const Geometries& second);
 
+/// Lines and points in longitude and latitude.
+struct LonLatLines {
+  CompressedRows<LonLat> parts;  ///< a part of one position is a point
+  std::vector<Index> owners;     ///< the feature of each part, never decreasing
+};
+
+/// Computes lines within [-180, 180] x [-90, 90], cut at the antimeridian and the poles: the lines of
+/// write_geometries().
+/// \throws InvalidInput if offsets do not fit, a line has no point, or the tolerance is not positive
+RONDEL_API LonLatLines lonlat_lines(const FeatureLines& lines, double tolerance_deg = 0.01,
+                                    const Execution& execution = {});
+
 /// Writes geometries, one feature for each: points, lines and polygons in longitude and latitude, cut
 /// at the antimeridian and the poles, or a GeometryCollection of them. The geometry of a feature
 /// without a place is null; GDAL's formats leave out such a feature. Properties are `area`

@@ -167,6 +167,22 @@ std::vector<Measure> measures_of(const Geometries& geometries) {
 
 namespace rondel {
 
+LonLatLines lonlat_lines(const FeatureLines& lines, double tolerance_deg,
+                         const Execution& execution) {
+  const system::Call call(execution);
+  formats::require_lines(lines);
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
+  std::vector<formats::DrawnGeometry> drawn(lines.size());
+  formats::add_lines(lines, tolerance, execution.threads, drawn);
+  LonLatLines all;
+  for (std::size_t f = 0; f < drawn.size(); ++f) {
+    for (const std::vector<LonLat>& line : drawn[f].lines) all.parts.append(line);
+    for (const LonLat& point : drawn[f].points) all.parts.append({&point, 1});
+    all.owners.resize(all.parts.size(), static_cast<Index>(f));
+  }
+  return all;
+}
+
 bool can_write_regions(const FileName& file) {
   return io::ending(file) == formats::feature_writers.front().ending ||
          formats::is_format_of_gdal(file);

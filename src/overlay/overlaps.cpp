@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "exact/angles.h"
@@ -24,6 +25,8 @@
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "rondel/predicates.h"
+#include "rondel/regions.h"
+#include "rondel/relate.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
@@ -350,6 +353,25 @@ std::vector<CrossingCells> overlapping_cells(const CellRings& cells, const Execu
   const CellSet cell_set = CellSet::polygons(cells, execution);
   const overlay::CellSetData& data = overlay::CellSetData::of(cell_set);
   return overlay::overlaps_of(data.subdivision(), data.all_whole(), execution);
+}
+
+CellDrawing drawing_of(const CellRings& cells, const Execution& execution) {
+  if (cells.num_cells() < 2) return CellDrawing::together;
+  // Exact relations are found quickly. Cells that they know to overlap may do so by rounding alone.
+  std::set<Index> doubtful;
+  try {
+    for (const auto& [first, second, relation] :
+         related_pairs(cells, cells, SpatialPredicate::intersects, execution)) {
+      if (first != second && relation.matrix[0] != 'F') doubtful.insert({first, second});
+    }
+  } catch (const InvalidInput&) {  // a cell is not valid
+    for (Index c = 0; c < cells.num_cells(); ++c) doubtful.insert(doubtful.end(), c);
+  }
+  if (doubtful.empty()) return CellDrawing::together;
+  CellRings some;
+  some.points = cells.points;
+  for (const Index c : doubtful) some.append_cell(cells, c);
+  return overlapping_cells(some, execution).empty() ? CellDrawing::together : CellDrawing::apart;
 }
 
 }  // namespace rondel

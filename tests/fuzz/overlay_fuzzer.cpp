@@ -135,7 +135,7 @@ void test_file(const RegionPieces& pieces) {
   require(can_write_regions(path), "a format of regions can be written");
   require(!can_write_regions(folder.file("regions.csv")), "other formats cannot");
   require_region_writer(path);
-  write_regions(path, pieces.rings, {}, 5);
+  write_regions(path, pieces.rings, {}, 5, {1}, {}, drawing_of(pieces.rings, {1}));
   const LonLatRegions drawn = region_polygons(pieces.rings, 5);
   require(drawn.polygons.rows.offsets.back() == drawn.polygons.rows.values.size(),
           "rings have all positions");

@@ -154,6 +154,7 @@ void test_together(const ScratchFolder& folder, const std::string& path,
   const Geometries all = {std::move(tables[0].lines), std::move(tables[0].polygons)};
   const std::string written = folder.file("written.geojson");
   write_geometries({written, {}}, all, tables[0].facts.columns, 1);
+  require(lonlat_lines(all.lines, 1).owners.size() >= all.lines.rows.size(), "no line is lost");
   const Geometries proper = without_touching_parts(all, all, all);
   require(proper.size() == all.size(), "geometries stay");
   LonLatGeometries places;

@@ -94,5 +94,6 @@ NB_MODULE(_core, module) {
   rondel::python::add_remap(module);
   rondel::python::add_polygons(module);
   rondel::python::add_regions(module);
+  rondel::python::add_geometries(module);
   rondel::python::add_weight_files(module);
 }

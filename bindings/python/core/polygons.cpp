@@ -83,7 +83,7 @@ std::tuple<CellRings, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, bool> piec
   RegionPieces pieces = watched_quietly(
       first.corners.size() + second.corners.size(), threads, [&](const Execution& execution) {
         RegionPieces made = overlay_pieces(first, second, operation, execution);
-        do_overlap = !overlapping_cells(made.rings, execution).empty();
+        do_overlap = drawing_of(made.rings, execution) == CellDrawing::apart;
         return made;
       });
   return {std::move(pieces.rings), indices_out(std::move(pieces.cells)),
@@ -95,7 +95,8 @@ struct RelationsOfPairs {
   std::vector<Relation> rows;
 };
 
-RelationsOfPairs relations_of(const CellRings& first, const CellRings& second,
+template <class Operand>
+RelationsOfPairs relations_of(const Operand& first, const Operand& second,
                               const IndexPairsIn& pairs, unsigned threads) {
   return watched_quietly(pairs.shape(0), threads, [&](const Execution& execution) {
     return RelationsOfPairs{
@@ -134,7 +135,9 @@ void add_relations(nb::module_& module) {
             return answers(self, [&](const Relation& row) { return row.matches(pattern); });
           },
           nb::arg("pattern"));
-  module.def("relations", &relations_of, nb::arg("first"), nb::arg("second"),
+  module.def("relations", &relations_of<CellRings>, nb::arg("first"), nb::arg("second"),
+             nb::arg("pairs").noconvert(), nb::arg("threads"));
+  module.def("relations", &relations_of<Geometries>, nb::arg("first"), nb::arg("second"),
              nb::arg("pairs").noconvert(), nb::arg("threads"));
 }
 
@@ -157,25 +160,6 @@ std::tuple<CellRings, std::vector<std::string>> buffers_in(const GeometriesIn& g
 CellRings buffers_of(const CellRings& cells, double distance, double tolerance, unsigned threads) {
   return watched_quietly(cells.corners.size(), threads, [&](const Execution& execution) {
     return buffered(cells, {distance, tolerance}, execution);
-  });
-}
-
-// Returns the simplified polygons, remarks, and whether they overlap.
-std::tuple<CellRings, std::vector<std::string>, bool> simplified_in(
-    const GeometriesIn& given, double tolerance, bool drop_small, bool keep_boundary,
-    double read_deg, nb::handle edges, nb::handle invalid, unsigned threads) {
-  PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                         .invalid = named<InvalidPolygons>("invalid", invalid)};
-  options.tolerance_deg = std::min(options.tolerance_deg, read_deg);
-  const SimplifyOptions how{
-      .tolerance = tolerance, .drop_small = drop_small, .keep_boundary = keep_boundary};
-  return read_geometries(given, [&](const auto& geometries) {
-    return watched_quietly(0, threads, [&](const Execution& execution) {
-      CellTable table = cells_in(geometries, options, execution);
-      CellRings made = simplified(table.cells, how, execution);
-      const bool do_overlap = !overlapping_cells(made, execution).empty();
-      return std::tuple(std::move(made), std::move(table.facts.remarks), do_overlap);
-    });
   });
 }
 
@@ -211,9 +195,6 @@ void add_polygons(nb::module_& module) {
              nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
   module.def("buffers_of", &buffers_of, nb::arg("cells"), nb::arg("distance"), nb::arg("tolerance"),
              nb::arg("threads"));
-  module.def("simplified_in", &simplified_in, nb::arg("given"), nb::arg("tolerance"),
-             nb::arg("drop_small"), nb::arg("keep_boundary"), nb::arg("read_deg"),
-             nb::arg("edges").none(), nb::arg("invalid").none(), nb::arg("threads"));
   module.def("simplified_of", &simplified_of, nb::arg("cells"), nb::arg("tolerance"),
              nb::arg("drop_small"), nb::arg("keep_boundary"), nb::arg("threads"));
   module.def("faulty_cells", &faulty_cells, nb::arg("cells"), nb::arg("threads"));

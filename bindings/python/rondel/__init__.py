@@ -17,15 +17,16 @@ remap
 lonlat_grid, polygons
     Cells for it: a grid of the whole sphere, and polygons of files and libraries.
 overlay, intersection, union, union_all, difference, symmetric_difference
-    Set operations on polygons, with the names of GeoPandas and shapely.
-relate, intersects, contains, within, covers, covered_by, touches, overlaps, equals, disjoint
-    How polygons lie to each other.
+    Set operations on points, lines and polygons, with the names of GeoPandas and shapely.
+relate, intersects, disjoint, contains, within, covers, covered_by, touches, crosses, overlaps,
+equals
+    How geometries lie to each other.
 buffer
     The places within a distance of points, lines and polygons.
 simplify
-    Polygons with fewer corners and the same topology.
+    Lines and polygons with fewer corners and the same topology.
 area, length
-    Measures of polygons on the sphere.
+    Measures of geometries on the sphere.
 make_valid, is_valid, validity_reason
     Polygons that are not valid.
 interpolate
@@ -109,6 +110,7 @@ from ._relations import (
     contains,
     covered_by,
     covers,
+    crosses,
     disjoint,
     equals,
     intersects,
@@ -162,6 +164,7 @@ __all__ = [
     "convex_hull",
     "covered_by",
     "covers",
+    "crosses",
     "delaunay",
     "delaunay_lonlat",
     "difference",

@@ -41,7 +41,7 @@ Call: TypeAlias = Callable[[Any], tuple[Any, Sequence[str]]]
 
 @dataclass
 class Operand:
-    """The polygons of one argument: cells, or features that will be read as cells.
+    """The geometries of one argument: cells, or features that will be read.
 
     Attributes
     ----------
@@ -60,6 +60,8 @@ class Operand:
         The encoding of the arrays of Arrow that are given.
     cells : CellRings
         The polygons as cells.
+    shared : Geometries or None
+        The geometries of all arguments if any of them has lines or points.
     first : int
         The cell of the first polygon.
 
@@ -73,6 +75,7 @@ class Operand:
     source: Any = None
     encoding: str | None = None
     cells: _core.CellRings = field(default_factory=_core.CellRings)
+    shared: _core.Geometries | None = None
     first: int = 0
 
     @property
@@ -125,11 +128,22 @@ class Operand:
         """The polygons of this argument alone."""
         return cells_from(self.cells, self.first, self.num_polygons)
 
+    def all_geometries(self) -> _core.Geometries:
+        """The geometries of which those of this argument begin at `first`."""
+        if self.shared is not None:
+            return self.shared
+        groups = np.zeros(self.cells.num_cells + 1, np.int64)
+        return with_arrays(_core.Geometries(), {"line_groups": groups, "polygons": self.cells})
+
+    def geometries(self) -> _core.Geometries:
+        """The geometries of this argument alone."""
+        return geometries_from(self.all_geometries(), self.first, self.num_polygons)
+
 
 def operands(
     given: Mapping[str, Any], edges: Edges, threads: int | None, invalid: Invalid = "error"
 ) -> list[Operand]:
-    """The arguments by their names. Polygons of all of them are read together, so that they have
+    """The arguments by their names. Geometries of all of them are read together, so that they have
     the same corners along sides that they share.
     """
     require_rules(edges=edges, invalid=invalid)
@@ -142,10 +156,12 @@ def operands(
                 f"{bodies[0].source.crs.name!r} and {other.source.crs.name!r}"
             )
     read = [operand for operand in made if not operand.is_of_cells]
-    cells = _read(read, edges, invalid, as_threads(threads))
+    geometries = _read(read, edges, invalid, as_threads(threads))
+    has_lines = len(geometries.lines) > 1
     first = 0
     for operand in read:
-        operand.cells, operand.first = cells, first
+        operand.cells, operand.first = geometries.polygons, first
+        operand.shared = geometries if has_lines else None
         first += operand.num_polygons
     return made
 
@@ -227,11 +243,33 @@ def _frame_of(given: Any) -> tuple[Any, str | None]:
     return made, "WKB" if is_wkb else "geoarrow"
 
 
-def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> _core.CellRings:
+def in_words_of(given: Sequence[Operand], message: str) -> str:
+    """A message about a geometry of an operand of the library, with the argument that it is of."""
+
+    def owner(match: re.Match[str]) -> str:
+        number = int(match[1])
+        for operand in given:
+            place = number - operand.first
+            if 0 <= place < operand.num_polygons:
+                return operand.name if operand.is_single else f"{operand.name}: geometry {place}"
+        return match[0]
+
+    return re.sub(r"^geometry ([0-9]+) of the (?:first|second) operand", owner, message)
+
+
+def have_lines(*given: Operand) -> bool:
+    """Whether any argument has lines or points."""
+    return any(operand.shared is not None for operand in given)
+
+
+def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> _core.Geometries:
     if not any(operand.num_polygons for operand in read):
-        return _core.CellRings()
-    made: _core.CellRings = told_by_core(
-        read, edges, lambda given: _core.cells_of_polygons(given, edges, invalid, threads)
+        return _core.Geometries()
+    made: _core.Geometries = told_by_core(
+        read,
+        edges,
+        lambda given: _core.geometries_of(given, edges, invalid, threads),
+        with_lines=True,
     )
     return made
 
@@ -419,6 +457,32 @@ def cells_at(cells: _core.CellRings, places: IntArray, number: int) -> _core.Cel
         "whole": places[cells.whole].astype(np.int32),
     }
     return with_arrays(_core.CellRings(), arrays)
+
+
+def geometries_from(made: _core.Geometries, first: int, number: int) -> _core.Geometries:
+    """Some geometries in a row."""
+    groups = made.line_groups[first : first + number + 1]
+    rows = made.lines[groups[0] : groups[-1] + 1]
+    arrays = {
+        "line_groups": groups - groups[0],
+        "lines": rows - rows[0],
+        "line_points": made.line_points[rows[0] : rows[-1]],
+        "polygons": cells_from(made.polygons, first, number),
+    }
+    return with_arrays(_core.Geometries(), arrays)
+
+
+def geometries_at(made: _core.Geometries, places: IntArray, number: int) -> _core.Geometries:
+    """So many geometries, of which those at `places` are given, and others have no place."""
+    sizes = np.zeros(number, np.int64)
+    sizes[places] = np.diff(made.line_groups)
+    arrays = {
+        "line_groups": np.concatenate([[0], np.cumsum(sizes)]),
+        "lines": made.lines,
+        "line_points": made.line_points,
+        "polygons": cells_at(made.polygons, places, number),
+    }
+    return with_arrays(_core.Geometries(), arrays)
 
 
 def cell_set(cells: _core.CellRings, threads: int | None) -> CellSet:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Set operations and measures of polygons, with the names of shapely and GeoPandas."""
+"""Set operations and measures of geometries, with the names of shapely and GeoPandas."""
 
 from __future__ import annotations
 
@@ -10,18 +10,21 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_radius, as_threads
+from ._errors import warn_caller
 from ._geometries import Edges, Invalid
 from ._operands import (
     Operand,
     cell_set,
     cells_at,
     encoded,
+    geometries_at,
+    have_lines,
     like,
     operands,
     paired,
     rows_at,
 )
-from ._shapes import shapes_of
+from ._shapes import shapes_of, shapes_of_geometries
 from ._types import FloatArray
 
 How: TypeAlias = Literal["intersection", "union", "identity", "symmetric_difference", "difference"]
@@ -38,14 +41,15 @@ def intersection(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Computes what polygons have in common, pair by pair.
+    """Computes what geometries have in common, pair by pair.
 
     Parameters
     ----------
-    a, b : polygons
-        Each is one geometry of shapely, GeoJSON, or a box of west, south, east and north in
-        degrees; or many: a sequence or an array of geometries of any shape, a GeoSeries or
-        GeoDataFrame, arrays or tables of GeoArrow, a FeatureCollection, a `CellSet` or `Regions`.
+    a, b : geometries
+        Points, lines and polygons. Each is one geometry of shapely, GeoJSON, or a box of west,
+        south, east and north in degrees; or many: a sequence or an array of geometries of any
+        shape, a GeoSeries or GeoDataFrame, arrays or tables of GeoArrow, a FeatureCollection, a
+        `CellSet` or `Regions`.
         Shapes are broadcast as those of arrays of NumPy, so one geometry goes with each of many.
         Projected coordinates are converted to longitudes and latitudes by their `crs`.
     edges : {'lonlat', 'geodesic'}, optional
@@ -68,22 +72,26 @@ def intersection(
 
     Returns
     -------
-    shapely.Polygon, shapely.MultiPolygon, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
+    shapely.Geometry, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
         The kind of the first argument that has many geometries, or else of one geometry. Sequences
         become arrays, and GeoJSON geometries of shapely. A GeoDataFrame gets other geometries; a
         GeoSeries keeps its index; both are in EPSG:4326, or the degrees of their own body. Nothing
-        is an empty polygon, and the result of None is None, or a cell without rings. Polygons are
-        cut at the antimeridian and at the poles, valid there, and counterclockwise.
+        is an empty polygon, or an empty collection if any geometry is none of polygons; the result
+        of None is None, or a cell without rings. Lines and polygons are cut at the antimeridian and
+        at the poles, and polygons are valid there and counterclockwise. With lines or points the
+        result has all places, also those in which geometries only touch; with polygons alone it is
+        one of polygons.
 
     Raises
     ------
     ValueError
-        If a geometry is not a polygon, is not valid, or has positions that are no longitudes and
-        latitudes; the message has the argument and the number of the geometry. If shapes do not
-        fit, or the arguments are on different bodies. If edges are geodesic and a ring of the
-        result goes around more than a hemisphere, or around both poles.
+        If a geometry is not valid, has positions that are no longitudes and latitudes, or is a line
+        that jumps by more than 180 degrees of longitude; the message has the argument and the
+        number of the geometry. If shapes do not fit, or the arguments are on different bodies. If
+        edges are geodesic and a ring of the result goes around more than a hemisphere, or around
+        both poles.
     TypeError
-        If an argument has no polygons.
+        If an argument has no geometries.
 
     Warns
     -----
@@ -111,6 +119,8 @@ def intersection(
     >>> boxes = [shapely.box(0, 0, 10, 10), shapely.box(20, 0, 30, 10)]
     >>> rondel.intersection(boxes, shapely.box(5, 0, 9, 1)).tolist()[1]
     <POLYGON EMPTY>
+    >>> rondel.intersection(shapely.LineString([(170, 0), (190, 0)]), date_line)
+    <MULTILINESTRING ((179 0, 180 0), (-180 0, -175 0))>
 
     """
     return _pairwise(a, b, "intersection", edges, invalid, tolerance_deg, align, threads)
@@ -126,7 +136,7 @@ def union(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Computes what is in a polygon or in the other one, pair by pair.
+    """Computes what is in a geometry or in the other one, pair by pair.
 
     Parameters
     ----------
@@ -135,7 +145,7 @@ def union(
 
     Returns
     -------
-    shapely.Polygon, shapely.MultiPolygon, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
+    shapely.Geometry, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
         As of `intersection`. The whole sphere is the box from -180, -90 to 180, 90.
 
     Raises
@@ -164,7 +174,7 @@ def difference(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Computes what is in a polygon and not in the other one, pair by pair.
+    """Computes what is in a geometry and not in the other one, pair by pair.
 
     Parameters
     ----------
@@ -173,7 +183,7 @@ def difference(
 
     Returns
     -------
-    shapely.Polygon, shapely.MultiPolygon, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
+    shapely.Geometry, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
         As of `intersection`.
 
     Raises
@@ -203,7 +213,7 @@ def symmetric_difference(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Computes what is in one of two polygons alone, pair by pair.
+    """Computes what is in one of two geometries alone, pair by pair.
 
     Parameters
     ----------
@@ -212,7 +222,7 @@ def symmetric_difference(
 
     Returns
     -------
-    shapely.Polygon, shapely.MultiPolygon, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
+    shapely.Geometry, ndarray, GeoSeries, GeoDataFrame, GeoArrow or CellSet
         As of `intersection`.
 
     Raises
@@ -239,20 +249,21 @@ def union_all(
     tolerance_deg: float = 0.01,
     threads: int | None = None,
 ) -> Any:
-    """Computes what is in any of many polygons, without rounding in between.
+    """Computes what is in any of many geometries, without rounding in between.
 
     Parameters
     ----------
-    geometries : polygons
+    geometries : geometries
         One or many, as in `intersection`.
     edges, invalid, tolerance_deg, threads
         As in `intersection`.
 
     Returns
     -------
-    shapely.Polygon, shapely.MultiPolygon or CellSet
+    shapely.Geometry or CellSet
         A geometry of shapely, empty if there is no place; for cells a `CellSet` with one cell.
-        Missing polygons have no place.
+        Missing geometries have no place. Lines are divided where they cross, and joined where two
+        of them end, as after `shapely.line_merge`.
 
     Raises
     ------
@@ -269,6 +280,9 @@ def union_all(
 
     """
     (given,) = operands({"geometries": geometries}, edges, threads, invalid)
+    if have_lines(given):
+        united = _core.unite_geometries(given.geometries(), as_threads(threads))
+        return shapes_of_geometries(united, edges, tolerance_deg, threads, "apart")[0]
     made = _core.unite(given.rings(), as_threads(threads))
     if given.is_of_cells:
         return cell_set(made, threads)
@@ -283,11 +297,11 @@ def area(
     invalid: Invalid = "error",
     threads: int | None = None,
 ) -> Any:
-    """Computes the areas of polygons on the sphere.
+    """Computes the areas of geometries on the sphere.
 
     Parameters
     ----------
-    geometries : polygons
+    geometries : geometries
         One or many, as in `intersection`.
     radius : float, optional
         The radius of the sphere; by default 1, for steradians. With 6371.0088, the mean radius of
@@ -298,7 +312,7 @@ def area(
     Returns
     -------
     float or ndarray of float64
-        The area of each polygon; NaN if it is missing.
+        The area of each geometry, 0 for points and lines; NaN if it is missing.
 
     Raises
     ------
@@ -329,11 +343,11 @@ def length(
     invalid: Invalid = "error",
     threads: int | None = None,
 ) -> Any:
-    """Computes the lengths of the borders of polygons on the sphere.
+    """Computes the lengths of lines, and of the borders of polygons, on the sphere.
 
     Parameters
     ----------
-    geometries : polygons
+    geometries : geometries
         One or many, as in `intersection`.
     radius : float, optional
         The radius of the sphere; by default 1, for radians. With 6371.0088, the mean radius of the
@@ -344,8 +358,9 @@ def length(
     Returns
     -------
     float or ndarray of float64
-        The length of the border of each polygon, with its holes; NaN if it is missing. Where a
-        polygon is cut at the antimeridian, or led around a pole, it has no border.
+        The length of each line, or of the border of each polygon, with its holes; NaN if it is
+        missing. Where a polygon is cut at the antimeridian, or led around a pole, it has no
+        border.
 
     Raises
     ------
@@ -373,38 +388,44 @@ def overlay(
     b: Any,
     how: How = "intersection",
     *,
+    keep_geom_type: bool = True,
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
     tolerance_deg: float = 0.01,
     return_indices: bool = False,
     threads: int | None = None,
 ) -> Any:
-    """Divides two sets of polygons by each other, with the attributes of both.
+    """Divides two sets of geometries by each other, with the attributes of both.
 
     Parameters
     ----------
-    a, b : polygons
-        As in `intersection`. Polygons of one set may overlap.
+    a, b : geometries
+        As in `intersection`. Geometries of one set may overlap.
     how : {'intersection', 'union', 'identity', 'symmetric_difference', 'difference'}, optional
-        Which pieces are returned: the intersections of polygons of both sets ('intersection', by
-        default); what is in no polygon of the other set, of the first one ('difference') or of both
+        Which pieces are returned: the intersections of geometries of both sets ('intersection', by
+        default); what is in none of the other set, of the first one ('difference') or of both
         ('symmetric_difference'); intersections and what is in the first set alone ('identity'); or
         all ('union').
+    keep_geom_type : bool, optional
+        Whether to leave out the lines and points in which geometries only meet: where lines cross,
+        and where a line touches a polygon; by default True, with a warning. Pieces of two polygons
+        are polygons in any case.
     edges, invalid, tolerance_deg, threads
         As in `intersection`.
     return_indices : bool, optional
-        Whether to return the polygons of each piece as well; by default False.
+        Whether to return the geometries of each piece as well; by default False.
 
     Returns
     -------
     pieces : ndarray of shapely geometries, GeoSeries, GeoDataFrame, GeoArrow or CellSet
-        The kind of `a`, an array for one geometry, sorted by the polygon of `a` and then by that of
-        `b`; none comes last. Pieces that are no wider than rounding are left out, unless they are
-        cells. A GeoDataFrame has the columns of `a` and, but for 'difference', those of `b`, if it
-        is one, too: names that both have end in ``_1`` and ``_2``, and values are missing where a
-        piece has no polygon.
+        The kind of `a`, an array for one geometry, sorted by the geometry of `a` and then by that
+        of `b`; none comes last. Pieces that are no wider than rounding are left out, unless they
+        are cells. A GeoDataFrame has the columns of `a` and, but for 'difference', those of `b`, if
+        it is one, too: names that both have end in ``_1`` and ``_2``, and values are missing where
+        a piece has no geometry.
     first, second : ndarray of int32
-        With `return_indices`: the polygons of each piece, as positions in `a` and `b`; -1 for none.
+        With `return_indices`: the geometries of each piece, as positions in `a` and `b`; -1 for
+        none.
 
     Raises
     ------
@@ -433,20 +454,31 @@ def overlay(
 
     """
     first, second = operands({"a": a, "b": b}, edges, threads, invalid)
-    cells, rows, others, do_overlap = _core.overlay_pieces(
-        first.rings(), second.rings(), how, as_threads(threads)
-    )
     pieces: Any
-    if first.is_of_cells:
-        pieces = cell_set(cells, threads)
+    if have_lines(first, second):
+        made, rows, others, num_left_out = _core.overlay_geometry_pieces(
+            first.geometries(), second.geometries(), how, not keep_geom_type, as_threads(threads)
+        )
+        if num_left_out > 0:
+            warn_caller(
+                f"{num_left_out} lines and points in which geometries only meet were left out; "
+                "keep_geom_type=False keeps them"
+            )
+        shapes = shapes_of_geometries(made, edges, tolerance_deg, threads, "apart")
     else:
-        import shapely
-
+        cells, rows, others, do_overlap = _core.overlay_pieces(
+            first.rings(), second.rings(), how, as_threads(threads)
+        )
+        if first.is_of_cells:
+            pieces = cell_set(cells, threads)
+            return (pieces, rows, others) if return_indices else pieces
         drawing = "apart" if do_overlap else "together"
         shapes = shapes_of(cells, edges, tolerance_deg, threads, drawing)
-        is_there = ~shapely.is_empty(shapes)
-        shapes, rows, others = shapes[is_there], rows[is_there], others[is_there]
-        pieces = _with_attributes(first, second, how, shapes, rows, others)
+    import shapely
+
+    is_there = ~shapely.is_empty(shapes)
+    shapes, rows, others = shapes[is_there], rows[is_there], others[is_there]
+    pieces = _with_attributes(first, second, how, shapes, rows, others)
     return (pieces, rows, others) if return_indices else pieces
 
 
@@ -488,13 +520,20 @@ def _pairwise(
 ) -> Any:
     first, second = operands({"a": a, "b": b}, edges, threads, invalid)
     pairs = paired(first, second, align)
-    made = _core.combine_pairs(first.cells, second.cells, pairs.cells, how, as_threads(threads))
-    made = cells_at(made, pairs.rows, pairs.num_rows)
     is_second = first.is_single and not second.is_single
     leader, rows = (second, pairs.second) if is_second else (first, pairs.first)
-    if leader.is_of_cells:
-        return cell_set(made, threads)
-    shapes = shapes_of(made, edges, tolerance_deg, threads, "apart")
+    number = as_threads(threads)
+    if have_lines(first, second):
+        all_of_both = first.all_geometries(), second.all_geometries()
+        found = _core.combine_geometry_pairs(*all_of_both, pairs.cells, how, number)
+        found = geometries_at(found, pairs.rows, pairs.num_rows)
+        shapes = shapes_of_geometries(found, edges, tolerance_deg, threads, "apart")
+    else:
+        made = _core.combine_pairs(first.cells, second.cells, pairs.cells, how, number)
+        made = cells_at(made, pairs.rows, pairs.num_rows)
+        if leader.is_of_cells:
+            return cell_set(made, threads)
+        shapes = shapes_of(made, edges, tolerance_deg, threads, "apart")
     shapes[np.setdiff1d(np.arange(pairs.num_rows), pairs.rows)] = None
     if leader.source is None:
         return shapes.reshape(pairs.shape)[()]
@@ -518,5 +557,7 @@ def _measured(
 ) -> float | FloatArray:
     (given,) = operands({"geometries": geometries}, edges, threads, invalid)
     values: FloatArray = getattr(given.rings(), measure)() * unit
+    if measure == "lengths" and have_lines(given):
+        values = values + given.geometries().line_lengths() * unit
     values[given.is_missing] = np.nan
     return values.reshape(given.shape)[()]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""How polygons lie to each other, with the names of shapely."""
+"""How geometries lie to each other, with the names of shapely."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._geometries import Edges, Invalid
-from ._operands import operands, paired
+from ._operands import have_lines, in_words_of, operands, paired
 
 
 def relate(
@@ -24,7 +24,7 @@ def relate(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Computes how polygons lie to each other, pair by pair: the exact DE-9IM on the sphere.
+    """Computes how geometries lie to each other, pair by pair: the exact DE-9IM on the sphere.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def relate(
     str, ndarray of str or pandas.Series
         The matrix of the dimensionally extended nine-intersection model in one row, "212101212":
         the dimensions of what the interior, the boundary and the exterior of `a` have in common
-        with those of `b`, 'F' for nothing. None if a polygon is missing. It is a Series with the
+        with those of `b`, 'F' for nothing. None if a geometry is missing. It is a Series with the
         common index if two GeoSeries or GeoDataFrames are paired by their indices.
 
     Raises
@@ -46,14 +46,16 @@ def relate(
 
     See Also
     --------
-    relate_pattern, intersects, contains, within, covers, covered_by, touches, overlaps, equals
+    relate_pattern, intersects, contains, within, covers, covered_by, touches, crosses, overlaps,
+    equals
 
     Notes
     -----
     Nothing is rounded: the relation is that of the arcs between the corners as doubles
     (docs/theory/arrangements.md, "Relations"). Positions of both arguments are read together, so
-    sides that are the same in longitude and latitude have the same corners. For the model see
-    Clementini, Di Felice and van Oosterom (1993).
+    sides that are the same in longitude and latitude have the same corners, and a point on a side
+    is on it. A geometry consists of points, lines or polygons, and not of several of these. For the
+    model see Clementini, Di Felice and van Oosterom (1993).
 
     Examples
     --------
@@ -78,7 +80,7 @@ def relate_pattern(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Finds out whether the relations of polygons fit to a pattern, pair by pair.
+    """Finds out whether the relations of geometries fit to a pattern, pair by pair.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def intersects(
     align: bool = True,
     threads: int | None = None,
 ) -> Any:
-    """Finds out whether polygons have a place in common, pair by pair.
+    """Finds out whether geometries have a place in common, pair by pair.
 
     Parameters
     ----------
@@ -130,7 +132,7 @@ def intersects(
     Returns
     -------
     bool, ndarray of bool or pandas.Series
-        One answer for each pair, False if a polygon is missing. It is a Series with the common
+        One answer for each pair, False if a geometry is missing. It is a Series with the common
         index if two GeoSeries or GeoDataFrames are paired by their indices.
 
     Raises
@@ -140,7 +142,8 @@ def intersects(
 
     Notes
     -----
-    The answer is exact, as of `relate`. Places of the border belong to a polygon.
+    The answer is exact, as of `relate`. Places of the border belong to a polygon, and its ends to a
+    line.
 
     Examples
     --------
@@ -195,7 +198,7 @@ def _predicate(name: str, what: str, example: str) -> Any:
 
 disjoint = _predicate(
     "disjoint",
-    "polygons have no place in common",
+    "geometries have no place in common",
     "rondel.disjoint(shapely.box(0, 0, 1, 1), shapely.box(2, 0, 3, 1))",
 )
 contains = _predicate(
@@ -206,31 +209,36 @@ contains = _predicate(
 within = _predicate(
     "within",
     "all of `a` is in `b`, and their interiors meet",
-    "rondel.within(shapely.box(170, 70, 190, 80), shapely.box(-180, 60, 180, 90))",
+    "rondel.within(shapely.Point(175, 70), shapely.box(-180, 60, 180, 90))",
 )
 covers = _predicate(
     "covers",
-    "all of `b` is in `a`, which for polygons is the same as `contains`",
-    "rondel.covers(shapely.box(0, 0, 2, 2), shapely.box(0, 0, 1, 1))",
+    "all of `b` is in `a` or on its border; for polygons the same as `contains`",
+    "rondel.covers(shapely.box(0, 0, 2, 2), shapely.Point(2, 1))",
 )
 covered_by = _predicate(
     "covered_by",
-    "all of `a` is in `b`, which for polygons is the same as `within`",
-    "rondel.covered_by(shapely.box(0, 0, 1, 1), shapely.box(0, 0, 2, 2))",
+    "all of `a` is in `b` or on its border; for polygons the same as `within`",
+    "rondel.covered_by(shapely.Point(2, 1), shapely.box(0, 0, 2, 2))",
 )
 touches = _predicate(
     "touches",
-    "polygons have only places of their borders in common",
+    "geometries meet, but not their interiors",
     "rondel.touches(shapely.box(0, 0, 1, 1), shapely.box(1, 0, 2, 1))",
 )
 overlaps = _predicate(
     "overlaps",
-    "polygons share a part of their interiors, and each has one of its own",
+    "geometries of one kind share a part of their interiors, and each has one of its own",
     "rondel.overlaps(shapely.box(0, 0, 2, 1), shapely.box(1, 0, 3, 1))",
+)
+crosses = _predicate(
+    "crosses",
+    "two lines cross, or a line or points are in part inside and in part outside",
+    "rondel.crosses(shapely.LineString([(-5, 1), (5, 1)]), shapely.box(0, 0, 9, 9))",
 )
 equals = _predicate(
     "equals",
-    "polygons have the same places, or both are empty",
+    "geometries have the same places, or both are empty",
     "rondel.equals(shapely.box(170, 0, 190, 1), shapely.box(-190, 0, -170, 1))",
 )
 
@@ -253,10 +261,16 @@ def _asked(
     question: Callable[[_core.RelationsOfPairs], Any],
     unknown: str | bool | None,
 ) -> Any:
-    """The answers to a question about each pair; `unknown` if a polygon is missing."""
+    """The answers to a question about each pair; `unknown` if a geometry is missing."""
     first, second = operands({"a": a, "b": b}, edges, threads, invalid)
     pairs = paired(first, second, align)
-    found = _core.relations(first.cells, second.cells, pairs.cells, as_threads(threads))
+    both: tuple[Any, Any] = (first.cells, second.cells)
+    if have_lines(first, second):
+        both = (first.all_geometries(), second.all_geometries())
+    try:
+        found = _core.relations(*both, pairs.cells, as_threads(threads))
+    except ValueError as error:
+        raise ValueError(in_words_of((first, second), str(error))) from None
     answers = np.full(pairs.num_rows, unknown, object if unknown is None else bool)
     answers[pairs.rows] = question(found)
     if pairs.index is None:

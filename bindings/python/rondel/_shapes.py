@@ -43,6 +43,55 @@ def shapes_of(
     return shapes
 
 
+def shapes_of_geometries(
+    geometries: _core.Geometries,
+    edges: Edges,
+    tolerance_deg: float,
+    threads: int | None,
+    drawing: str,
+) -> np.ndarray[Any, Any]:
+    """Points, lines, polygons and collections of shapely; those without a place are empty."""
+    import shapely
+
+    cells = geometries.polygons
+    shapes = shapes_of(cells, edges, tolerance_deg, threads, drawing)
+    tolerance = 180.0 if is_geodesic(edges) else float(tolerance_deg)
+    positions, offsets, owners = geometries.drawn_lines(tolerance, as_threads(threads))
+    positions, sizes = _rounded(positions), np.diff(offsets)
+    is_line = sizes > 1
+    of_line = np.repeat(is_line, sizes)
+    parts = np.empty(len(sizes), object)
+    numbers = np.repeat(np.arange(np.count_nonzero(is_line)), sizes[is_line])
+    parts[is_line] = shapely.linestrings(positions[of_line], indices=numbers)
+    parts[~is_line] = shapely.points(positions[~of_line])
+    ends = np.searchsorted(owners, np.arange(len(shapes) + 1))
+    for k in np.unique(owners):
+        own = [*parts[ends[k] : ends[k + 1]], *shapely.get_parts(shapes[k])]
+        shapes[k] = _collected([part for part in own if not part.is_empty])
+    is_empty = shapely.is_empty(shapes)
+    shapes[is_empty] = shapely.GeometryCollection()
+    return shapes
+
+
+def _collected(parts: list[Any]) -> Any:
+    """One geometry of parts, a collection if they are of several kinds."""
+    import shapely
+
+    if len(parts) == 1:
+        return parts[0]
+    kinds = {
+        "Point": shapely.multipoints,
+        "LineString": shapely.multilinestrings,
+        "Polygon": shapely.multipolygons,
+    }
+    made = []
+    for kind, collect in kinds.items():
+        some = [part for part in parts if part.geom_type == kind]
+        if some:
+            made.append(some[0] if len(some) == 1 else collect(some))
+    return made[0] if len(made) == 1 else shapely.geometrycollections(made)
+
+
 def _shapes_at(positions: Any, rings: Any, drawn: Any, number: int) -> np.ndarray[Any, Any]:
     import shapely
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simplification of polygons, with the name of shapely."""
+"""Simplification of lines and polygons, with the name of shapely."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from . import _core
 from ._arrays import as_radius, as_threads
 from ._geometries import Edges, Invalid, require_rules
 from ._operands import cell_set, like, operand_of, told_by_core
-from ._shapes import shapes_of
+from ._shapes import shapes_of, shapes_of_geometries
 
 DRAWN_SHARE = 1 / 16  # of the tolerance, for lines that follow arcs
 
@@ -29,12 +29,12 @@ def simplify(
     invalid: Invalid = "error",
     threads: int | None = None,
 ) -> Any:
-    """Removes corners of polygons on the sphere as far as a distance allows, all together.
+    """Removes corners of lines and polygons on the sphere as far as a distance allows.
 
     Parameters
     ----------
-    geometries : polygons
-        One or many, as in `intersection`.
+    geometries : geometries
+        One or many, as in `intersection`. All are simplified together.
     tolerance : float
         How far lines may be from those that they replace, along great circles, in the unit of
         `radius`.
@@ -67,9 +67,10 @@ def simplify(
     Notes
     -----
     A border that two polygons share is simplified once and stays common to them, so that no gaps
-    and no overlaps appear. Topology is decided by exact predicates, and distances with bounds of
-    their errors (docs/theory/simplification.md). Straight lines in longitude and latitude become
-    arcs before, and the lines of the result follow arcs; both take a sixteenth of the tolerance.
+    and no overlaps appear. Points and the ends of lines stay. Topology is decided by exact
+    predicates, and distances with bounds of their errors (docs/theory/simplification.md). Straight
+    lines in longitude and latitude become arcs before, and the lines of the result follow arcs;
+    both take a sixteenth of the tolerance.
     A `CellSet` has its own corners, bit by bit.
 
     Examples
@@ -94,17 +95,19 @@ def simplify(
     if given.num_polygons:
         share = allowed * (1 - 2 * DRAWN_SHARE)
 
-        def call(geometries: Any) -> Any:
-            made, remarks, do_overlap = _core.simplified_in(
-                geometries, share, drop_small, keeps, drawn_deg, edges, invalid, number
+        def call(shapes: Any) -> Any:
+            found, remarks, do_overlap = _core.simplified_in(
+                shapes, share, drop_small, keeps, drawn_deg, edges, invalid, number
             )
-            return (made, do_overlap), remarks
+            return (found, do_overlap), remarks
 
-        made, do_overlap = told_by_core([given], edges, call)
+        made, do_overlap = told_by_core([given], edges, call, with_lines=True)
     else:
-        made, do_overlap = _core.CellRings(), False
+        made, do_overlap = _core.Geometries(), False
     drawing = "apart" if do_overlap else "together"
-    shapes = shapes_of(made, edges, min(drawn_deg, 0.01), threads, drawing)
+    drawn = shapes_of_geometries if len(made.lines) > 1 else shapes_of
+    of_kind = made if len(made.lines) > 1 else made.polygons
+    shapes = drawn(of_kind, edges, min(drawn_deg, 0.01), threads, drawing)
     shapes[given.is_missing] = None
     if given.source is None:
         return shapes.reshape(given.shape)[()]

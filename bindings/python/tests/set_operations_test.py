@@ -310,7 +310,17 @@ ERRORS = [
     (lambda: rondel.union([A, TIE], A), ValueError, "^a: geometry 1: ring 0 of part 0 crosses"),
     (lambda: rondel.union([A, A], [A, TIE]), ValueError, "^b: geometry 1: ring 0 of part 0 cross"),
     (lambda: rondel.area([TIE]), ValueError, "^geometries: geometry 0: ring 0 of part 0 crosses"),
-    (lambda: rondel.union(A, shapely.Point(0, 0)), ValueError, '^b: type "Point" where a Polygon'),
+    (lambda: rondel.union(A, shapely.Point(0, 91)), ValueError, "^b: latitude 91 is outside"),
+    (
+        lambda: rondel.union(A, [None, shapely.LineString([(170, 0), (-170, 0)])]),
+        ValueError,
+        "^b: geometry 1: its line from 170 0 to -170 0 spans more than 180 degrees",
+    ),
+    (
+        lambda: rondel.relate(A, [A, shapely.GeometryCollection([A, shapely.Point(0, 0)])]),
+        ValueError,
+        "^b: geometry 1 has parts of several dimensions",
+    ),
     (lambda: rondel.union(A, [A, NAN]), ValueError, "^b: geometry 1 has a position that is not f"),
     (lambda: rondel.area(shapely.box(0, 0, 1, 91)), ValueError, r"latitude 91 is outside \[-90"),
     (lambda: rondel.union([A, A, A], [A, A]), ValueError, r"shapes of a and b do not fit: \(3,\)"),
