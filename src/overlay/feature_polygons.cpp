@@ -26,6 +26,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "rondel/relate.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
@@ -116,9 +117,9 @@ class FeatureCells {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
     CellRings cells = is_geodesic ? all_geodesic_cells() : plane_cells();
     look_for_vanished(cells);
-    if (options_.overlap == PolygonOverlap::keep && !is_geodesic) {
-      require_parts_apart(cells);
-      return cells;
+    if (options_.overlap == PolygonOverlap::keep) {
+      if (!is_geodesic) require_parts_apart(cells);
+      if (!is_geodesic || are_exactly_valid(cells)) return cells;
     }
     std::vector<Index> all(cells.num_cells());
     std::iota(all.begin(), all.end(), Index{0});
@@ -247,6 +248,16 @@ class FeatureCells {
              "the polygon crosses or overlaps itself at " + text_of_place(pair.place));
     }
     return overlaps;
+  }
+
+  // True if no cell crosses or overlaps itself, not even by rounding.
+  [[nodiscard]] bool are_exactly_valid(const CellRings& cells) const {
+    try {
+      (void)relate_pairs(cells, cells, {}, quiet());
+      return true;
+    } catch (const InvalidInput&) {
+      return false;
+    }
   }
 
   // True if places of a feature are more than 360 degrees apart.
