@@ -33,10 +33,10 @@ struct Geometries {
   [[nodiscard]] std::size_t size() const { return lines.size(); }
 };
 
-/// Reads features of one or several files, whose places are to be compared: those of .geojson or .json
-/// as read_polygons() does, with points, lines and collections of them as well, and sites of other
-/// formats (read_sites(), read_netcdf_sites()), each of which is a point. Operands of combine() and
-/// relate() are the lines and the polygons of the tables.
+/// Reads features of one or several files, whose places are to be compared: those of .geojson or
+/// .json as read_polygons() does, with points, lines and collections of them as well, and sites of
+/// other formats (read_sites(), read_netcdf_sites()), each of which is a point. Operands of
+/// combine() and relate() are the lines and the polygons of the tables.
 ///
 /// Straight lines in longitude and latitude of all files are divided into arcs together. What meets
 /// there meets on the sphere: a line along the border of a polygon stays on it, and a point on a
@@ -44,8 +44,8 @@ struct Geometries {
 /// there, or has longitudes beyond 180; one whose neighboring positions differ by more than 180
 /// degrees of longitude is refused, or goes the shorter way if options repair.
 /// \return the table of each file
-/// \throws what read_polygons() throws, for lines, too; FileError for geodesic lines that lead to the
-///         opposite place; InvalidInput if options forbid overlaps
+/// \throws what read_polygons() throws, for lines, too; FileError for geodesic lines that lead to
+///         the opposite place; InvalidInput if options forbid overlaps
 RONDEL_API std::vector<FeatureTable> read_features_together(std::span<const FileName> files,
                                                             const PolygonOptions& options = {},
                                                             const Execution& execution = {});
@@ -61,8 +61,8 @@ struct LonLatGeometries {
 
 /// Converts geometries in memory as read_features_together() does those of files.
 /// \return the table of each set
-/// \throws InvalidInput (the feature, counted over all sets) where that function throws FileError; if
-///         offsets or numbers do not fit
+/// \throws InvalidInput (the feature, counted over all sets) where that function throws FileError;
+///         if offsets or numbers do not fit
 RONDEL_API std::vector<FeatureTable> features_of_geometries(std::span<const LonLatGeometries> sets,
                                                             const PolygonOptions& options = {},
                                                             const Execution& execution = {});
@@ -148,15 +148,16 @@ struct LonLatLines {
   std::vector<Index> owners;     ///< the feature of each part, never decreasing
 };
 
-/// Computes lines within [-180, 180] x [-90, 90], cut at the antimeridian and the poles: the lines of
-/// write_geometries().
-/// \throws InvalidInput if offsets do not fit, a line has no point, or the tolerance is not positive
+/// Computes lines within [-180, 180] x [-90, 90], cut at the antimeridian and the poles: the lines
+/// of write_geometries().
+/// \throws InvalidInput if offsets do not fit, a line has no point, or the tolerance is not
+///         positive
 RONDEL_API LonLatLines lonlat_lines(const FeatureLines& lines, double tolerance_deg = 0.01,
                                     const Execution& execution = {});
 
-/// Writes geometries, one feature for each: points, lines and polygons in longitude and latitude, cut
-/// at the antimeridian and the poles, or a GeometryCollection of them. The geometry of a feature
-/// without a place is null; GDAL's formats leave out such a feature. Properties are `area`
+/// Writes geometries, one feature for each: points, lines and polygons in longitude and latitude,
+/// cut at the antimeridian and the poles, or a GeometryCollection of them. The geometry of a
+/// feature without a place is null; GDAL's formats leave out such a feature. Properties are `area`
 /// (steradians) if there are polygons, `length` (radians) if there are lines, and the columns.
 /// \param file  as for write_regions(); GDAL writes multiple geometries
 /// \param columns, ids  as for write_regions(), one value for each geometry

@@ -121,8 +121,8 @@ enum class CellDrawing : std::uint8_t {
 /// Returns the name of a value: "together", "apart"; empty for other numbers.
 RONDEL_API std::string_view name_of(CellDrawing drawing) noexcept;
 
-/// Returns how cells are to be drawn: apart if they overlap by more than rounding, so that none loses a
-/// part. \throws InvalidInput as overlapping_cells()
+/// Returns how cells are to be drawn: apart if they overlap by more than rounding, so that none
+/// loses a part. \throws InvalidInput as overlapping_cells()
 RONDEL_API CellDrawing drawing_of(const CellRings& cells, const Execution& execution = {});
 
 /// Cells as polygons with holes in longitude and latitude: the polygons of write_regions().

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// How points, lines and polygons lie to each other: the DE-9IM relation of geometries whose sides are
-/// arcs of great circles, its named predicates, and spatial joins (target rondel::geo). All of it is
-/// exact.
+/// How points, lines and polygons lie to each other: the DE-9IM relation of geometries whose sides
+/// are arcs of great circles, its named predicates, and spatial joins (target rondel::geo). All of
+/// it is exact.
 #pragma once
 
 #include <array>
@@ -78,9 +78,9 @@ struct Relation {
 /// O(min(n, m) log(n + m)), and as many steps as sides meet.
 /// \param first, second  the polygons of A and of B; corners as arrange() wants them
 ///        (rondel/arrangement.h)
-/// \throws InvalidInput if offsets do not fit, or the numbers of polygons; (the position of the side
-///         among the corners) if a side leads to the opposite point, up to 2^-45; (the position) if
-///         a point is no unit vector; (the index) if a polygon is not valid
+/// \throws InvalidInput if offsets do not fit, or the numbers of polygons; (the position of the
+///         side among the corners) if a side leads to the opposite point, up to 2^-45; (the
+///         position) if a point is no unit vector; (the index) if a polygon is not valid
 RONDEL_API std::vector<Relation> relate(const CellRings& first, const CellRings& second,
                                         const Execution& execution = {});
 
@@ -99,8 +99,8 @@ struct RelatedPair {
   friend bool operator==(const RelatedPair&, const RelatedPair&) = default;
 };
 
-/// Finds all pairs of a polygon of A and a polygon of B for which the answer to a question is yes: a
-/// spatial join. Relations are those of relate(). An empty polygon is in no pair.
+/// Finds all pairs of a polygon of A and a polygon of B for which the answer to a question is yes:
+/// a spatial join. Relations are those of relate(). An empty polygon is in no pair.
 ///
 /// Pairs are looked at whose boxes in space overlap, with their interiors; a tree finds them.
 /// \param first, second  as for relate(), with any numbers of polygons. Polygons of one operand may
@@ -129,8 +129,8 @@ RONDEL_API std::vector<Relation> relate_pairs(const Geometries& first, const Geo
                                               std::span<const std::array<Index, 2>> pairs,
                                               const Execution& execution = {});
 
-/// Finds pairs of geometries, as related_pairs() does those of polygons; such as the polygon in which
-/// each point is.
+/// Finds pairs of geometries, as related_pairs() does those of polygons; such as the polygon in
+/// which each point is.
 /// \throws InvalidInput as relate() of geometries; if the predicate is `disjoint`
 RONDEL_API std::vector<RelatedPair> related_pairs(
     const Geometries& first, const Geometries& second,

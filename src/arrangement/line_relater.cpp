@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Between the places where they meet sides of the other geometry, arcs run inside of it, outside, or
-// along its sides. Which of these occur is seen at the nodes where they meet, and where arcs cross
-// without a node both occur. Arcs that meet nothing are inside or outside as their nodes are.
+// Between the places where they meet sides of the other geometry, arcs run inside of it, outside,
+// or along its sides. Which of these occur is seen at the nodes where they meet, and where arcs
+// cross without a node both occur. Arcs that meet nothing are inside or outside as their nodes are.
 #include "arrangement/line_relater.h"
 
 #include <algorithm>

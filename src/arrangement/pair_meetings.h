@@ -51,8 +51,8 @@ class PairMeetings {
   // Returns the components of a part that have incidences, sorted.
   [[nodiscard]] std::span<const Index> met_components(std::size_t k);
 
-  // Calls visit(node, directions) for each node, with the directions of the sides of both parts from
-  // it.
+  // Calls visit(node, directions) for each node, with the directions of the sides of both parts
+  // from it.
   template <class Visit>
   void visit_nodes(const Visit& visit) {
     for (std::size_t begin = 0; begin < incidences_.size();) {

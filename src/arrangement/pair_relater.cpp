@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Sides of two polygons that do not cross run inside, outside or along each other between the nodes
-// where they meet. Which of these occur gives the matrix. At a node the directions of the sides show
-// it; components that meet no side of the other polygon are inside or outside as one of their nodes
-// is.
+// where they meet. Which of these occur gives the matrix. At a node the directions of the sides
+// show it; components that meet no side of the other polygon are inside or outside as one of their
+// nodes is.
 #include "arrangement/pair_relater.h"
 
 #include <algorithm>

@@ -22,8 +22,8 @@ class PreparedLines : public PreparedSides {
  public:
   // Makes no lines.
   PreparedLines() = default;
-  // `points` has the places of the nodes, and stays valid; `numbers` has the node of each point of the
-  // lines.
+  // `points` has the places of the nodes, and stays valid; `numbers` has the node of each point of
+  // the lines.
   PreparedLines(const FeatureLines& lines, std::size_t feature, std::span<const Point> points,
                 std::span<const Index> numbers);
 

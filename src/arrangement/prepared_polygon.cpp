@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which places a polygon has is found along a path (directions.h) to one of its nodes: the sector in
-// which the path ends is known from the sides there, and each side that is crossed changes it.
+// Which places a polygon has is found along a path (directions.h) to one of its nodes: the sector
+// in which the path ends is known from the sides there, and each side that is crossed changes it.
 #include "arrangement/prepared_polygon.h"
 
 #include <algorithm>

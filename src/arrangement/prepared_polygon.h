@@ -20,8 +20,8 @@
 
 namespace rondel::arrangement {
 
-// Returns the last direction before that to a target, counterclockwise around a node; a direction to
-// the target is before it if `is_along_before`. There must be one.
+// Returns the last direction before that to a target, counterclockwise around a node; a direction
+// to the target is before it if `is_along_before`. There must be one.
 const SideDirection& direction_before(std::span<const Point> points, Index node,
                                       const Point& target,
                                       std::span<const SideDirection> directions,

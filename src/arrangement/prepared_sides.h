@@ -61,8 +61,8 @@ class PreparedSides {
   explicit PreparedSides(std::span<const Point> points) : points_(points) {}
 
   void make_boxes();
-  // Divides sides at nodes in their inside. Returns whether sides cross; with `are_apart` nothing is
-  // divided then.
+  // Divides sides at nodes in their inside. Returns whether sides cross; with `are_apart` nothing
+  // is divided then.
   bool divide_sides(bool are_apart);
   // Leaves the sides with these numbers, which are sorted.
   void keep_sides(std::span<const Index> kept);

@@ -44,8 +44,8 @@ std::string_view name_of(SpatialPredicate predicate) noexcept {
   return {};
 }
 
-// A geometry has the dimension of what its interior has in common with the interior, the boundary and
-// the exterior of another one; these cover the sphere.
+// A geometry has the dimension of what its interior has in common with the interior, the boundary
+// and the exterior of another one; these cover the sphere.
 bool Relation::is(SpatialPredicate predicate) const {
   const auto dimension = [](char a, char b, char c) {
     int highest = -1;

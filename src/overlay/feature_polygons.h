@@ -61,9 +61,9 @@ std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 // Inserts corners into sides of rings: those of other features and of lines that lie on the side up
 // to rounding, and those of the same feature that lie there after a shift by 360 degrees. Inserts
 // all corners into lines. Sides are then straight only up to rounding, and neighbors have the same
-// corners. Positions that are equal but for the rounding of a turn of the globe become equal before.
-// A ring that is so thin that it may run to and fro after that keeps its former positions in
-// `thin_positions`.
+// corners. Positions that are equal but for the rounding of a turn of the globe become equal
+// before. A ring that is so thin that it may run to and fro after that keeps its former positions
+// in `thin_positions`.
 void share_corners(map::PolygonFeatures& features, unsigned threads);
 
 // --- lines of features; a side of more than 180 degrees of longitude goes the shorter way around
@@ -120,8 +120,8 @@ class FeatureFault : public FileError {
 //    polygon, for parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
 
-// Returns the corners of a ring, oriented with the inside of its polygon to the left, so that a shell
-// is around its smaller side.
+// Returns the corners of a ring, oriented with the inside of its polygon to the left, so that a
+// shell is around its smaller side.
 std::vector<Point> geodesic_ring(const map::LonLatRing& ring);
 
 // Throws FileError if a hole of the feature is outside of its polygon or in another hole.

@@ -7,12 +7,12 @@
 // out   one cell for a feature: the union of its polygons, each read by the even-odd rule
 // index the sides of a feature: those of all of its rings, one ring after the other
 //
-// Sides that are straight in longitude and latitude become arcs as those of valid polygons do, and the
-// arrangement of these arcs has the crossings. Sides of more than 180 degrees of longitude go the
-// shorter way around the globe. A pole says what is inside: no side is beyond it, so
-// that it is outside, unless sides lead along it or an odd number of rings goes around it. The outside of
-// geodesic rings is opposite to their middle; where they are in no hemisphere, a ring is around its
-// smaller side.
+// Sides that are straight in longitude and latitude become arcs as those of valid polygons do, and
+// the arrangement of these arcs has the crossings. Sides of more than 180 degrees of longitude go
+// the shorter way around the globe. A pole says what is inside: no side is beyond it, so
+// that it is outside, unless sides lead along it or an odd number of rings goes around it. The
+// outside of geodesic rings is opposite to their middle; where they are in no hemisphere, a ring is
+// around its smaller side.
 #pragma once
 
 #include <cstddef>
@@ -36,8 +36,8 @@ bool goes_shorter_way(const map::LonLatRing& ring);
 std::vector<PlaneSide> given_sides(std::span<const map::LonLatRing> rings);
 
 // Returns the cell of a feature. `corners` has a row for each of the given sides: the arcs between
-// its ends, with unit vectors to the first one and those between. Throws InvalidInput if the ends of
-// an arc are opposite to each other.
+// its ends, with unit vectors to the first one and those between. Throws InvalidInput if the ends
+// of an arc are opposite to each other.
 CellRings repaired_plane_feature(std::span<const map::LonLatRing> rings,
                                  std::span<const std::span<const LonLat>> corners,
                                  const Execution& execution);

@@ -171,8 +171,8 @@ bool meets(const Arc& step, const Arc& side) {
          sgn(dot(step.normal, side.from)) * sgn(dot(step.normal, side.to)) <= 0;
 }
 
-// Returns a place to the left of an arc with this normal, so near to a place on it that nothing else
-// is between them.
+// Returns a place to the left of an arc with this normal, so near to a place on it that nothing
+// else is between them.
 Ray beside(const Ray& place, const Ray& normal, const std::vector<Arc>& sides) {
   Integer factor = 4;
   factor <<= std::max(size(place), size(normal)) - size(place);

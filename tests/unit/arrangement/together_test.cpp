@@ -206,8 +206,8 @@ void visit_borders(const std::function<void(const Ring&)>& visit) {
   }
 }
 
-// Returns the borders as lines, without those along a pole: forwards and backwards, a turn away, and
-// side by side.
+// Returns the borders as lines, without those along a pole: forwards and backwards, a turn away,
+// and side by side.
 std::vector<Line> borders(int variant) {
   std::vector<Line> lines;
   visit_borders([&](const Ring& ring) {
