@@ -111,11 +111,11 @@ void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
                              &Duplicate::site);
 }
 
-}  // namespace
-
-Triangulation build(Sites all_sites, const system::Job& options, const hidden::InnerPoint* inner) {
-  const std::span<const Point> sites = all_sites.points();
-  BuildReport report;
+// Builds; the parts have the order only if it is kept.
+Parts parts_of(std::span<const Point> sites, const system::Job& options,
+               const hidden::InnerPoint* inner, bool keeps_order) {
+  Parts parts;
+  BuildReport& report = parts.report;
   report.threads = system::num_threads(options.threads);
   const auto start = Clock::now();
   system::announce(options, "order", 0);
@@ -129,6 +129,7 @@ Triangulation build(Sites all_sites, const system::Job& options, const hidden::I
   report.order_seconds = seconds_since(start);
 
   const auto order_end = Clock::now();
+  if (keeps_order) parts.order = order.order;
   auto built = bulk::triangulate(inserted, std::move(order.order), order.renamed, options,
                                  std::move(copies));
   built.arrays.num_sites = sites.size();
@@ -139,7 +140,20 @@ Triangulation build(Sites all_sites, const system::Job& options, const hidden::I
   report.triangulate_seconds = seconds_since(order_end);
   report.rungs = built.tally;
   report.builder = built.arrays.dimension < 2 ? Builder::ring : built.builder;
-  return make_triangulation(std::move(all_sites), std::move(built.arrays), options, report);
+  parts.arrays = std::move(built.arrays);
+  parts.renamed = std::move(order.renamed);
+  return parts;
+}
+
+}  // namespace
+
+Triangulation build(Sites all_sites, const system::Job& options, const hidden::InnerPoint* inner) {
+  Parts parts = parts_of(all_sites.points(), options, inner, false);
+  return make_triangulation(std::move(all_sites), std::move(parts.arrays), options, parts.report);
+}
+
+Parts build_parts(std::span<const Point> sites, const system::Job& options) {
+  return parts_of(sites, options, nullptr, true);
 }
 
 std::span<const Point> as_points(std::span<const double> xyz) {

@@ -46,7 +46,10 @@ struct FaceEdge {
 class ConstrainedCheck {
  public:
   ConstrainedCheck(const Triangulation& delaunay, std::span<const Triple> triangles)
-      : delaunay_(delaunay), sites_(delaunay), sphere_(delaunay.sphere()), triangles_(triangles) {}
+      : delaunay_(delaunay),
+        sites_(delaunay.sites().points(), delaunay.duplicates()),
+        sphere_(delaunay.sphere()),
+        triangles_(triangles) {}
 
   // Returns what is wrong, in one line, or nothing.
   std::string find_flaw(std::span<const std::array<Index, 2>> constraints) {

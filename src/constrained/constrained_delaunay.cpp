@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "api/build.h"
 #include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "constrained/constrained_faces.h"
@@ -20,7 +21,6 @@
 #include "constrained/split_constraints.h"
 #include "exact/vector.h"
 #include "rondel/constrained.h"
-#include "rondel/delaunay.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
@@ -128,41 +128,42 @@ void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<I
 }
 
 // Returns a triangulation of faces that are not all Delaunay: what relies on that proves it first.
-Triangulation with_faces(const Triangulation& before, TriangulationArrays arrays) {
-  arrays.num_sites = before.num_sites();
-  arrays.dimension = 2;
-  arrays.duplicates.assign(before.duplicates().begin(), before.duplicates().end());
-  const Options options = {before.model(), before.sphere()};
-  const auto impl = std::make_shared<Triangulation::Impl>(before.sites(), std::move(arrays),
-                                                          options, before.report());
+Triangulation with_faces(const Sites& sites, api::Parts& built, const system::Job& job) {
+  const auto impl =
+      std::make_shared<Triangulation::Impl>(sites, std::move(built.arrays), job, built.report);
   impl->proof = &api::prove_delaunay;
   return Triangulation(impl);
 }
 
-ConstrainedTriangulation constrain(const Triangulation& before, std::span<const Ends> constraints,
+ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> constraints,
                                    const CompressedRows<Index>* sources, const system::Job& job) {
-  const NamedSites sites(before);
+  api::Parts built = api::build_parts(sites.points(), job);
+  // Whoever gives crossings to be split has proved this before.
+  if (sources == nullptr) require_arcs(sites.points(), constraints, job.sphere);
+  const NamedSites named(sites.points(), built.arrays.duplicates);
   std::vector<Ends> ends;
   ends.reserve(constraints.size());
-  for (const auto& [a, b] : constraints) ends.push_back({sites.name(a), sites.name(b)});
+  for (const auto& [a, b] : constraints) ends.push_back({named.name(a), named.name(b)});
   ConstrainedTriangulation result;
-  result.triangulation = before;
-  if (before.dimension() < 2) {
-    std::vector<ConstrainedPiece> pieces = pieces_on_ring(before, sites, ends);
+  const bool has_edges = built.arrays.dimension == 2 && !ends.empty();
+  if (has_edges) {
+    ConstrainedFaces faces(sites.points(), built, job.sphere, job.threads);
+    list_edges(insert_all(faces, named, ends, job), sources, result);
+    if (faces.has_changes()) {
+      write_in_order(faces, job.threads, built.arrays, result.sides);
+      result.triangulation = with_faces(sites, built, job);
+      system::announce(job, "constrain", 1);
+      return result;
+    }
+    result.sides = faces.sides();
+    faces.give_back(built.arrays);
+  }
+  result.triangulation = api::make_triangulation(sites, std::move(built.arrays), job, built.report);
+  if (!has_edges) {
+    result.sides.resize(result.triangulation.num_faces());
+    std::vector<ConstrainedPiece> pieces = pieces_on_ring(result.triangulation, named, ends);
     std::ranges::sort(pieces);
     list_edges(pieces, sources, result);
-  } else if (ends.empty()) {
-    result.sides.resize(before.num_faces());
-  } else {
-    ConstrainedFaces faces(before, sites, job.threads);
-    list_edges(insert_all(faces, sites, ends, job), sources, result);
-    if (faces.has_changes()) {
-      TriangulationArrays arrays;
-      write_in_order(faces, before, job.threads, arrays, result.sides);
-      result.triangulation = with_faces(before, std::move(arrays));
-    } else {
-      result.sides = faces.sides();
-    }
   }
   system::announce(job, "constrain", 1);
   return result;
@@ -186,9 +187,8 @@ ConstrainedTriangulation constrained_delaunay(Sites sites,
   const system::Job job = {{Model::projected, options.sphere}, execution};
   const bool has_split = options.crossings == ConstraintCrossings::split && !constraints.empty();
   if (!has_split) {
-    const Triangulation before = delaunay(std::move(sites), job, execution);
-    constrained::require_arcs(before.sites().points(), constraints, options.sphere);
-    return constrained::constrain(before, constraints, nullptr, job);
+    api::validate(job, sites.size());
+    return constrained::constrain(sites, constraints, nullptr, job);
   }
   if (!(options.sphere.center == Point{})) {
     throw InvalidInput("crossings of constraints are split around the origin only");
@@ -196,8 +196,8 @@ ConstrainedTriangulation constrained_delaunay(Sites sites,
   api::validate_some(sites.points(), job, 0);
   constrained::require_arcs(sites.points(), constraints, options.sphere);
   const auto split = constrained::split_constraints(sites, constraints, execution);
-  const Triangulation before = delaunay(split.sites, job, execution);
-  return constrained::constrain(before, split.ends, &split.sources, job);
+  api::validate(job, split.sites.size());
+  return constrained::constrain(split.sites, split.ends, &split.sources, job);
 }
 
 }  // namespace rondel

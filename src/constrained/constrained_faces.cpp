@@ -4,11 +4,16 @@
 #include "constrained/constrained_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "constrained/constrained_order.h"
+#include "order/renamed.h"
+#include "predicates/orientation.h"
+#include "predicates/side_of_circle.h"
 #include "rondel/predicates.h"
+#include "system/parallel.h"
 #include "system/prefetch.h"
+#include "topology/canonical_order.h"
 #include "topology/mesh.h"
 
 namespace rondel::constrained {
@@ -96,15 +101,21 @@ class ConstrainedFaces::Fan {
   bool is_clockwise_ = false;
 };
 
-ConstrainedFaces::ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites,
-                                   unsigned threads)
-    : sphere_(triangulation.sphere()),
-      sides_(triangulation.num_faces()),
-      states_(triangulation.num_faces()) {
-  faces_.assign(triangulation.faces().begin(), triangulation.faces().end());
-  neighbors_.assign(triangulation.neighbors().begin(), triangulation.neighbors().end());
-  for (const Index f : triangulation.ghost_faces()) states_[f] = ghost;
-  number_vertices(sites, names_in_order(triangulation, sites, threads));
+ConstrainedFaces::ConstrainedFaces(std::span<const Point> sites, api::Parts& built,
+                                   const Sphere& sphere, unsigned threads)
+    : sphere_(sphere),
+      sites_(sites),
+      order_(std::move(built.order)),
+      names_(order_),
+      faces_(std::move(built.arrays.faces)),
+      neighbors_(std::move(built.arrays.neighbors)),
+      sides_(faces_.size()),
+      states_(faces_.size()),
+      is_touched_(order_.size()) {
+  for (const Index f : built.arrays.ghost_faces) states_[f] = ghost;
+  order::rename(names_, built.renamed);
+  number_vertices(threads);
+  rename_corners(threads, vertices_);
   face_at_.resize(names_.size());
   for (Index f = 0; f < faces_.size(); ++f) {
     if (!is_solid(f)) continue;
@@ -112,32 +123,77 @@ ConstrainedFaces::ConstrainedFaces(const Triangulation& triangulation, const Nam
   }
 }
 
-void ConstrainedFaces::number_vertices(const NamedSites& sites, std::vector<Index> names) {
-  names_ = std::move(names);
-  vertices_.resize(sites.size());
-  points_.resize(names_.size());
-  for (std::size_t v = 0; v < names_.size(); ++v) {
-    if (v + system::prefetch_distance < names_.size()) {
-      const Index ahead = names_[v + system::prefetch_distance];
-      system::prefetch_to_write(&vertices_[ahead]);
-      system::prefetch(&sites.point(ahead));
-    }
-    vertices_[names_[v]] = static_cast<Index>(v);
-    points_[v] = sites.point(names_[v]);
-  }
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (f + system::prefetch_distance < faces_.size()) {
-      for (const Index name : faces_[f + system::prefetch_distance]) {
-        system::prefetch(&vertices_[name]);
+void ConstrainedFaces::number_vertices(unsigned threads) {
+  vertices_.resize(sites_.size());
+  directions_.resize(names_.size());
+  constexpr std::size_t grain = 4096;
+  system::parallel_for(threads, names_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    std::array<Point, grain> points;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (v + system::prefetch_distance < end) {
+        system::prefetch_to_write(&vertices_[names_[v + system::prefetch_distance]]);
+        system::prefetch(&sites_[order_[v + system::prefetch_distance]]);
       }
+      vertices_[names_[v]] = static_cast<Index>(v);
+      points[v - begin] = sites_[order_[v]];
     }
-    for (Index& corner : faces_[f]) corner = vertices_[corner];
+    predicates::directions(std::span(points).first(end - begin), sphere_.center,
+                           &directions_[begin]);
+  });
+}
+
+// Replaces the corners of all faces.
+void ConstrainedFaces::rename_corners(unsigned threads, std::span<const Index> names) {
+  constexpr std::size_t grain = 16384;
+  system::parallel_for(threads, faces_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (f + system::prefetch_distance < end) {
+        for (const Index name : faces_[f + system::prefetch_distance]) {
+          system::prefetch(&names[name]);
+        }
+      }
+      for (Index& corner : faces_[f]) corner = names[corner];
+    }
+  });
+}
+
+void ConstrainedFaces::start_with_owners() {
+  for (Index f = 0; f < faces_.size(); ++f) {
+    if (!is_changed(f)) continue;
+    const unsigned first = topology::first_corner(faces_[f]);
+    const Triple face = faces_[f];
+    const Triple neighbors = neighbors_[f];
+    unsigned corner = first;
+    for (unsigned i = 0; i < 3; ++i) {
+      faces_[f][i] = face[corner];
+      neighbors_[f][i] = neighbors[corner];
+      corner = next_corner[corner];
+    }
+    const auto bits = static_cast<unsigned>(sides_[f]);
+    sides_[f] = static_cast<std::uint8_t>((bits >> first | bits << (3 - first)) & 7U);
+    is_touched_[faces_[f][0]] = 1;
   }
+}
+
+void ConstrainedFaces::give_back(TriangulationArrays& arrays) {
+  rename_corners(1, names_);
+  arrays.faces = std::move(faces_);
+  arrays.neighbors = std::move(neighbors_);
 }
 
 // On which side of the great circle from a to b a vertex is: positive on the left.
 Sign ConstrainedFaces::side(Index a, Index b, Index v) const {
+  const Sign sign = predicates::orientation_filter(directions_[a], directions_[b], directions_[v]);
+  if (sign != Sign::zero) return sign;
   return orientation(point(a), point(b), point(v), sphere_);
+}
+
+// True if a vertex is inside the circle of three others.
+bool ConstrainedFaces::is_in_circle(Index a, Index b, Index c, Index v) const {
+  const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
+                                                      directions_[c], directions_[v]);
+  if (sign != Sign::zero) return sign == Sign::positive;
+  return is_in_conflict(point(a), point(b), point(c), point(v), Model::projected, sphere_);
 }
 
 Index ConstrainedFaces::opposite(Index h) const {
@@ -243,7 +299,10 @@ void ConstrainedFaces::refill() {
   has_changes_ = true;
   std::ranges::reverse(right_.vertices);
   std::ranges::reverse(right_.edges);
-  for (const Index f : cavity_) states_[f] |= in_cavity;
+  for (const Index f : cavity_) {
+    if (!is_changed(f)) is_touched_[faces_[f][0]] = 1;
+    states_[f] |= in_cavity;
+  }
   look_outside(left_);
   look_outside(right_);
   for (const Index f : cavity_) states_[f] = changed;
@@ -276,10 +335,7 @@ Index ConstrainedFaces::apex_of(const Polygon& polygon, Index first, Index last)
   Index apex = first + 1;
   for (Index i = first + 2; i < last; ++i) {
     if (chain[i] == chain[apex]) continue;
-    if (is_in_conflict(point(chain[first]), point(chain[last]), point(chain[apex]), point(chain[i]),
-                       Model::projected, sphere_)) {
-      apex = i;
-    }
+    if (is_in_circle(chain[first], chain[last], chain[apex], chain[i])) apex = i;
   }
   return apex;
 }

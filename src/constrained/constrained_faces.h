@@ -24,17 +24,21 @@
 #include <span>
 #include <vector>
 
+#include "api/build.h"
 #include "constrained/constraints.h"
-#include "rondel/triangulation.h"
+#include "predicates/points.h"
 #include "rondel/types.h"
 #include "system/large_arrays.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::constrained {
 
 class ConstrainedFaces {
  public:
-  // Sites and triangulation must outlive the object. Dimension 2.
-  ConstrainedFaces(const Triangulation& triangulation, const NamedSites& sites, unsigned threads);
+  // Takes the faces out of the arrays of a build, which are of dimension 2. The sites must outlive
+  // the object.
+  ConstrainedFaces(std::span<const Point> sites, api::Parts& built, const Sphere& sphere,
+                   unsigned threads);
 
   // Inserts the arc between two sites, by their names, which are not opposite to each other, and
   // appends the pieces of it. If it crosses a constraint, some pieces are appended, and an edge of that
@@ -44,8 +48,15 @@ class ConstrainedFaces {
 
   [[nodiscard]] Index vertex_of(Index name) const { return vertices_[name]; }
   [[nodiscard]] Index name_of(Index vertex) const { return names_[vertex]; }
-  // The points of the vertices.
-  [[nodiscard]] std::span<const Point> points() const { return points_; }
+  [[nodiscard]] std::size_t num_vertices() const { return names_.size(); }
+
+  // Lets all faces start with their owners (topology/canonical_order.h), as those do that did not
+  // change. Then no arc may be inserted any more.
+  void start_with_owners();
+  // True if a face that changed has, or had, this owner; known when faces start with their owners.
+  [[nodiscard]] bool is_touched(Index vertex) const { return is_touched_[vertex] != 0; }
+  // Moves all faces as they are, with names as corners, to arrays.
+  void give_back(TriangulationArrays& arrays);
 
   [[nodiscard]] bool has_changes() const { return has_changes_; }
   [[nodiscard]] bool is_changed(Index face) const { return (states_[face] & changed) != 0; }
@@ -98,9 +109,11 @@ class ConstrainedFaces {
     Index halfedge;
   };
 
-  void number_vertices(const NamedSites& sites, std::vector<Index> names);
-  [[nodiscard]] const Point& point(Index v) const { return points_[v]; }
+  void number_vertices(unsigned threads);
+  void rename_corners(unsigned threads, std::span<const Index> names);
+  [[nodiscard]] const Point& point(Index v) const { return sites_[order_[v]]; }
   [[nodiscard]] Sign side(Index a, Index b, Index v) const;
+  [[nodiscard]] bool is_in_circle(Index a, Index b, Index c, Index v) const;
   [[nodiscard]] Departure departure(Index& a, Index& b) const;
   [[nodiscard]] bool is_constrained(Index h) const {
     return (static_cast<unsigned>(sides_[h / 3]) >> h % 3 & 1U) != 0;
@@ -117,14 +130,17 @@ class ConstrainedFaces {
   Index add_face(Index a, Index b, Index c);
 
   Sphere sphere_;
-  LargeVector<Index> vertices_;  // by name
+  std::span<const Point> sites_;
+  std::vector<Index> order_;  // by vertex: the site whose coordinates count
   std::vector<Index> names_;
-  LargeVector<Point> points_;
+  LargeVector<Index> vertices_;  // by name
+  LargeVector<predicates::Vector> directions_;
   LargeVector<Triple> faces_;
   LargeVector<Triple> neighbors_;
   std::vector<std::uint8_t> sides_;
   std::vector<std::uint8_t> states_;
   LargeVector<Index> face_at_;  // a solid face at each vertex
+  std::vector<std::uint8_t> is_touched_;
   bool has_changes_ = false;
 
   // The rest belongs to the arc that is inserted.

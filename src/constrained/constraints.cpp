@@ -11,6 +11,7 @@
 #include "proof/sites_by_place.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
+#include "system/prefetch.h"
 
 namespace rondel::constrained {
 namespace {
@@ -102,13 +103,13 @@ class RingArcs {
 
 }  // namespace
 
-NamedSites::NamedSites(const Triangulation& triangulation)
-    : sites_(triangulation.sites().points()) {
-  if (triangulation.duplicates().empty()) return;
+NamedSites::NamedSites(std::span<const Point> sites, std::span<const Duplicate> duplicates)
+    : sites_(sites) {
+  if (duplicates.empty()) return;
   names_.resize(sites_.size());
   for (Index i = 0; i < sites_.size(); ++i) names_[i] = i;
   speakers_ = names_;
-  for (const auto& [site, representative] : triangulation.duplicates()) {
+  for (const auto& [site, representative] : duplicates) {
     names_[site] = representative;
     Index& speaker = speakers_[representative];
     if (is_less(sites_[site], sites_[speaker])) speaker = site;
@@ -119,6 +120,11 @@ void require_arcs(std::span<const Point> sites, std::span<const std::array<Index
                   const Sphere& sphere) {
   if (constraints.size() >= no_index) throw InvalidInput("there are too many constraints");
   for (std::size_t i = 0; i < constraints.size(); ++i) {
+    if (i + system::prefetch_distance < constraints.size()) {
+      for (const Index site : constraints[i + system::prefetch_distance]) {
+        if (site < sites.size()) system::prefetch(&sites[site]);
+      }
+    }
     const auto [a, b] = constraints[i];
     const auto what = [i] { return "constraint " + text_of(i); };
     for (const Index site : constraints[i]) {

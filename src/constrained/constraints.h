@@ -35,7 +35,7 @@ inline ConstrainedPiece piece_between(Index a, Index b, Index constraint) {
 // lexicographically smallest one.
 class NamedSites {
  public:
-  explicit NamedSites(const Triangulation& triangulation);
+  NamedSites(std::span<const Point> sites, std::span<const Duplicate> duplicates);
 
   [[nodiscard]] std::size_t size() const { return sites_.size(); }
   [[nodiscard]] Index name(Index site) const { return names_.empty() ? site : names_[site]; }

@@ -21,6 +21,7 @@
 
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::predicates {
@@ -49,7 +50,7 @@ concept RaySource = PointSource<S> && requires(S& points, Index a) {
 // The unit vector from the center to p != center, off by at most `direction_error`.
 Vector direction(const Point& p, const Point& center);
 // Computes the same for many points.
-void directions(std::span<const Point> points, const Point& center, Vector* result);
+RONDEL_API void directions(std::span<const Point> points, const Point& center, Vector* result);
 
 // Points on the stack, named 0, 1, 2, 3. What a rung needs is computed when it asks.
 template <Model m>
