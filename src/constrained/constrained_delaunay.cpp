@@ -5,6 +5,7 @@
 // canonical order, and list which constraint each edge comes from.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -20,6 +21,7 @@
 #include "constrained/constraints.h"
 #include "constrained/split_constraints.h"
 #include "exact/vector.h"
+#include "order/sorts.h"
 #include "rondel/constrained.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -61,25 +63,35 @@ LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
   return lonlats(std::span(&point, 1))[0];
 }
 
-// Inserts all constraints, and returns their pieces, sorted.
+// Sorts pieces by their ends, which are less than `bound`.
+void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
+  const int width = std::bit_width(bound);
+  order::KeyedIndices keyed;
+  keyed.keys.reserve(pieces.size());
+  keyed.indices.reserve(pieces.size());
+  for (const ConstrainedPiece& piece : pieces) {
+    keyed.keys.push_back(std::uint64_t{piece.low} << width | piece.high);
+    keyed.indices.push_back(piece.constraint);
+  }
+  order::radix_sort(keyed, 2 * width);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto low = static_cast<Index>(keyed.keys[i] >> width);
+    const auto high = static_cast<Index>(keyed.keys[i] ^ std::uint64_t{low} << width);
+    pieces[i] = {low, high, keyed.indices[i]};
+  }
+}
+
+// Inserts all constraints, and returns their pieces, sorted by their ends.
 std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSites& sites,
                                          std::span<const Ends> ends, const system::Job& job) {
   // Neighbors in this order are close to each other; so a long constraint finds few short ones
   // that were inserted far away, and memory that is known.
-  struct PlacedConstraint {
-    Index low;
-    Index high;
-    Index constraint;
-    auto operator<=>(const PlacedConstraint&) const = default;
-  };
-  std::vector<PlacedConstraint> order;
+  std::vector<ConstrainedPiece> order;
   order.reserve(ends.size());
   for (Index i = 0; i < ends.size(); ++i) {
-    const auto [low, high] =
-        std::minmax({faces.vertex_of(ends[i][0]), faces.vertex_of(ends[i][1])});
-    order.push_back({low, high, i});
+    order.push_back(piece_between(faces.vertex_of(ends[i][0]), faces.vertex_of(ends[i][1]), i));
   }
-  std::ranges::sort(order);
+  sort_by_ends(order, sites.size());
   std::vector<ConstrainedPiece> pieces;
   pieces.reserve(ends.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -89,7 +101,7 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
       system::announce(job, "constrain", k, order.size());
     }
     const Index i = order[k].constraint;
-    const auto crossed = faces.insert(ends[i][0], ends[i][1], i, pieces);
+    const auto crossed = faces.insert(order[k], pieces);
     if (!crossed) continue;
     const ConstrainedPiece edge = piece_between((*crossed)[0], (*crossed)[1], 0);
     const auto other = std::ranges::find_if(pieces, [&](const ConstrainedPiece& piece) {
@@ -99,7 +111,7 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
     throw CrossingConstraints(low, high,
                               place_of_crossing(sites, ends[low], ends[high], job.sphere));
   }
-  std::ranges::sort(pieces);
+  sort_by_ends(pieces, sites.size());
   return pieces;
 }
 

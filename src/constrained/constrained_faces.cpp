@@ -234,9 +234,9 @@ ConstrainedFaces::Departure ConstrainedFaces::departure(Index& a, Index& b) cons
 }
 
 std::optional<std::array<Index, 2>> ConstrainedFaces::insert(
-    Index a, Index b, Index constraint, std::vector<ConstrainedPiece>& pieces) {
-  a = vertices_[a];
-  b = vertices_[b];
+    const ConstrainedPiece& arc, std::vector<ConstrainedPiece>& pieces) {
+  Index a = arc.low;
+  Index b = arc.high;
   while (a != b) {
     const Departure first = departure(a, b);
     Index end = no_index;
@@ -252,7 +252,7 @@ std::optional<std::array<Index, 2>> ConstrainedFaces::insert(
       end = left_.vertices.back();
       refill();
     }
-    pieces.push_back(piece_between(names_[a], names_[end], constraint));
+    pieces.push_back(piece_between(names_[a], names_[end], arc.constraint));
     a = end;
   }
   return {};

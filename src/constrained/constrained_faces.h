@@ -40,10 +40,10 @@ class ConstrainedFaces {
   ConstrainedFaces(std::span<const Point> sites, api::Parts& built, const Sphere& sphere,
                    unsigned threads);
 
-  // Inserts the arc between two sites, by their names, which are not opposite to each other, and
-  // appends the pieces of it. If it crosses a constraint, some pieces are appended, and an edge of that
+  // Inserts the arc of a constraint between two vertices, not opposite to each other, and appends the
+  // pieces of it, by names. If it crosses a constraint, some pieces are appended, and an edge of that
   // constraint is returned, by names; then nothing may be inserted any more.
-  std::optional<std::array<Index, 2>> insert(Index a, Index b, Index constraint,
+  std::optional<std::array<Index, 2>> insert(const ConstrainedPiece& arc,
                                              std::vector<ConstrainedPiece>& pieces);
 
   [[nodiscard]] Index vertex_of(Index name) const { return vertices_[name]; }
