@@ -65,7 +65,7 @@ LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
 
 // Sorts pieces by their ends, which are less than `bound`.
 void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
-  const int width = std::bit_width(bound);
+  const auto width = static_cast<int>(std::bit_width(bound));
   order::KeyedIndices keyed;
   keyed.keys.reserve(pieces.size());
   keyed.indices.reserve(pieces.size());
