@@ -23,6 +23,7 @@
 #include "exact/vector.h"
 #include "order/sorts.h"
 #include "rondel/constrained.h"
+#include "rondel/delaunay.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
