@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "order/renamed.h"
+#include "predicates/conflict.h"
 #include "predicates/orientation.h"
-#include "predicates/side_of_circle.h"
 #include "rondel/predicates.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -183,15 +183,15 @@ void ConstrainedFaces::give_back(TriangulationArrays& arrays) {
 
 // On which side of the great circle from a to b a vertex is: positive on the left.
 Sign ConstrainedFaces::side(Index a, Index b, Index v) const {
-  const Sign sign = predicates::orientation_filter(directions_[a], directions_[b], directions_[v]);
+  const Sign sign = predicates::sure_orientation(directions_[a], directions_[b], directions_[v]);
   if (sign != Sign::zero) return sign;
   return orientation(point(a), point(b), point(v), sphere_);
 }
 
 // True if a vertex is inside the circle of three others.
 bool ConstrainedFaces::is_in_circle(Index a, Index b, Index c, Index v) const {
-  const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
-                                                      directions_[c], directions_[v]);
+  const Sign sign = predicates::sure_side_of_circle(directions_[a], directions_[b], directions_[c],
+                                                    directions_[v]);
   if (sign != Sign::zero) return sign == Sign::positive;
   return is_in_conflict(point(a), point(b), point(c), point(v), Model::projected, sphere_);
 }

@@ -113,6 +113,13 @@ template <PointSource S>
 
 // --- what others ask ---
 
+// What the first rung of the projected model is sure of, for directions, or zero: for libraries
+// above, which then ask the public predicate.
+inline Sign sure_side_of_circle(const Vector& b, const Vector& c, const Vector& d,
+                                const Vector& p) {
+  return side_of_circle_filter(b, c, d, p);
+}
+
 // The side of p with respect to the face, without a perturbation: zero if the four are cocircular
 // (projected) or coplanar (weighted).
 template <PointSource S>

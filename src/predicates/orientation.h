@@ -44,6 +44,11 @@ Sign orientation_extended(const Point& a, const Point& b, const Point& c, const 
 // about 1, balls of more and more words.
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center);
 
+// What the first rung is sure of, or zero: for libraries above, which then ask the public predicate.
+inline Sign sure_orientation(const Vector& a, const Vector& b, const Vector& c) {
+  return orientation_filter(a, b, c);
+}
+
 // The ladder, for points that may have directions: then these have a filter before.
 template <PointSource S>
 [[nodiscard]] Decision orientation(S& points, Index a, Index b, Index c) {
