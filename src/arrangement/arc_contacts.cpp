@@ -11,7 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
+#include <utility>
 
 #include "arrangement/sided_arc.h"
 #include "exact/ball.h"
@@ -19,6 +20,7 @@
 #include "exact/exact_sign.h"
 #include "rondel/arrangement.h"
 #include "rondel/predicates.h"
+#include "system/row_assembly.h"
 
 namespace rondel::arrangement {
 namespace {
@@ -73,21 +75,41 @@ class ContactFinder {
   Contacts& found_;
 };
 
-// Sorts a list, and leaves out what it repeats.
-template <class T>
-void sort_and_unite(std::vector<T>& all) {
-  std::ranges::sort(all);
+// Returns the pairs of all parts, ascending, each once. The pairs of an arc are few.
+std::vector<NearNode> sorted_pairs(const std::vector<std::vector<NearNode>>& parts,
+                                   std::size_t num_arcs, unsigned threads) {
+  system::RowPlaces<std::uint64_t> places(num_arcs);
+  for (const auto& part : parts) {
+    for (const NearNode& pair : part) places.count(pair.arc);
+  }
+  std::vector<NearNode> all(places.sum());
+  for (const auto& part : parts) {
+    for (const NearNode& pair : part) all[places.place(pair.arc)] = pair;
+  }
+  const std::vector<std::uint64_t> offsets = std::move(places).offsets();
+  constexpr std::size_t grain = 4096;
+  system::parallel_for(threads, num_arcs, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t arc = begin; arc < end; ++arc) {
+      std::sort(all.begin() + static_cast<std::ptrdiff_t>(offsets[arc]),
+                all.begin() + static_cast<std::ptrdiff_t>(offsets[arc + 1]));
+    }
+  });
   all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
-// Does the same for lists of several threads, as one.
-template <class T>
-void sort_and_join(std::vector<std::vector<T>>& parts, std::vector<T>& all) {
-  std::size_t size = 0;
-  for (const auto& part : parts) size += part.size();
-  all.reserve(size);
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-  sort_and_unite(all);
+// True if the angle from p to q about a unit vector is positive beyond doubt: the product is off by
+// less than 20 u |q - p|.
+bool is_surely_ahead(const Vec& direction, const Point& p, const Point& q) {
+  const Vec step = to_vector(q) - to_vector(p);
+  constexpr double min_step = 0x1p-400;  // products of shorter steps may underflow
+  constexpr double sure = 0x1p-40;
+  const double size = std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
+  return size > min_step && dot(direction, cross(to_vector(p), step)) > sure * size;
+}
+
+bool is_ahead(const Vec& direction, const Point& p, const Point& q) {
+  return is_surely_ahead(direction, p, q) || dot(direction, normal_of(p, q)) > 0;
 }
 
 constexpr std::size_t blocks_per_task = 128;
@@ -113,8 +135,7 @@ bool is_near(const Point& a, const Point& b, const Point& p) {
   // that differ far less than their lengths do.
   const Vec normal = normal_of(a, b);
   const Vec direction = normalized(normal);
-  if (!(dot(direction, normal_of(a, p)) > 0) || !(dot(direction, normal_of(p, b)) > 0))
-    return false;
+  if (!is_ahead(direction, a, p) || !is_ahead(direction, p, b)) return false;
   const exact::Vector3<exact::DoubleDouble> from_center = {{a.x, 0}, {a.y, 0}, {a.z, 0}};
   const double volume = det(from_center, exact::difference(b, a), exact::difference(p, a)).hi;
   // The volume is off by 2^-101 or less, and the normal is longer than 2^-46.
@@ -173,7 +194,6 @@ Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned th
                          for (std::size_t block = begin; block < end; ++block) {
                            boxes.visit_pairs(block, [&](Index i, Index j) { finder.add(i, j); });
                          }
-                         sort_and_unite(found.near);
                          std::ranges::sort(found.crossings);
                          crossings[begin / blocks_per_task] = std::move(found.crossings);
                          near[begin / blocks_per_task] = std::move(found.near);
@@ -183,7 +203,7 @@ Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned th
   for (const auto& part : crossings) {
     result.crossings.insert(result.crossings.end(), part.begin(), part.end());
   }
-  sort_and_join(near, result.near);
+  result.near = sorted_pairs(near, input.arcs.size(), threads);
   return result;
 }
 
@@ -215,9 +235,7 @@ std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
           });
         }
       });
-  std::vector<NearNode> result;
-  sort_and_join(parts, result);
-  return result;
+  return sorted_pairs(parts, input.arcs.size(), threads);
 }
 
 }  // namespace rondel::arrangement

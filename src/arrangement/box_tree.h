@@ -25,8 +25,12 @@ struct SpaceBox {
   std::array<double, 3> high;
 
   [[nodiscard]] bool overlaps(const SpaceBox& other) const {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
-           other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+    // Nothing depends on the first comparisons, so that no branch has to be foreseen.
+    bool is_overlapping = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      is_overlapping &= (low[i] <= other.high[i]) & (other.low[i] <= high[i]);
+    }
+    return is_overlapping;
   }
   void include(const SpaceBox& other) {
     for (std::size_t i = 0; i < 3; ++i) {
