@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "map/map_plane.h"
-#include "system/hash.h"
 
 namespace rondel::map {
 namespace {
@@ -94,20 +92,6 @@ void append_simple(const Loop& loop, std::vector<Loop>& found) {
   found.push_back(std::move(open));
 }
 
-std::uint64_t position_hash(const LonLat& p) {
-  return system::mixed(system::mixed(0, system::bits_of(p.lon_deg)), system::bits_of(p.lat_deg));
-}
-
-// True if no two lines have the same ends, in either direction, as numbers of their ends show.
-bool are_surely_different(std::span<const DirectedLine> lines) {
-  std::vector<std::uint64_t> hashes;
-  hashes.reserve(lines.size());
-  for (const DirectedLine& line : lines)
-    hashes.push_back(position_hash(line.from) + position_hash(line.to));
-  std::ranges::sort(hashes);
-  return std::ranges::adjacent_find(hashes) == hashes.end();
-}
-
 }  // namespace
 
 double doubled_loop_area(std::span<const LonLat> loop) {
@@ -128,7 +112,6 @@ bool has_touching(std::span<const Loop> loops) {
 }
 
 void cancel_opposite(std::vector<DirectedLine>& lines) {
-  if (are_surely_different(lines)) return;
   std::vector<std::size_t> order(lines.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   const auto key = [&](std::size_t i) {
