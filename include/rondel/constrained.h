@@ -106,6 +106,23 @@ RONDEL_API ConstrainedTriangulation
 constrained_delaunay(Sites sites, std::span<const std::array<Index, 2>> constraints,
                      const ConstrainedOptions& options = {}, const Execution& execution = {});
 
+/// Finds the faces in polygons whose sides are constraints, exactly and without coordinates: from the
+/// left of each side it goes from face to face, up to the sides of the polygon.
+///
+/// A polygon may have several rings, holes, and any area; polygons may share sides and overlap. An
+/// edge along which as many sides of a polygon go in one direction as in the other is no border of
+/// it. Ghost faces are in no polygon. Below dimension 2 there are no faces.
+/// \param result  what constrained_delaunay() returned for the constraints
+/// \param constraints  those that it was called with; the interior of a polygon is to their left
+/// \param polygons  the constraints that are sides of each polygon
+/// \return the faces in each polygon, ascending
+/// \throws InvalidInput (the position of the polygon) if its sides do not close rings that have the
+///         interior on one side, or it leaves what the solid faces cover; (the position of the
+///         constraint) if `result` has no chain of edges for it
+RONDEL_API CompressedRows<Index> faces_inside(const ConstrainedTriangulation& result,
+                                              std::span<const std::array<Index, 2>> constraints,
+                                              const CompressedRows<Index>& polygons);
+
 /// Proves or refutes that triangles are the faces of the constrained Delaunay triangulation of
 /// sites: solid faces have positive orientation and cover what those of delaunay() cover, once;
 /// ghost faces are those of delaunay(); every site is a vertex or a duplicate; each constraint is a

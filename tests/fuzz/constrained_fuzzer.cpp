@@ -63,6 +63,32 @@ void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
           "the order of constraints changes nothing");
 }
 
+// The sides of a triangle of sites have a polygon on their left and one on their right, which cover
+// all solid faces, unless one of them leaves the hull.
+void test_inside(const std::vector<Point>& sites, const std::vector<Edge>& all,
+                 const Sphere& sphere) {
+  if (all.empty() || sites.empty()) return;
+  const auto [a, b] = all.front();
+  const auto c = static_cast<Index>((a + b) % sites.size());
+  const std::vector<Edge> sides = {{a, b}, {b, c}, {c, a}, {a, c}, {c, b}, {b, a}};
+  CompressedRows<Index> polygons;
+  polygons.append(std::array<Index, 3>{0, 1, 2});
+  polygons.append(std::array<Index, 3>{3, 4, 5});
+  try {
+    const auto result = constrained_delaunay(sites, sides, {.sphere = sphere});
+    const auto inside = faces_inside(result, sides, polygons);
+    const Triangulation& t = result.triangulation;
+    std::vector<int> count(t.num_faces());
+    for (const Index face : inside.values) ++count[face];
+    const bool is_empty = inside.values.empty();  // all sides are on one great circle
+    for (Index f = 0; f < count.size(); ++f) {
+      const int expected = is_empty || t.is_ghost(f) ? 0 : 1;
+      require(count[f] == expected, "each solid face is on one side of a triangle");
+    }
+  } catch (const InvalidInput&) {
+  }
+}
+
 // Sites that are not unit vectors are refused; otherwise what crosses is divided.
 void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constraints) {
   try {
@@ -92,6 +118,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<Point> sites =
       fuzz::all_sites(source, limit, scales, {Model::projected, sphere});
   fuzz::test_laws(sites, constraints, sphere);
+  fuzz::test_inside(sites, constraints, sphere);
   std::vector<LonLat> positions;
   for (const Point& p : sites) positions.push_back(lonlats(std::span(&p, 1))[0]);
   std::erase_if(positions, [](const LonLat& p) { return !(p.lat_deg <= 90); });

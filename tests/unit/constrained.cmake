@@ -5,4 +5,5 @@ rondel_add_test(constrained_test
   constrained/constrained_errors_test.cpp
   constrained/constrained_laws_test.cpp
   constrained/constrained_oracle_test.cpp
+  constrained/faces_inside_test.cpp
   LIBS rondel_geo rondel_test_support)
