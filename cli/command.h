@@ -44,6 +44,7 @@ struct Command {
 /// Each of these functions adds a command with its arguments and its help to the tool, or to
 /// `rondel mesh`. It is in the file of its name.
 Command add_delaunay_command(CLI::App& tool);
+Command add_triangulate_command(CLI::App& tool);
 Command add_voronoi_command(CLI::App& tool);
 Command add_regions_command(CLI::App& tool);
 Command add_overlay_command(CLI::App& tool);

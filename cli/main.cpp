@@ -35,10 +35,11 @@ int fail(ExitStatus status, std::string message) {
 // Adds all commands, in the order in which `rondel --help` shows them.
 std::vector<Command> add_commands(CLI::App& tool) {
   return {
-    add_delaunay_command(tool), add_voronoi_command(tool), add_regions_command(tool),
-        add_overlay_command(tool), add_relate_command(tool), add_repair_command(tool),
-        add_buffer_command(tool), add_simplify_command(tool), add_hull_command(tool),
-        add_check_command(tool), add_contours_command(tool), add_graph_command(tool),
+    add_delaunay_command(tool), add_triangulate_command(tool), add_voronoi_command(tool),
+        add_regions_command(tool), add_overlay_command(tool), add_relate_command(tool),
+        add_repair_command(tool), add_buffer_command(tool), add_simplify_command(tool),
+        add_hull_command(tool), add_check_command(tool), add_contours_command(tool),
+        add_graph_command(tool),
 #if defined(RONDEL_HAS_PLOT)
         add_plot_command(tool),
 #endif

@@ -23,7 +23,7 @@ struct DirectedEdge {
 };
 
 // A corner opposite to a side of a solid face; no_index: the side belongs to no solid face.
-struct FaceSide {
+struct SideOfFace {
   Index face = no_index;
   unsigned corner = 0;
 };
@@ -46,13 +46,13 @@ class PolygonFlood {
   std::vector<Index> faces_in(std::span<const Index> sides, std::size_t polygon);
 
  private:
-  [[nodiscard]] Index edge_of(const FaceSide& side) const;
+  [[nodiscard]] Index edge_of(const SideOfFace& side) const;
   void list_faces();
   void list_chains(std::span<const Ends> constraints);
   void visit(Index face, std::vector<Index>& reached);
 
   // True if the face has the interior of the polygon, which this edge of it bounds.
-  [[nodiscard]] bool is_left(Index edge, const FaceSide& side) const {
+  [[nodiscard]] bool is_left(Index edge, const SideOfFace& side) const {
     const Index from = faces_[side.face][(side.corner + 1) % 3];
     return (from == result_.edges[edge][0]) == (net_[edge] > 0);
   }
@@ -61,13 +61,13 @@ class PolygonFlood {
   std::span<const Triple> faces_;
   std::span<const Triple> neighbors_;
   std::vector<int> net_;  // for each edge, how many more sides of the polygon ascend than descend
-  std::vector<FaceSide> ascending_;   // the solid faces on the left of the ascending edges
-  std::vector<FaceSide> descending_;  // and on their right
+  std::vector<SideOfFace> ascending_;   // the solid faces on the left of the ascending edges
+  std::vector<SideOfFace> descending_;  // and on their right
   std::vector<bool> is_reached_;
   CompressedRows<DirectedEdge> chains_;  // of each constraint
 };
 
-Index PolygonFlood::edge_of(const FaceSide& side) const {
+Index PolygonFlood::edge_of(const SideOfFace& side) const {
   const Triple& face = faces_[side.face];
   const auto [low, high] = std::minmax({face[(side.corner + 1) % 3], face[(side.corner + 2) % 3]});
   const auto found = std::ranges::lower_bound(result_.edges, Ends{low, high});
@@ -149,7 +149,7 @@ std::vector<Index> PolygonFlood::faces_in(std::span<const Index> sides, std::siz
   for_edges([&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
   for_edges([&](const DirectedEdge& e) {
     if (net_[e.edge] == 0) return;
-    const FaceSide& left = (net_[e.edge] > 0 ? ascending_ : descending_)[e.edge];
+    const SideOfFace& left = (net_[e.edge] > 0 ? ascending_ : descending_)[e.edge];
     if (left.face == no_index) {
       is_covered = false;
     } else {
@@ -158,7 +158,7 @@ std::vector<Index> PolygonFlood::faces_in(std::span<const Index> sides, std::siz
   });
   for (std::size_t k = 0; k < reached.size(); ++k) {
     for (unsigned i = 0; i < 3; ++i) {
-      const FaceSide side = {reached[k], i};
+      const SideOfFace side = {reached[k], i};
       const bool is_constrained = (result_.sides[side.face] >> i & 1U) != 0;
       const Index edge = is_constrained ? edge_of(side) : no_index;
       if (is_constrained && net_[edge] != 0) {

@@ -16,26 +16,26 @@ namespace rondel::io {
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
   const map::FaceMap face_map(mesh.triangulation, mesh.execution);
   Index first_solid = 0;
-  while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {
+  while (first_solid < mesh.faces.size() && mesh.is_ghost(first_solid)) {
     ++first_solid;
   }
   file.write(features_begin);
   const auto append_feature = [&](std::string& text, Index face, map::FaceMap::Pen& pen) {
     begin_feature(text, face == first_solid);
     text += R"("sites":[)";
-    for (const Index corner : mesh.triangulation.faces()[face]) {
+    for (const Index corner : mesh.faces[face]) {
       append_integer(text, corner);
       text += ',';
     }
     text.back() = ']';
     text += geometry_begin;
-    append_geometry(text, face_map.polygons(face, pen));
+    append_geometry(text, face_map.polygons(mesh.chosen.empty() ? face : mesh.chosen[face], pen));
     text += '}';
   };
   mesh.write_faces(file, [&](std::string& text, Index begin, Index end) {
     map::FaceMap::Pen pen;
     for (Index face = begin; face < end; ++face) {
-      if (!mesh.triangulation.is_ghost(face)) append_feature(text, face, pen);
+      if (!mesh.is_ghost(face)) append_feature(text, face, pen);
     }
   });
   file.write(features_end);

@@ -29,7 +29,7 @@ void write_site_lines(AtomicFile& file, std::span<const Point> sites, unsigned t
 void write_face_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix,
                       Index base) {
   mesh.write_faces(file, [&](std::string& text, Index begin, Index end) {
-    for (const Triple& face : mesh.triangulation.faces().subspan(begin, end - begin)) {
+    for (const Triple& face : mesh.faces.subspan(begin, end - begin)) {
       text += prefix;
       for (const Index corner : face) {
         append_integer(text, corner + base);

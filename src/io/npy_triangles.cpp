@@ -53,7 +53,7 @@ std::vector<Triple> read_npy(std::string_view bytes) {
 }
 
 void write_npy(AtomicFile& file, const MeshToWrite& mesh) {
-  const std::span<const Triple> faces = mesh.triangulation.faces();
+  const std::span<const Triple> faces = mesh.faces;
   file.write(make_npy_header("<u4", std::array<std::uint64_t, 2>{faces.size(), 3}));
   file.write(NumberBytes(faces));
 }

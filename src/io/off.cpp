@@ -68,7 +68,7 @@ std::vector<Triple> read_off(std::string_view bytes) {
 
 void write_off(AtomicFile& file, const MeshToWrite& mesh) {
   // Readers ignore the number of edges; on a closed surface it is 3/2 times the number of faces.
-  const std::size_t num_faces = mesh.triangulation.num_faces();
+  const std::size_t num_faces = mesh.faces.size();
   file.write("OFF\n" + std::to_string(mesh.table.sites.size()) + " " + std::to_string(num_faces) +
              " " + std::to_string(3 * num_faces / 2) + "\n");
   write_site_lines(file, mesh.table.sites, mesh.execution.threads, "", ' ');

@@ -14,13 +14,13 @@ void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
   file.write("ply\nformat binary_little_endian 1.0\ncomment Rondel\nelement vertex " +
              std::to_string(sites.size()) +
              "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-             std::to_string(mesh.triangulation.num_faces()) +
+             std::to_string(mesh.faces.size()) +
              "\nproperty list uchar int vertex_indices\nend_header\n");
   file.write(NumberBytes(sites));
   // Most readers expect a signed index; it suffices, as there are fewer than 2^30 sites.
   static_assert(max_sites < (std::size_t{1} << 30U));
   mesh.write_faces(file, [&](std::string& bytes, Index begin, Index end) {
-    for (const Triple& face : mesh.triangulation.faces().subspan(begin, end - begin)) {
+    for (const Triple& face : mesh.faces.subspan(begin, end - begin)) {
       std::array<char, 1 + sizeof(Triple)> record = {3};
       char* next = record.data() + 1;
       for (const Index corner : face) next = store(corner, next);

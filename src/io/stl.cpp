@@ -40,7 +40,7 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
   std::string head = "Rondel; 32-bit floats, see the other formats for exact coordinates";
   head.resize(80, ' ');
   file.write(head);
-  const auto num_faces = static_cast<std::uint32_t>(mesh.triangulation.num_faces());
+  const auto num_faces = static_cast<std::uint32_t>(mesh.faces.size());
   write_values<std::uint32_t>(file, 1, [=](std::size_t) { return num_faces; });
   const auto append = [&](std::string& bytes, const Triple& face) {
     const auto& [a, b, c] = face;
@@ -52,7 +52,7 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
     bytes.append(record.data(), record.size());
   };
   mesh.write_faces(file, [&](std::string& bytes, Index begin, Index end) {
-    const auto faces = mesh.triangulation.faces().subspan(begin, end - begin);
+    const auto faces = mesh.faces.subspan(begin, end - begin);
     for (const Triple& face : faces) append(bytes, face);
   });
 }

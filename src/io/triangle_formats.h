@@ -8,7 +8,9 @@
 // index corners are indices of sites in the order of the input, from 0 on
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +25,14 @@ namespace rondel::io {
 struct MeshToWrite {
   const SiteTable& table;
   const Triangulation& triangulation;
+  std::span<const Triple> faces;
+  std::span<const Index> ghost_faces;  // of `faces`, ascending
+  std::span<const Index> chosen;       // the faces of the triangulation, if these are not all
   const Execution& execution;
 
+  [[nodiscard]] bool is_ghost(Index face) const {
+    return std::ranges::binary_search(ghost_faces, face);
+  }
   // Writes the texts of the faces begin ... end - 1, like write_in_parallel(), and reports the
   // progress.
   void write_faces(

@@ -15,6 +15,7 @@
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
+#include "rondel/some_triangles.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -47,7 +48,7 @@ constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write
 
 void io::MeshToWrite::write_faces(
     AtomicFile& file, const std::function<void(std::string&, Index, Index)>& append) const {
-  const std::size_t num_faces = triangulation.num_faces();
+  const std::size_t num_faces = faces.size();
   write_in_parallel(
       file, execution.threads, num_faces, items_per_piece,
       [&](std::string& text, std::size_t begin, std::size_t end) {
@@ -76,7 +77,28 @@ void write_triangles(const FileName& output, const SiteTable& table,
                      const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
   io::require_sites(table, triangulation);
-  const io::MeshToWrite mesh = {table, triangulation, execution};
+  const io::MeshToWrite mesh = {
+      table, triangulation, triangulation.faces(), triangulation.ghost_faces(), {}, execution};
+  io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
+}
+
+void write_some_triangles(const FileName& output, const SiteTable& table,
+                          const Triangulation& triangulation, std::span<const Index> faces,
+                          const Execution& execution) {
+  const system::Call call(execution);
+  io::require_sites(table, triangulation);
+  std::vector<Triple> corners;
+  std::vector<Index> ghosts;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] >= triangulation.num_faces()) {
+      throw InvalidInput("face " + std::to_string(faces[i]) + " does not exist; there are " +
+                             std::to_string(triangulation.num_faces()) + " faces",
+                         i);
+    }
+    if (triangulation.is_ghost(faces[i])) ghosts.push_back(static_cast<Index>(i));
+    corners.push_back(triangulation.faces()[faces[i]]);
+  }
+  const io::MeshToWrite mesh = {table, triangulation, corners, ghosts, faces, execution};
   io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
 }
 

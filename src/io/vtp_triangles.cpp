@@ -8,7 +8,7 @@ namespace rondel::io {
 
 // The points are the sites and the polygons the faces; the cell data "ghost" is 1 for ghost faces.
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh) {
-  const std::span<const Triple> faces = mesh.triangulation.faces();
+  const std::span<const Triple> faces = mesh.faces;
   const std::size_t m = faces.size();
   VtpMesh vtp;
   vtp.num_points = mesh.table.sites.size();
@@ -22,9 +22,8 @@ void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh) {
     return faces[i / 3][i % 3];
   });
   vtp.offsets = vtp_array<std::int64_t>("offsets", m, [](std::size_t i) { return 3 * (i + 1); });
-  vtp.cell_data = {vtp_array<std::uint8_t>("ghost", m, [&](std::size_t i) {
-    return mesh.triangulation.is_ghost(static_cast<Index>(i)) ? 1 : 0;
-  })};
+  vtp.cell_data = {vtp_array<std::uint8_t>(
+      "ghost", m, [&](std::size_t i) { return mesh.is_ghost(static_cast<Index>(i)) ? 1 : 0; })};
   write_vtp(file, vtp);
 }
 

@@ -148,6 +148,7 @@ def makers(root):
         "land.geojson": copy(root, "data/land-110m.geojson"),
         "coast.geojson": copy(root, "data/land-110m.geojson"),
         "countries.geojson": features(box(-20, -35, 50, 37), box(50, 5, 150, 60), box(-130, -50, -40, 55)),
+        "faults.csv": table("from,to", ["0,1", "1,2"]),
         "circles.csv": by_rondel("generate circles -n 300"),
         "sites.csv": by_rondel("generate uniform -n 500 --seed 2"),
         "sites.npy": by_rondel("generate uniform -n 20000 --seed 3"),

@@ -30,6 +30,7 @@ COMMANDS = {
             "--duplicates": ".npy",
         },
     ),
+    "triangulate": ("{INPUT} --constraints {--constraints}", ["INPUT", "--constraints"], {"--output": ".npy"}),
     "voronoi": ("{INPUT}", ["INPUT", "--clip"], {"--output": ".geojson"}),
     "regions": ("{INPUT} --clip {--clip}", ["INPUT", "--clip"], {"--output": ".geojson"}),
     "overlay": ("{INPUT} {SECOND}", ["INPUT", "SECOND"], {"--output": ".geojson"}),

@@ -5,14 +5,17 @@
 // read; .geojson is JSON with a feature for each solid face, and .stl has their number.
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "fuzz/json_check.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
 #include "rondel/error.h"
 #include "rondel/polygons.h"
+#include "rondel/some_triangles.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -66,6 +69,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_geojson(path, table, t);
   } else {
     write_triangles(path, table, t);
+    std::vector<Index> every(t.num_faces());
+    std::iota(every.begin(), every.end(), 0);
+    const std::string whole = fuzz::content(path);
+    write_some_triangles(path, table, t, every);
+    fuzz::require(fuzz::content(path) == whole, "all of the faces are some of them");
     if (t.num_faces() == 0) return 0;  // some formats refuse to be read without triangles
     fuzz::require(std::ranges::equal(read_triangles(path), t.faces()), "triangles survive");
   }

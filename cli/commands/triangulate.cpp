@@ -1,0 +1,344 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel triangulate: triangulates sites with given edges.
+// in    points, lines and polygons; or sites and pairs of them
+// out   triangles
+// index places of the features in their order, each once, or sites in the order of the input; sites
+//       that are added where constraints cross come after them
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "job.h"
+#include "report.h"
+#include "rondel/constrained.h"
+#include "rondel/delaunay.h"
+#include "rondel/geometries.h"
+#include "rondel/some_triangles.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel triangulate`.
+struct TriangulateOptions {
+  CommonOptions common;
+  std::string constraints;  // --constraints; empty: INPUT has features
+  bool is_split = false;    // --split
+  bool is_inside = false;   // --inside
+  PolygonOptions read;
+};
+
+// What is triangulated.
+struct Plan {
+  SiteTable table;
+  std::vector<std::array<Index, 2>> constraints;
+  std::vector<std::string> places;  // of each constraint, for messages: "coast.geojson: feature 3"
+  CompressedRows<Index> polygons;   // the sides of each, which are constraints
+  std::vector<std::string> names;   // of each polygon, for messages
+};
+
+// Collects the places of features, each of which becomes one site.
+class PlanOfFeatures {
+ public:
+  explicit PlanOfFeatures(Plan& plan) : plan_(plan) {}
+
+  void add_line(std::span<const Point> points, const std::string& place) {
+    std::vector<Index> sites;
+    for (const Point& point : points) sites.push_back(site_at(point));
+    for (std::size_t k = 1; k < sites.size(); ++k) add_side(sites[k - 1], sites[k], place);
+  }
+  void add_polygon(const CellRings& polygons, std::size_t cell, const std::string& place) {
+    for (std::uint64_t r = polygons.cells[cell]; r < polygons.cells[cell + 1]; ++r) {
+      const std::span<const Index> ring = polygons.corners_of(r);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Index from = site_at(polygons.points[ring[k]]);
+        const Index to = site_at(polygons.points[ring[(k + 1) % ring.size()]]);
+        if (from == to) continue;
+        plan_.polygons.values.push_back(static_cast<Index>(plan_.constraints.size()));
+        add_side(from, to, place);
+      }
+    }
+    plan_.polygons.end_row();
+    plan_.names.push_back(place);
+  }
+
+ private:
+  using Place = std::tuple<double, double, double>;
+
+  Index site_at(const Point& point) {
+    const Place place(point.x, point.y, point.z);
+    const auto found = sites_.lower_bound({place, 0});
+    if (found != sites_.end() && found->first == place) return found->second;
+    const auto site = static_cast<Index>(plan_.table.sites.size());
+    sites_.insert(found, {place, site});
+    plan_.table.sites.push_back(point);
+    return site;
+  }
+  void add_side(Index from, Index to, const std::string& place) {
+    if (from == to) return;
+    plan_.constraints.push_back({from, to});
+    plan_.places.push_back(place);
+  }
+
+  Plan& plan_;
+  std::set<std::pair<Place, Index>> sites_;
+};
+
+// Reads features. Throws FileError.
+Plan plan_of_features(const TriangulateOptions& options, const Execution& execution) {
+  const FileName file = options.common.source();
+  const FeatureTable features =
+      std::move(read_features_together({&file, 1}, options.read, execution).front());
+  tell(features.facts.name, features.facts.remarks);
+  Plan plan;
+  plan.table.name = features.facts.name;
+  PlanOfFeatures all(plan);
+  for (std::size_t f = 0; f < features.lines.size(); ++f) {
+    const std::string place = features.facts.name + ": feature " + std::to_string(f);
+    if (features.polygons.is_whole(f)) {
+      throw FileError(place + " is the whole sphere, which has no sides");
+    }
+    for (std::uint64_t i = features.lines.offsets[f]; i < features.lines.offsets[f + 1]; ++i) {
+      all.add_line(features.lines.rows[i], place);
+    }
+    const bool has_rings = features.polygons.cells[f] < features.polygons.cells[f + 1];
+    if (has_rings) all.add_polygon(features.polygons, f, place);
+  }
+  plan.table.positions = lonlats(plan.table.sites);
+  return plan;
+}
+
+// Returns the site in a cell. Throws FileError, which begins with the place.
+Index site_in(std::string_view text, std::size_t num_sites, const std::string& place) {
+  const std::string shown = place + ": '" + std::string(text) + "' ";
+  const auto first = text.find_first_not_of(" \t");
+  if (first != std::string_view::npos) {
+    text = text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+  }
+  std::uint64_t site = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), site);
+  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
+    throw FileError(shown + "is no index of a site");
+  }
+  if (error != std::errc() || site >= num_sites) {
+    throw FileError(shown + "is no site; there are " + count(num_sites, "site", "sites") +
+                    ", counted from 0");
+  }
+  return static_cast<Index>(site);
+}
+
+// Reads pairs of sites, a line each; the first line may have names.
+void read_constraints(const std::string& path, const std::string& text, Plan& plan) {
+  const std::size_t num_sites = plan.table.sites.size();
+  std::size_t begin = 0;
+  for (std::size_t number = 1; begin < text.size(); ++number) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = std::string_view(text).substr(begin, end - begin);
+    begin = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
+    const std::string place = path + ":" + std::to_string(number);
+    const auto comma = line.find(',');
+    if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos) {
+      throw FileError(place + ": '" + std::string(line) + "' is not two columns");
+    }
+    const bool has_digits = line.find_first_of("0123456789") != std::string_view::npos;
+    if (number == 1 && !has_digits) continue;
+    plan.constraints.push_back({site_in(line.substr(0, comma), num_sites, place),
+                                site_in(line.substr(comma + 1), num_sites, place)});
+    plan.places.push_back(place);
+  }
+}
+
+// Calls the library; what it says of a constraint or a polygon becomes a FileError with its place.
+template <class Work>
+auto with_plan(const Plan& plan, Work&& work) {
+  try {
+    return work();
+  } catch (const CrossingConstraints& error) {
+    const auto [first, second] = error.constraints();
+    char place[80];
+    std::snprintf(place, sizeof place, "longitude %.9g, latitude %.9g", error.place().lon_deg,
+                  error.place().lat_deg);
+    throw FileError(plan.places[second] + " crosses " + plan.places[first] + " at " + place +
+                    "; --split makes a site there");
+  } catch (const InvalidInput& error) {
+    const std::string text = error.what();
+    const bool has_place = text.starts_with("constraint ") && error.index() < plan.places.size();
+    throw FileError((has_place ? plan.places[error.index()] : plan.table.name) + ": " + text);
+  }
+}
+
+// Returns the faces that are in any polygon, ascending.
+std::vector<Index> faces_in_polygons(const ConstrainedTriangulation& result, const Plan& plan) {
+  std::vector<Index> faces;
+  try {
+    faces = faces_inside(result, plan.constraints, plan.polygons).values;
+  } catch (const InvalidInput& error) {
+    const bool has_name = error.index() < plan.names.size();
+    throw FileError((has_name ? plan.names[error.index()] : plan.table.name) + ": " + error.what());
+  }
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+// Reads the whole of a file. Throws FileError.
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file && !std::filesystem::is_directory(path)) return text;
+  throw FileError(path + ": the file cannot be read");
+}
+
+Plan plan_of(const TriangulateOptions& options, Job& job) {
+  if (options.constraints.empty()) return plan_of_features(options, job.execution());
+  Plan plan;
+  plan.table = job.read();
+  read_constraints(options.constraints, text_of(options.constraints), plan);
+  return plan;
+}
+
+// Triangulates, and gives the table the sites that were added.
+ConstrainedTriangulation triangulated(const TriangulateOptions& options, Plan& plan,
+                                      const Execution& execution) {
+  const auto crossings =
+      options.is_split ? ConstraintCrossings::split : ConstraintCrossings::refuse;
+  ConstrainedTriangulation result = with_plan(plan, [&] {
+    return constrained_delaunay(Sites(plan.table.sites), plan.constraints, {.crossings = crossings},
+                                execution);
+  });
+  const auto sites = result.triangulation.sites().points();
+  const auto added = sites.subspan(plan.table.sites.size());
+  if (!plan.table.positions.empty()) {
+    const std::vector<LonLat> positions = lonlats(added);
+    plan.table.positions.insert(plan.table.positions.end(), positions.begin(), positions.end());
+  }
+  plan.table.sites.insert(plan.table.sites.end(), added.begin(), added.end());
+  return result;
+}
+
+void require_input(const TriangulateOptions& options) {
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_triangles(common.target()),
+                 ".npy .off .ply .obj .stl .vtp .geojson",
+                 {{"--constraints", options.constraints}});
+  const std::string format = format_of(common.source());
+  if (options.constraints.empty() && format != "geojson" && format != "json") {
+    throw UsageError("INPUT: without --constraints '" + common.input +
+                     "' must be a .geojson file, whose lines and polygons are the constraints");
+  }
+  if (!options.constraints.empty() && format_of({options.constraints, {}}) != "csv") {
+    throw UsageError("--constraints: '" + options.constraints + "' must be a .csv file");
+  }
+}
+
+// Throws FileError for files that cannot be read or written, and constraints that cross; UsageError.
+ExitStatus run_triangulate(const TriangulateOptions& options) {
+  require_input(options);
+  Job job(options.common);
+  Plan plan = plan_of(options, job);
+  const std::size_t num_given = plan.table.sites.size();
+  ConstrainedTriangulation result;
+  std::vector<Index> inside;
+  job.time(Stage::dual, [&] {
+    result = triangulated(options, plan, job.execution());
+    if (options.is_inside) inside = faces_in_polygons(result, plan);
+  });
+  const Triangulation& triangulation = result.triangulation;
+  job.time(Stage::write, [&] {
+    if (options.is_inside) {
+      write_some_triangles(options.common.target(), plan.table, triangulation, inside,
+                           job.execution());
+    } else {
+      write_triangles(options.common.target(), plan.table, triangulation, job.execution());
+    }
+  });
+  const std::size_t num_sites = plan.table.sites.size();
+  const std::size_t num_added = num_sites - num_given;
+  const std::size_t num_faces = options.is_inside ? inside.size() : triangulation.num_faces();
+  const double seconds = job.seconds().total;
+  job.report(nlohmann::ordered_json{{"sites", num_sites},
+                                    {"added_sites", num_added},
+                                    {"constraints", plan.constraints.size()},
+                                    {"edges", result.edges.size()},
+                                    {"faces", num_faces},
+                                    {"ghost_faces",
+                                     options.is_inside ? 0 : triangulation.num_ghost_faces()},
+                                    {"seconds", seconds}}
+                     .dump(2) +
+                 '\n',
+             count(num_sites, "site", "sites") + ", " + std::to_string(num_added) +
+                 " of them added where constraints cross\n" +
+                 count(plan.constraints.size(), "constraint", "constraints") + ": " +
+                 count(result.edges.size(), "edge", "edges") + "\nwrote " +
+                 count(num_faces, "face", "faces") + " to " + options.common.output + " in " +
+                 text_of_seconds(seconds) + '\n');
+  return done;
+}
+
+}  // namespace
+
+Command add_triangulate_command(CLI::App& tool) {
+  auto options = std::make_shared<TriangulateOptions>();
+  CLI::App* parser = tool.add_subcommand(
+      "triangulate", "Triangulate points, lines and polygons, whose sides are edges");
+  const auto has_table = [given = options.get()] { return !given->constraints.empty(); };
+  add_input_options(*parser, options->common,
+                    "The features: .geojson; with --constraints sites: .csv .tsv .xyz .txt .npy\n"
+                    ".geojson, the places of a netCDF file; or - for standard input");
+  parser
+      ->add_option("--constraints", options->constraints,
+                   "The edges between sites: .csv, two columns of indices of sites from 0")
+      ->type_name("FILE");
+  add_output_option(*parser, options->common,
+                    "Where to write the triangles: .npy (m x 3 indices) .off .ply .obj .stl .vtp\n"
+                    ".geojson")
+      ->required();
+  parser->add_flag("--split", options->is_split,
+                   "Make a site where constraints cross, which is an error otherwise");
+  CLI::Option* inside =
+      parser->add_flag("--inside", options->is_inside, "Write the faces in polygons alone");
+  CLI::Option* edges = add_word<PolygonEdges>(
+      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
+      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
+      "RFC 7946) or geodesic (great circles)");
+  CLI::Option* invalid = add_invalid_option(*parser, options->read.invalid);
+  for (const char* name : {"--delimiter", "--lon", "--lat", "--x", "--y", "--z", "--radians"}) {
+    require_effect(options->common, parser->get_option(name), has_table, "without --constraints");
+  }
+  require_effect(
+      options->common, parser->get_option("--radius"), [] { return false; },
+      "as sites of this command are points");
+  for (CLI::Option* option : {inside, edges, invalid}) {
+    require_effect(
+        options->common, option, [has_table] { return !has_table(); }, "with --constraints");
+  }
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "The constrained Delaunay triangulation: each constraint is a chain of edges, divided at\n"
+      "sites that lie on it, and everything else is Delaunay as far as constraints let sites see\n"
+      "each other. It is exact and unique. Sites are the points of features, their corners and\n"
+      "those that straight lines in longitude and latitude need; each place is one site.\n\n"
+      "Examples:\n"
+      "  rondel triangulate coast.geojson -o mesh.ply\n"
+      "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"
+      "  rondel triangulate stations.csv --constraints faults.csv -o faces.npy");
+  return {parser, [options] { return run_triangulate(*options); }};
+}
+
+}  // namespace rondel::cli
