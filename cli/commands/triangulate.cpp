@@ -251,6 +251,9 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
   require_input(options);
   Job job(options.common);
   Plan plan = plan_of(options, job);
+  if (options.is_inside && plan.polygons.size() == 0) {
+    throw FileError(plan.table.name + ": there are no polygons, in which --inside wants the faces");
+  }
   const std::size_t num_given = plan.table.sites.size();
   ConstrainedTriangulation result;
   std::vector<Index> inside;

@@ -56,8 +56,8 @@ class RONDEL_API CrossingConstraints : public InvalidInput {
 
 /// A triangulation with edges that were asked for.
 struct ConstrainedTriangulation {
-  /// The sites and the faces. Sites that ConstraintCrossings::split has added come after those that were
-  /// given, along the spatial order.
+  /// The sites and the faces. Sites that ConstraintCrossings::split has added come after those that
+  /// were given, along the spatial order.
   Triangulation triangulation;
   /// The two sites of each constrained edge, the lower one first, in lexicographic order. Of
   /// duplicates the lowest index stands for all.
@@ -76,9 +76,9 @@ struct ConstrainedTriangulation {
 ///    exactly on it. Constraints may be repeated, in either direction, and may overlap.
 /// 2. Every site is a vertex, a duplicate or in the place of one, as delaunay() has it. The solid
 ///    faces cover what the solid faces of delaunay() cover, and the ghost faces are the same.
-/// 3. Of two solid faces with a common edge that is not constrained, neither has the third corner of
-///    the other one inside its circle. Four cocircular sites are decided as delaunay() decides them.
-///    A face has no site inside its circle that can be seen from inside of the face, where
+/// 3. Of two solid faces with a common edge that is not constrained, neither has the third corner
+///    of the other one inside its circle. Four cocircular sites are decided as delaunay() decides
+///    them. A face has no site inside its circle that can be seen from inside of the face, where
 ///    constraints stop the view.
 /// 4. The result is unique: 1 to 3 determine it. So it depends neither on the order of the sites
 ///    and of the constraints nor on the number of threads. Without constraints it is that of
@@ -89,12 +89,13 @@ struct ConstrainedTriangulation {
 /// 6. Below dimension 2 there are no faces, and `edges` are pairs of neighbors in the ring.
 ///
 /// A Locator, an Interpolator and a DynamicTriangulation, which rely on Delaunay faces, refuse the
-/// triangulation unless all constraints are edges of delaunay(); and its dual is no Voronoi diagram.
+/// triangulation unless all constraints are edges of delaunay(); and its dual is no Voronoi
+/// diagram.
 ///
 /// A constraint takes time in proportion to the edges that it crosses, times their logarithm on
-/// average, and their square at worst. The proof is in docs/theory/constrained.md (Chew, Constrained
-/// Delaunay triangulations, Algorithmica 4, 1989; Anglada, An improved incremental algorithm for
-/// constructing restricted Delaunay triangulations, Computers & Graphics 21, 1997).
+/// average, and their square at worst. The proof is in docs/theory/constrained.md (Chew,
+/// Constrained Delaunay triangulations, Algorithmica 4, 1989; Anglada, An improved incremental
+/// algorithm for constructing restricted Delaunay triangulations, Computers & Graphics 21, 1997).
 /// \param constraints  the two ends of each constraint, as indices of sites
 /// \throws InvalidInput as delaunay() does (the position of the site); and (the position of the
 ///         constraint) if an end is no site, or both ends are one place or opposite to each other.
@@ -103,11 +104,11 @@ struct ConstrainedTriangulation {
 /// \throws InvalidInput also, if crossings are split, where arrange() does: sites must be unit
 ///         vectors around the origin then.
 RONDEL_API ConstrainedTriangulation
-constrained_delaunay(Sites sites, std::span<const std::array<Index, 2>> constraints,
+constrained_delaunay(const Sites& sites, std::span<const std::array<Index, 2>> constraints,
                      const ConstrainedOptions& options = {}, const Execution& execution = {});
 
-/// Finds the faces in polygons whose sides are constraints, exactly and without coordinates: from the
-/// left of each side it goes from face to face, up to the sides of the polygon.
+/// Finds the faces in polygons whose sides are constraints, exactly and without coordinates: from
+/// the left of each side it goes from face to face, up to the sides of the polygon.
 ///
 /// A polygon may have several rings, holes, and any area; polygons may share sides and overlap. An
 /// edge along which as many sides of a polygon go in one direction as in the other is no border of

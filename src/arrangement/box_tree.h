@@ -26,11 +26,12 @@ struct SpaceBox {
 
   [[nodiscard]] bool overlaps(const SpaceBox& other) const {
     // Nothing depends on the first comparisons, so that no branch has to be foreseen.
-    bool is_overlapping = true;
+    int num_overlapping = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      is_overlapping &= (low[i] <= other.high[i]) & (other.low[i] <= high[i]);
+      num_overlapping += static_cast<int>(low[i] <= other.high[i]);
+      num_overlapping += static_cast<int>(other.low[i] <= high[i]);
     }
-    return is_overlapping;
+    return num_overlapping == 6;
   }
   void include(const SpaceBox& other) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -192,7 +192,7 @@ CrossingConstraints::CrossingConstraints(Index first, Index second, const LonLat
 
 CrossingConstraints::~CrossingConstraints() = default;
 
-ConstrainedTriangulation constrained_delaunay(Sites sites,
+ConstrainedTriangulation constrained_delaunay(const Sites& sites,
                                               std::span<const std::array<Index, 2>> constraints,
                                               const ConstrainedOptions& options,
                                               const Execution& execution) {

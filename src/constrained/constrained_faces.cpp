@@ -217,8 +217,8 @@ void ConstrainedFaces::constrain(Index h) {
   sides_[face_of(g)] = static_cast<std::uint8_t>(sides_[face_of(g)] | 1U << edge_of(g));
 }
 
-// Finds the first step of the arc from a to b, or of that from b to a, and exchanges the ends in that
-// case. Both are looked for at once, as only one end may have few faces.
+// Finds the first step of the arc from a to b, or of that from b to a, and exchanges the ends in
+// that case. Both are looked for at once, as only one end may have few faces.
 ConstrainedFaces::Departure ConstrainedFaces::departure(Index& a, Index& b) const {
   Fan fan(*this, a, b);
   Fan other(*this, b, a);
@@ -328,8 +328,8 @@ Index ConstrainedFaces::add_face(Index a, Index b, Index c) {
   return face;
 }
 
-// Returns the vertex of a polygon, by its place in the chain, that makes with the base a face without
-// any other vertex of the polygon inside its circle.
+// Returns the vertex of a polygon, by its place in the chain, that makes with the base a face
+// without any other vertex of the polygon inside its circle.
 Index ConstrainedFaces::apex_of(const Polygon& polygon, Index first, Index last) const {
   const std::vector<Index>& chain = polygon.vertices;
   Index apex = first + 1;

@@ -40,9 +40,9 @@ class ConstrainedFaces {
   ConstrainedFaces(std::span<const Point> sites, api::Parts& built, const Sphere& sphere,
                    unsigned threads);
 
-  // Inserts the arc of a constraint between two vertices, not opposite to each other, and appends the
-  // pieces of it, by names. If it crosses a constraint, some pieces are appended, and an edge of that
-  // constraint is returned, by names; then nothing may be inserted any more.
+  // Inserts the arc of a constraint between two vertices, not opposite to each other, and appends
+  // the pieces of it, by names. If it crosses a constraint, some pieces are appended, and an edge
+  // of that constraint is returned, by names; then nothing may be inserted any more.
   std::optional<std::array<Index, 2>> insert(const ConstrainedPiece& arc,
                                              std::vector<ConstrainedPiece>& pieces);
 

@@ -16,8 +16,8 @@
 
 namespace rondel::constrained {
 
-// Writes faces, neighbors and constrained sides, and renumbers the ghost faces. The arrays are those
-// that the faces were taken from.
+// Writes faces, neighbors and constrained sides, and renumbers the ghost faces. The arrays are
+// those that the faces were taken from.
 void write_in_order(ConstrainedFaces& all, unsigned threads, TriangulationArrays& arrays,
                     std::vector<std::uint8_t>& sides);
 

@@ -49,7 +49,8 @@ class NamedSites {
   std::vector<Index> speakers_;  // by name; empty: there are no duplicates
 };
 
-// Throws InvalidInput with the position of the first constraint that has no arc. The sites are valid.
+// Throws InvalidInput with the position of the first constraint that has no arc. The sites are
+// valid.
 void require_arcs(std::span<const Point> sites, std::span<const std::array<Index, 2>> constraints,
                   const Sphere& sphere);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Steps: find the direction of each constraint along its edges, and the faces on both sides of each
-// edge; then, for each polygon, go from the faces on the left of its sides to all that can be reached
-// without a crossing of its sides.
+// edge; then, for each polygon, go from the faces on the left of its sides to all that can be
+// reached without a crossing of its sides.
 #include <algorithm>
 #include <string>
 #include <utility>

@@ -93,11 +93,13 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> dra
 }  // namespace
 
 void add_geometries(nb::module_& module) {
-  using Rows = CompressedRows<Point>;
+  using PointRows = CompressedRows<Point>;
   nb::class_<Geometries> made(module, "Geometries");
   add_array<std::int64_t, &Geometries::lines, &FeatureLines::offsets>(made, "line_groups");
-  add_array<std::int64_t, &Geometries::lines, &FeatureLines::rows, &Rows::offsets>(made, "lines");
-  add_array<double, &Geometries::lines, &FeatureLines::rows, &Rows::values>(made, "line_points");
+  add_array<std::int64_t, &Geometries::lines, &FeatureLines::rows, &PointRows::offsets>(made,
+                                                                                        "lines");
+  add_array<double, &Geometries::lines, &FeatureLines::rows, &PointRows::values>(made,
+                                                                                 "line_points");
   made.def(nb::init<>())
       .def_rw("polygons", &Geometries::polygons)
       .def("line_lengths",

@@ -18,9 +18,10 @@ lonlat_grid, polygons
     Cells for it: a grid of the whole sphere, and polygons of files and libraries.
 overlay, intersection, union, union_all, difference, symmetric_difference
     Set operations on points, lines and polygons, with the names of GeoPandas and shapely.
-relate, intersects, disjoint, contains, within, covers, covered_by, touches, crosses, overlaps,
-equals
+relate, relate_pattern
     How geometries lie to each other.
+intersects, disjoint, contains, within, covers, covered_by, touches, crosses, overlaps, equals
+    Questions about that.
 buffer
     The places within a distance of points, lines and polygons.
 simplify
