@@ -77,7 +77,8 @@ TEST(constrained_errors, split_needs_unit_vectors) {
 
 // Of a square around a pole the diagonal that the Delaunay triangulation does not have.
 Ends other_diagonal(const std::vector<Point>& sites) {
-  for (const Triple& face : delaunay(sites).faces()) {
+  const Triangulation triangulation = delaunay(sites);
+  for (const Triple& face : triangulation.faces()) {
     if (std::ranges::find(face, 4U) == face.end()) {
       for (const Ends& ends : {Ends{0, 2}, Ends{1, 3}}) {
         if (std::ranges::find(face, ends[0]) == face.end() ||
