@@ -117,7 +117,6 @@ ExitStatus run_relate(const RelateOptions& options) {
   Job job(common);
   std::vector<FeatureTable> tables;
   std::vector<RelatedPair> pairs;
-  std::string rows;
   job.time(Stage::dual, [&] {
     std::vector<FileName> files = {common.source_beside(options.second)};
     if (!options.is_one_file()) files.push_back(common.other_source(options.second));

@@ -15,15 +15,6 @@
 #include "rondel/read_cells.h"
 
 namespace rondel::mesh {
-namespace {
-
-// True if the file has features, by its format or its ending; other files have sites.
-bool is_geojson(const FileName& file) {
-  const std::string ending = io::ending(file);
-  return ending == ".geojson" || ending == ".json";
-}
-
-}  // namespace
 
 std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOptions& options,
                                            const Execution& execution) {
@@ -37,7 +28,7 @@ std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOp
 std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonOptions& options,
                                             const Execution& execution) {
   std::vector<std::vector<Point>> lines;
-  if (is_geojson(file)) {
+  if (io::is_geojson(file)) {
     lines = meshing::outlines_of(read_features(file, options, execution));
   } else {
     const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table

@@ -42,12 +42,6 @@ constexpr const char* no_features = "there are no features";
 // The name of features in memory, which messages leave out.
 constexpr std::string_view in_memory_name = "polygons";
 
-// True if a file has features, by its format or its ending; other files have sites.
-bool is_geojson(const FileName& file) {
-  const std::string ending = io::ending(file);
-  return ending == ".geojson" || ending == ".json";
-}
-
 // Returns the sites of a file as points. Throws FileError for a site without a direction.
 map::PolygonFeatures features_of_sites(const FileName& file, std::vector<std::string>& remarks,
                                        const Execution& execution) {
@@ -355,8 +349,8 @@ std::vector<FeatureTable> read_features_together(std::span<const FileName> files
   std::vector<std::vector<std::string>> remarks(files.size());
   sets.reserve(files.size());
   for (std::size_t k = 0; k < files.size(); ++k) {
-    sets.push_back(is_geojson(files[k]) ? features_of(files[k], io::FeatureKinds::all, options)
-                                        : features_of_sites(files[k], remarks[k], execution));
+    sets.push_back(io::is_geojson(files[k]) ? features_of(files[k], io::FeatureKinds::all, options)
+                                            : features_of_sites(files[k], remarks[k], execution));
   }
   std::vector<FeatureTable> tables = tables_of(std::move(sets), options, execution);
   for (std::size_t k = 0; k < tables.size(); ++k) {

@@ -23,6 +23,12 @@ namespace rondel::io {
 // of a folder, do not count.
 std::string ending(const FileName& file);
 
+// True if a file has features of GeoJSON, by its format or its ending.
+inline bool is_geojson(const FileName& file) {
+  const std::string text = ending(file);
+  return text == ".geojson" || text == ".json";
+}
+
 // The endings of netCDF files, including those of UGRID, Exodus and HDF5.
 inline constexpr std::array<std::string_view, 9> netcdf_endings = {
     ".nc", ".nc4", ".cdf", ".ncf", ".ug", ".exo", ".e", ".g", ".h5"};
