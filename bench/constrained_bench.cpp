@@ -59,8 +59,9 @@ bool do_cross(const std::vector<Point>& sites, const Edge& e, const Edge& f) {
 
 // The sites are in random order, so that those that follow each other in a square are random ones.
 std::vector<Edge> random_constraints(const std::vector<Point>& sites, std::size_t wanted) {
-  constexpr std::size_t each = 4;
-  const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(wanted / each) / 6));
+  constexpr unsigned each = 4;
+  const auto squares = static_cast<double>(wanted) / each / 6;  // on a face
+  const auto side = static_cast<std::size_t>(std::sqrt(squares));
   std::vector<std::vector<Index>> in_square(6 * side * side);
   for (Index i = 0; i < sites.size(); ++i) in_square[square_of(sites[i], side)].push_back(i);
   std::vector<Edge> constraints;
