@@ -40,6 +40,18 @@ constexpr double longest_front = 1.2;
 constexpr double closest = 0x1p-46;
 
 double square(double x) { return x * x; }
+
+// Returns the chord from one unit vector to another one. Where that is short, the radial part of the
+// difference is mostly rounding, which would turn planes of small triangles: what the sphere has
+// there is taken for it.
+Vector chord(const Vector& from, const Vector& to) {
+  const Vector difference = to - from;
+  const double length2 = dot(difference, difference);
+  if (length2 > 0.01) return difference;
+  const Vector tangent = difference - dot(difference, from) * from;
+  const double sine2 = dot(tangent, tangent);
+  return tangent - sine2 / (1 + std::sqrt(1 - sine2)) * from;
+}
 double square_of_distance(const Vector& a, const Vector& b) { return dot(a - b, a - b); }
 
 // First in, first out.
@@ -80,7 +92,7 @@ class Refinement {
     for (Index v = 0; v < faces_.num_vertices(); ++v) {
       wishes_.push_back(wish_at(faces_.point(v)));
     }
-    mark_small_angles(given);
+    mark_small_angles();
     for (Index f = 0; f < faces_.faces().size(); ++f) {
       for (unsigned i = 0; i < 3; ++i) {
         if (is_asked_for(f)) long_segments_.push_back(halfedge(f, i));
@@ -138,13 +150,17 @@ class Refinement {
     for (const Index f : faces_.changed()) await(f);
   }
 
-  // Marks the given vertices at which two constrained edges meet at less than 60 degrees.
-  void mark_small_angles(const ConstrainedTriangulation& given) {
+  // Marks the given vertices at which two segments meet at less than 60 degrees.
+  void mark_small_angles() {
     has_small_angle_.assign(faces_.num_vertices(), false);
     std::vector<std::array<Index, 2>> ends;
-    for (const auto& [a, b] : given.edges) {
-      ends.push_back({a, b});
-      ends.push_back({b, a});
+    for (Index f = 0; f < faces_.faces().size(); ++f) {
+      for (unsigned i = 0; i < 3; ++i) {
+        if (faces_.face(f).segment[i] == no_index) continue;
+        const Index h = halfedge(f, i);
+        ends.push_back({faces_.from(h), faces_.to(h)});
+        if (faces_.face(f).opposite[i] == no_index) ends.push_back({faces_.to(h), faces_.from(h)});
+      }
     }
     std::ranges::sort(ends);
     constexpr std::size_t full_turn = 6;
@@ -178,7 +194,7 @@ class Refinement {
     for (unsigned i = 1; i < 3; ++i) {
       if (shape.squares[i] < shape.squares[shape.shortest]) shape.shortest = i;
     }
-    shape.normal = cross(q - p, r - p);
+    shape.normal = cross(chord(p, q), chord(p, r));
     shape.square_of_radius = shape.squares[0] * shape.squares[1] * shape.squares[2] /
                              (4 * dot(shape.normal, shape.normal));
     shape.wish = std::min({wishes_[a], wishes_[b], wishes_[c]});
@@ -272,19 +288,21 @@ class Refinement {
     way_.assign(1, h);
     const Index beyond = faces_.face(face_of(h)).opposite[edge_of(h)];
     if (beyond != no_index) way_.push_back(beyond);
-    while (!way_.empty()) {
-      const Index entered = way_.back();
-      way_.pop_back();
-      const Index apex = faces_.apex(entered);
-      if (!is_asked_for(face_of(entered))) continue;
+    for (std::size_t k = 0; k < way_.size(); ++k) {
+      const Index f = face_of(way_[k]);
+      if (!is_asked_for(f)) continue;
+      const Index apex = faces_.apex(way_[k]);
       const bool is_inside = square_of_distance(faces_.direction(apex), middle) < radius2;
-      if (is_inside && faces_.kind(apex) == Kind::free) return {{apex, face_of(entered)}};
-      for (const unsigned i :
-           {topology::next_corner[edge_of(entered)], topology::previous_corner[edge_of(entered)]}) {
-        const Index leaving = halfedge(face_of(entered), i);
-        const Index next = faces_.face(face_of(entered)).opposite[i];
-        if (next == no_index || faces_.face(face_of(entered)).segment[i] != no_index) continue;
-        if (is_near(leaving, middle, radius2)) way_.push_back(next);
+      if (is_inside && faces_.kind(apex) == Kind::free) return {{apex, f}};
+      for (const unsigned i : {topology::next_corner[edge_of(way_[k])],
+                               topology::previous_corner[edge_of(way_[k])]}) {
+        const Index next = faces_.face(f).opposite[i];
+        if (faces_.face(f).segment[i] != no_index || !is_near(halfedge(f, i), middle, radius2)) {
+          continue;
+        }
+        const bool is_known = std::ranges::any_of(
+            way_, [&](Index other) { return face_of(other) == face_of(next); });
+        if (!is_known) way_.push_back(next);
       }
     }
     return {};

@@ -161,7 +161,7 @@ std::optional<Index> RefinedFaces::insert(Index face, const predicates::Vector& 
   const Index v = add_vertex(point, Kind::free);
   if (zeros == 1) {
     divide_faces(halfedge(face, on), v);
-    legalize();
+    legalize(false);
     return v;
   }
   const RefinedFace old = faces_[face];
@@ -179,7 +179,7 @@ std::optional<Index> RefinedFaces::insert(Index face, const predicates::Vector& 
     to_test_.push_back(halfedge(parts[i], i));
     changed_.push_back(parts[i]);
   }
-  legalize();
+  legalize(true);
   return v;
 }
 
@@ -241,7 +241,7 @@ std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& poi
       if (is_second) faces_[f].segment[i] = added;
     }
   }
-  legalize();
+  legalize(false);
   return v;
 }
 
@@ -276,8 +276,9 @@ void RefinedFaces::flip(Index h) {
   link(halfedge(f, bc), halfedge(k, ad));
 }
 
-// Flips free edges until each is locally Delaunay.
-void RefinedFaces::legalize() {
+// Flips free edges until each is locally Delaunay. In a star all edges that may not be are opposite
+// to one vertex, and remain so.
+void RefinedFaces::legalize(bool is_star) {
   while (!to_test_.empty()) {
     const Index h = to_test_.back();
     to_test_.pop_back();
@@ -290,11 +291,11 @@ void RefinedFaces::legalize() {
     const Index k = face_of(g);
     changed_.push_back(f);
     changed_.push_back(k);
-    for (unsigned j = 0; j < 3; ++j) {
-      if (halfedge(f, j) != halfedge(f, topology::next_corner[i]))
-        to_test_.push_back(halfedge(f, j));
-      if (j != topology::next_corner[edge_of(g)]) to_test_.push_back(halfedge(k, j));
-    }
+    to_test_.push_back(halfedge(f, i));
+    to_test_.push_back(halfedge(k, topology::previous_corner[edge_of(g)]));
+    if (is_star) continue;
+    to_test_.push_back(halfedge(f, topology::previous_corner[i]));
+    to_test_.push_back(halfedge(k, edge_of(g)));
   }
 }
 
@@ -359,7 +360,7 @@ void RefinedFaces::remove(Index vertex, Index face) {
   }
   changed_.push_back(f);
   for (unsigned j = 0; j < 3; ++j) to_test_.push_back(halfedge(f, j));
-  legalize();
+  legalize(false);
 }
 
 }  // namespace rondel::mesh

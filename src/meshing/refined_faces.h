@@ -96,7 +96,7 @@ class RefinedFaces {
   void link(Index h, Index g);
   void take_edge(Index h, Index old);
   void flip(Index h);
-  void legalize();
+  void legalize(bool is_star);
   void divide_faces(Index h, Index v);
 
   std::vector<Point> points_;
