@@ -16,15 +16,14 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "job.h"
 #include "report.h"
 #include "rondel/constrained.h"
+#include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
 #include "rondel/geometries.h"
 #include "rondel/some_triangles.h"
@@ -46,55 +45,8 @@ struct Plan {
   SiteTable table;
   std::vector<std::array<Index, 2>> constraints;
   std::vector<std::string> places;  // of each constraint, for messages: "coast.geojson: feature 3"
-  CompressedRows<Index> polygons;   // the sides of each, which are constraints
-  std::vector<std::string> names;   // of each polygon, for messages
-};
-
-// Collects the places of features, each of which becomes one site.
-class PlanOfFeatures {
- public:
-  explicit PlanOfFeatures(Plan& plan) : plan_(plan) {}
-
-  void add_line(std::span<const Point> points, const std::string& place) {
-    std::vector<Index> sites;
-    for (const Point& point : points) sites.push_back(site_at(point));
-    for (std::size_t k = 1; k < sites.size(); ++k) add_side(sites[k - 1], sites[k], place);
-  }
-  void add_polygon(const CellRings& polygons, std::size_t cell, const std::string& place) {
-    for (std::uint64_t r = polygons.cells[cell]; r < polygons.cells[cell + 1]; ++r) {
-      const std::span<const Index> ring = polygons.corners_of(r);
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const Index from = site_at(polygons.points[ring[k]]);
-        const Index to = site_at(polygons.points[ring[(k + 1) % ring.size()]]);
-        if (from == to) continue;
-        plan_.polygons.values.push_back(static_cast<Index>(plan_.constraints.size()));
-        add_side(from, to, place);
-      }
-    }
-    plan_.polygons.end_row();
-    plan_.names.push_back(place);
-  }
-
- private:
-  using Place = std::tuple<double, double, double>;
-
-  Index site_at(const Point& point) {
-    const Place place(point.x, point.y, point.z);
-    const auto found = sites_.lower_bound({place, 0});
-    if (found != sites_.end() && found->first == place) return found->second;
-    const auto site = static_cast<Index>(plan_.table.sites.size());
-    sites_.insert(found, {place, site});
-    plan_.table.sites.push_back(point);
-    return site;
-  }
-  void add_side(Index from, Index to, const std::string& place) {
-    if (from == to) return;
-    plan_.constraints.push_back({from, to});
-    plan_.places.push_back(place);
-  }
-
-  Plan& plan_;
-  std::set<std::pair<Place, Index>> sites_;
+  CompressedRows<Index> polygons;   // the sides of each feature's, which are constraints
+  std::vector<std::string> names;   // of each feature, for messages
 };
 
 // Reads features. Throws FileError.
@@ -105,19 +57,21 @@ Plan plan_of_features(const TriangulateOptions& options, const Execution& execut
   tell(features.facts.name, features.facts.remarks);
   Plan plan;
   plan.table.name = features.facts.name;
-  PlanOfFeatures all(plan);
-  for (std::size_t f = 0; f < features.lines.size(); ++f) {
-    const std::string place = features.facts.name + ": feature " + std::to_string(f);
-    if (features.polygons.is_whole(f)) {
-      throw FileError(place + " is the whole sphere, which has no sides");
-    }
-    for (std::uint64_t i = features.lines.offsets[f]; i < features.lines.offsets[f + 1]; ++i) {
-      all.add_line(features.lines.rows[i], place);
-    }
-    const bool has_rings = features.polygons.cells[f] < features.polygons.cells[f + 1];
-    if (has_rings) all.add_polygon(features.polygons, f, place);
+  const auto place = [&](std::size_t f) {
+    return plan.table.name + ": feature " + std::to_string(f);
+  };
+  FeatureConstraints made;
+  try {
+    made = constraints_of_features(features.lines, features.polygons);
+  } catch (const InvalidInput& error) {
+    throw FileError(plan.table.name + ": " + error.what());
   }
+  for (const Index feature : made.features) plan.places.push_back(place(feature));
+  for (std::size_t f = 0; f < made.polygons.size(); ++f) plan.names.push_back(place(f));
+  plan.table.sites = std::move(made.sites);
   plan.table.positions = lonlats(plan.table.sites);
+  plan.constraints = std::move(made.constraints);
+  plan.polygons = std::move(made.polygons);
   return plan;
 }
 
@@ -251,7 +205,7 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
   require_input(options);
   Job job(options.common);
   Plan plan = plan_of(options, job);
-  if (options.is_inside && plan.polygons.size() == 0) {
+  if (options.is_inside && plan.polygons.values.empty()) {
     throw FileError(plan.table.name + ": there are no polygons, in which --inside wants the faces");
   }
   const std::size_t num_given = plan.table.sites.size();

@@ -7,6 +7,7 @@
 #include <string>
 #include <system_error>
 
+#include "rondel/constrained.h"
 #include "rondel/distributed.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
@@ -22,6 +23,16 @@ void raise_invalid_input(const rondel::InvalidInput& error) {
   const bool has_index = error.index() != rondel::InvalidInput::no_index;
   const nb::object value =
       type(error.what(), has_index ? nb::object(nb::int_(error.index())) : nb::none());
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+// Raises rondel.CrossingConstraints(message, constraints, place), which is an InvalidInput.
+void raise_crossing_constraints(const rondel::CrossingConstraints& error) {
+  const nb::object type = nb::module_::import_("rondel._errors").attr("CrossingConstraints");
+  const auto [first, second] = error.constraints();
+  const rondel::LonLat& place = error.place();
+  const nb::object value = type(error.what(), nb::make_tuple(first, second),
+                                nb::make_tuple(place.lon_deg, place.lat_deg));
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
@@ -51,6 +62,8 @@ void raise_distributed_error(const rondel::DistributedError& error) {
 void translate(const std::exception_ptr& pointer, void* /*payload*/) {
   try {
     std::rethrow_exception(pointer);
+  } catch (const rondel::CrossingConstraints& error) {
+    raise_crossing_constraints(error);
   } catch (const rondel::InvalidInput& error) {
     raise_invalid_input(error);
   } catch (const rondel::FileError& error) {
@@ -95,5 +108,6 @@ NB_MODULE(_core, module) {
   rondel::python::add_polygons(module);
   rondel::python::add_regions(module);
   rondel::python::add_geometries(module);
+  rondel::python::add_constrained(module);
   rondel::python::add_weight_files(module);
 }

@@ -19,6 +19,7 @@ void add_diagram(nanobind::module_& module);
 void add_query(nanobind::module_& module);
 void add_arrow(nanobind::module_& module);
 void add_cell_set(nanobind::module_& module);
+void add_constrained(nanobind::module_& module);
 void add_contours(nanobind::module_& module);
 void add_conventions(nanobind::module_& module);
 void add_dynamic(nanobind::module_& module);

@@ -8,6 +8,8 @@ delaunay, delaunay_lonlat
     Triangulate points, or longitudes and latitudes.
 power_diagram
     The cells of circles.
+constrained_delaunay, check_constrained
+    Triangulations with given edges, and the proof of one.
 convex_hull
     The hull of any points in space.
 feature_cells
@@ -50,7 +52,7 @@ Classes
 -------
 SphericalVoronoi
     In place of `scipy.spatial.SphericalVoronoi`.
-SphericalDelaunay, PowerDiagram, ConvexHull
+SphericalDelaunay, ConstrainedDelaunay, PowerDiagram, ConvexHull
     Results.
 DynamicTriangulation
     Sites that come, go and move.
@@ -83,11 +85,12 @@ from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._buffer import buffer
 from ._cell_set import CellSet
 from ._cells import lonlat_grid, polygons
+from ._constrained import ConstrainedDelaunay, check_constrained, constrained_delaunay
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
-from ._errors import FileError, InvalidInput
+from ._errors import CrossingConstraints, FileError, InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
@@ -141,7 +144,9 @@ __all__ = [
     "CellSet",
     "Cells",
     "CheckReport",
+    "ConstrainedDelaunay",
     "ConvexHull",
+    "CrossingConstraints",
     "DynamicTriangulation",
     "FileError",
     "InvalidInput",
@@ -161,6 +166,8 @@ __all__ = [
     "Where",
     "area",
     "buffer",
+    "check_constrained",
+    "constrained_delaunay",
     "contains",
     "convex_hull",
     "covered_by",

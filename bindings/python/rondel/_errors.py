@@ -7,7 +7,7 @@ from __future__ import annotations
 import inspect
 import warnings
 
-__all__ = ["DistributedError", "FileError", "InvalidInput"]
+__all__ = ["CrossingConstraints", "DistributedError", "FileError", "InvalidInput"]
 
 
 class InvalidInput(ValueError):
@@ -27,6 +27,27 @@ class InvalidInput(ValueError):
 
     def __str__(self) -> str:
         return str(self.args[0])
+
+
+class CrossingConstraints(InvalidInput):
+    """Two constraints cross in the inside of both.
+
+    Attributes
+    ----------
+    constraints : tuple of int
+        The positions of both constraints, ascending. `index` is the larger one.
+    place : tuple of float
+        Longitude and latitude of the crossing in degrees, up to rounding.
+
+    """
+
+    def __init__(
+        self, message: str, constraints: tuple[int, int], place: tuple[float, float]
+    ) -> None:
+        super().__init__(message, constraints[1])
+        self.args = (message, constraints, place)
+        self.constraints = constraints
+        self.place = place
 
 
 class FileError(OSError, ValueError):

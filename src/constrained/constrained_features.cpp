@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Steps: list the chains of all features one after the other, number their places by sorting them,
+// and make a constraint of each arc.
+#include "rondel/constrained_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <string>
+#include <tuple>
+
+#include "arrangement/arc_checks.h"
+#include "arrangement/ring_arrays.h"
+#include "rondel/error.h"
+
+namespace rondel {
+namespace constrained {
+namespace {
+
+// A line, or a ring, whose last corner is joined to its first one.
+struct Chain {
+  Index feature;
+  bool is_ring;
+};
+
+// The lines and rings of features.
+struct Chains {
+  CompressedRows<Point> points;
+  std::vector<Chain> kinds;  // of each row
+
+  void append(const Point& point, std::size_t feature) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
+      throw InvalidInput("feature " + std::to_string(feature) + " has a point that is not finite",
+                         feature);
+    }
+    points.values.push_back(point);
+  }
+  void end_chain(std::size_t feature, bool is_ring) {
+    points.end_row();
+    kinds.push_back({static_cast<Index>(feature), is_ring});
+  }
+};
+
+Chains chains_of(const FeatureLines& lines, const CellRings& polygons) {
+  Chains chains;
+  for (std::size_t f = 0; f < lines.size(); ++f) {
+    for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
+      for (const Point& point : lines.rows[i]) chains.append(point, f);
+      chains.end_chain(f, false);
+    }
+    for (std::uint64_t r = polygons.cells[f]; r < polygons.cells[f + 1]; ++r) {
+      for (const Index corner : polygons.corners_of(r)) {
+        chains.append(polygons.points[corner], f);
+      }
+      chains.end_chain(f, true);
+    }
+  }
+  return chains;
+}
+
+// Lists each place once, in the order in which it occurs first. Returns the number of each point.
+std::vector<Index> numbers_of(std::span<const Point> points, std::vector<Point>& places) {
+  if (points.size() > max_sites) throw InvalidInput("features have too many places");
+  const auto key = [&](Index i) { return std::tie(points[i].x, points[i].y, points[i].z); };
+  std::vector<Index> order(points.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::sort(order,
+                    [&](Index i, Index j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
+  std::vector<Index> first(points.size());  // the first point in the same place
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool is_new = k == 0 || key(order[k - 1]) != key(order[k]);
+    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
+  }
+  std::vector<Index> numbers(points.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    if (first[i] == i) places.push_back(points[i]);
+    numbers[i] = first[i] == i ? static_cast<Index>(places.size() - 1) : numbers[first[i]];
+  }
+  return numbers;
+}
+
+void require_fit(const FeatureLines& lines, const CellRings& polygons) {
+  arrangement::validate_rows(lines);
+  arrangement::validate_rings(polygons);
+  if (lines.size() != polygons.num_cells()) {
+    throw InvalidInput("there are not as many cells as groups of lines");
+  }
+  if (polygons.whole.empty()) return;
+  const Index feature = polygons.whole.front();
+  throw InvalidInput(
+      "feature " + std::to_string(feature) + " is the whole sphere, which has no sides", feature);
+}
+
+}  // namespace
+}  // namespace constrained
+
+FeatureConstraints constraints_of_features(const FeatureLines& lines, const CellRings& polygons) {
+  constrained::require_fit(lines, polygons);
+  const constrained::Chains chains = constrained::chains_of(lines, polygons);
+  FeatureConstraints made;
+  const std::vector<Index> numbers = constrained::numbers_of(chains.points.values, made.sites);
+  for (std::size_t c = 0; c < chains.kinds.size(); ++c) {
+    const auto [feature, is_ring] = chains.kinds[c];
+    while (made.polygons.size() < feature) made.polygons.end_row();
+    const std::uint64_t begin = chains.points.offsets[c];
+    const std::uint64_t end = chains.points.offsets[c + 1];
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const bool is_last = k + 1 == end;
+      const Index from = numbers[k];
+      const Index to = numbers[is_last ? begin : k + 1];
+      if (from == to || (is_last && !is_ring)) continue;
+      if (is_ring) made.polygons.values.push_back(static_cast<Index>(made.constraints.size()));
+      made.constraints.push_back({from, to});
+      made.features.push_back(feature);
+    }
+  }
+  while (made.polygons.size() < lines.size()) made.polygons.end_row();
+  return made;
+}
+
+}  // namespace rondel
