@@ -23,15 +23,15 @@ namespace constrained {
 namespace {
 
 // A line, or a ring, whose last corner is joined to its first one.
-struct Chain {
+struct ChainKind {
   Index feature;
   bool is_ring;
 };
 
 // The lines and rings of features.
-struct Chains {
+struct FeatureChains {
   CompressedRows<Point> points;
-  std::vector<Chain> kinds;  // of each row
+  std::vector<ChainKind> kinds;  // of each row
 
   void append(const Point& point, std::size_t feature) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
@@ -46,8 +46,8 @@ struct Chains {
   }
 };
 
-Chains chains_of(const FeatureLines& lines, const CellRings& polygons) {
-  Chains chains;
+FeatureChains chains_of(const FeatureLines& lines, const CellRings& polygons) {
+  FeatureChains chains;
   for (std::size_t f = 0; f < lines.size(); ++f) {
     for (std::uint64_t i = lines.offsets[f]; i < lines.offsets[f + 1]; ++i) {
       for (const Point& point : lines.rows[i]) chains.append(point, f);
@@ -101,7 +101,7 @@ void require_fit(const FeatureLines& lines, const CellRings& polygons) {
 
 FeatureConstraints constraints_of_features(const FeatureLines& lines, const CellRings& polygons) {
   constrained::require_fit(lines, polygons);
-  const constrained::Chains chains = constrained::chains_of(lines, polygons);
+  const constrained::FeatureChains chains = constrained::chains_of(lines, polygons);
   FeatureConstraints made;
   const std::vector<Index> numbers = constrained::numbers_of(chains.points.values, made.sites);
   for (std::size_t c = 0; c < chains.kinds.size(); ++c) {
