@@ -6,12 +6,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "fuzz/fuzz_input.h"
 #include "rondel/constrained.h"
+#include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
 
 namespace rondel::fuzz {
@@ -101,6 +103,34 @@ void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constr
   }
 }
 
+// A ring has the sides of the line along it, and one more if its ends are apart.
+void test_features(const std::vector<Point>& points) {
+  FeatureLines lines;
+  lines.rows.append(points);
+  lines.end_group();
+  lines.end_group();
+  CellRings polygons;
+  polygons.points = points;
+  polygons.end_cell();
+  std::vector<Index> ring(points.size());
+  std::iota(ring.begin(), ring.end(), Index{0});
+  polygons.append_ring(ring);
+  polygons.end_cell();
+  const FeatureConstraints made = constraints_of_features(lines, polygons);
+  const auto of_line = std::ranges::count(made.features, Index{0});
+  const auto of_ring = static_cast<std::ptrdiff_t>(made.polygons.values.size());
+  require(made.features.size() == made.constraints.size() && made.polygons.size() == 2 &&
+              static_cast<std::ptrdiff_t>(made.features.size()) == of_line + of_ring,
+          "constraints belong to features");
+  require(of_ring == of_line || of_ring == of_line + 1, "a ring closes");
+  for (const auto& [a, b] : made.constraints) {
+    require(a != b && a < made.sites.size() && b < made.sites.size(), "constraints join sites");
+  }
+  for (const Point& p : made.sites) {
+    require(std::ranges::count(made.sites, p) == 1, "each place is one site");
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -123,5 +153,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Point& p : sites) positions.push_back(lonlats(std::span(&p, 1))[0]);
   std::erase_if(positions, [](const LonLat& p) { return !(p.lat_deg <= 90); });
   fuzz::test_split(unit_vectors(positions), constraints);
+  fuzz::test_features(unit_vectors(positions));
   return 0;
 }
