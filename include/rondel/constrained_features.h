@@ -36,7 +36,8 @@ struct FeatureConstraints {
 /// \param lines  group i has the lines and the points of feature i
 /// \param polygons  cell i has the polygons of feature i
 /// \throws InvalidInput if offsets do not fit or the numbers of groups and cells differ; (the
-///         feature) if a point is not finite, or a polygon is the whole sphere, which has no sides
+///         feature) if a line has no point, a point is not finite, or a polygon is the whole sphere,
+///         which has no sides
 RONDEL_API FeatureConstraints constraints_of_features(const FeatureLines& lines,
                                                       const CellRings& polygons);
 

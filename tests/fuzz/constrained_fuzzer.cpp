@@ -105,6 +105,7 @@ void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constr
 
 // A ring has the sides of the line along it, and one more if its ends are apart.
 void test_features(const std::vector<Point>& points) {
+  if (points.empty()) return;
   FeatureLines lines;
   lines.rows.append(points);
   lines.end_group();
