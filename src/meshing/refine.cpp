@@ -294,14 +294,14 @@ class Refinement {
       const Index apex = faces_.apex(way_[k]);
       const bool is_inside = square_of_distance(faces_.direction(apex), middle) < radius2;
       if (is_inside && faces_.kind(apex) == Kind::free) return {{apex, f}};
-      for (const unsigned i : {topology::next_corner[edge_of(way_[k])],
-                               topology::previous_corner[edge_of(way_[k])]}) {
+      for (const unsigned i :
+           {topology::next_corner[edge_of(way_[k])], topology::previous_corner[edge_of(way_[k])]}) {
         const Index next = faces_.face(f).opposite[i];
         if (faces_.face(f).segment[i] != no_index || !is_near(halfedge(f, i), middle, radius2)) {
           continue;
         }
-        const bool is_known = std::ranges::any_of(
-            way_, [&](Index other) { return face_of(other) == face_of(next); });
+        const bool is_known =
+            std::ranges::any_of(way_, [&](Index other) { return face_of(other) == face_of(next); });
         if (!is_known) way_.push_back(next);
       }
     }

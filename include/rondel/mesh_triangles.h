@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Meshes of triangles between coasts (target rondel::geo).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/geometries.h"
+#include "rondel/mesh_refine.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+/// The part of the sphere that a mesh covers, and lines that its edges follow. Straight lines in
+/// longitude and latitude become arcs by read_features_together(), which takes all files at once.
+struct MeshDomain {
+  Geometries coast;  ///< polygons of land, which the mesh leaves out; lines are edges of the mesh
+  Geometries area;   ///< polygons inside of which the mesh is; none: everywhere
+  Geometries lines;  ///< lines, points and sides of polygons inside that are edges and nodes
+};
+
+/// What an edge of RefinedMesh::edges follows.
+enum class FeatureOfEdge : std::uint8_t {
+  none,   ///< nothing: it is on the border of the mesh
+  coast,  ///< a coast, and perhaps others
+  area,   ///< the border of the area, and perhaps a line
+  line,   ///< a line
+};
+
+/// Returns the name of a value: "none", "coast" ...; empty for other numbers.
+RONDEL_API std::string_view name_of(FeatureOfEdge feature) noexcept;
+
+/// The settings of triangles().
+struct TrianglesOptions {
+  RefineOptions refine;
+  /// How far the coasts, borders and lines of the mesh may be from those given, in radians
+  /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
+  /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
+  std::optional<double> tolerance;
+};
+
+/// The result of triangles().
+struct DomainTriangles {
+  RefinedMesh mesh;                     ///< its `sites` and `sources` are empty
+  std::vector<FeatureOfEdge> features;  ///< of each of `mesh.edges`
+};
+
+/// Fills a part of the sphere with triangles whose edges follow its border: simplifies coasts,
+/// borders and lines; triangulates them (rondel/constrained.h), with nodes where they cross; and
+/// refines (rondel/mesh_refine.h).
+///
+/// Where the coasts leave an open hemisphere free and there is no area, corners of an icosahedron
+/// are nodes there.
+/// \throws InvalidInput as constraints_of_features() (the feature, counted over coast, area and
+///         lines), simplified(), constrained_delaunay() and refine(); if polygons of the coast or
+///         the area cross themselves such that nothing is on one side; and if nothing is left
+RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options = {},
+                                     const Execution& execution = {});
+
+}  // namespace rondel::mesh
