@@ -32,6 +32,11 @@ double in_turn(double angle, double whole) {
   return moved < whole ? moved : 0;
 }
 
+const mesh::VoronoiMesh& no_arrays() {
+  static const mesh::VoronoiMesh nothing;
+  return nothing;
+}
+
 }  // namespace
 
 // The function argument() gives the same bits on every machine, so that files have the same bytes.
@@ -48,6 +53,9 @@ double longitude_deg_of(const Point& p) {
 double latitude_deg_of(const Point& p) {
   return std::clamp(latitude_of(p) * (180 / std::numbers::pi), -90.0, 90.0);
 }
+
+MeshFile::MeshFile(io::AtomicFile& file, const Execution& execution)
+    : arrays_(no_arrays()), execution_(execution), out_(file) {}
 
 io::NetcdfVariable MeshFile::variable(const char* name, io::NetcdfType type,
                                       std::vector<std::size_t> dimensions, Texts texts) {

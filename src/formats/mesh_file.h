@@ -33,6 +33,8 @@ class MeshFile {
   // Begins a file with the values of `arrays`; nothing is written before write().
   MeshFile(io::AtomicFile& file, const mesh::VoronoiMesh& arrays, const Execution& execution)
       : arrays_(arrays), execution_(execution), out_(file) {}
+  // Begins a file of another mesh, for which arrays() is empty.
+  MeshFile(io::AtomicFile& file, const Execution& execution);
 
   // Returns the mesh.
   [[nodiscard]] const mesh::VoronoiMesh& arrays() const { return arrays_; }
@@ -178,6 +180,14 @@ class CellCorners {
 // The attributes of coordinates in degrees and of areas on the unit sphere.
 constexpr MeshFile::Texts texts_of_degrees = {{"units", "degrees"}};
 constexpr MeshFile::Texts texts_of_areas = {{"units", "radians^2"}};
+constexpr MeshFile::Texts texts_of_longitudes = {{"units", "degrees_east"},
+                                                 {"standard_name", "longitude"}};
+constexpr MeshFile::Texts texts_of_latitudes = {{"units", "degrees_north"},
+                                                {"standard_name", "latitude"}};
+
+// Returns a variable of UGRID with indices from 0. If `is_filled`, -1 stands for none.
+io::NetcdfVariable ugrid_indices(const char* name, const char* role,
+                                 std::vector<std::size_t> dimensions, bool is_filled);
 
 // Returns the area of a cell on the unit sphere.
 inline double area_at_one(const mesh::VoronoiMesh& arrays, std::size_t cell) {

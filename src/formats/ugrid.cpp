@@ -97,27 +97,13 @@ void require_on_faces(const NetcdfReader& file, const io::VariableInFile& topolo
 
 constexpr std::int32_t ugrid_none = -1;  // stands for no_index in 32 bits
 
-using UgridTexts = MeshFile::Texts;
-constexpr UgridTexts east = {{"units", "degrees_east"}, {"standard_name", "longitude"}};
-constexpr UgridTexts north = {{"units", "degrees_north"}, {"standard_name", "latitude"}};
-
 // Defines longitudes and latitudes in degrees of nodes, edges or faces.
 void define_places(MeshFile& file, const char* lon, const char* lat, std::size_t dimension,
                    const std::vector<Point>& points) {
-  file.numbers(lon, dimension, east, points.size(),
+  file.numbers(lon, dimension, texts_of_longitudes, points.size(),
                [&points](std::size_t i) { return longitude_deg_of(points[i]); });
-  file.numbers(lat, dimension, north, points.size(),
+  file.numbers(lat, dimension, texts_of_latitudes, points.size(),
                [&points](std::size_t i) { return latitude_deg_of(points[i]); });
-}
-
-// Returns a variable of indices. If `is_filled`, -1 stands for none.
-io::NetcdfVariable connectivity(const char* name, const char* role,
-                                std::vector<std::size_t> dimensions, bool is_filled) {
-  auto variable =
-      MeshFile::variable(name, io::NetcdfType::int32, std::move(dimensions), {{"cf_role", role}});
-  MeshFile::set(variable, "start_index", 0);
-  if (is_filled) MeshFile::set(variable, "_FillValue", ugrid_none);
-  return variable;
 }
 
 // Writes the entries of a ring for each of its edges that has a length, then fills the row. The
@@ -172,6 +158,15 @@ void define_pairs(MeshFile& file, io::NetcdfVariable variable, const std::vector
 }
 
 }  // namespace
+
+io::NetcdfVariable ugrid_indices(const char* name, const char* role,
+                                 std::vector<std::size_t> dimensions, bool is_filled) {
+  auto variable =
+      MeshFile::variable(name, io::NetcdfType::int32, std::move(dimensions), {{"cf_role", role}});
+  MeshFile::set(variable, "start_index", 0);
+  if (is_filled) MeshFile::set(variable, "_FillValue", ugrid_none);
+  return variable;
+}
 
 std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::string& name) {
   MeshContent mesh;
@@ -233,19 +228,19 @@ void define_ugrid(MeshFile& file, const CellCorners& corners) {
   define_places(file, "edge_lon", "edge_lat", edges, arrays.edge_points);
   define_places(file, "face_lon", "face_lat", faces, arrays.cell_points);
   define_face_list(file,
-                   connectivity("face_nodes", "face_node_connectivity", {faces, max_nodes}, true),
+                   ugrid_indices("face_nodes", "face_node_connectivity", {faces, max_nodes}, true),
                    corners, room, face_nodes);
-  define_pairs(file, connectivity("edge_nodes", "edge_node_connectivity", {edges, two}, false),
+  define_pairs(file, ugrid_indices("edge_nodes", "edge_node_connectivity", {edges, two}, false),
                arrays.vertices_on_edge);
   define_face_list(file,
-                   connectivity("face_edges", "face_edge_connectivity", {faces, max_nodes}, true),
+                   ugrid_indices("face_edges", "face_edge_connectivity", {faces, max_nodes}, true),
                    corners, room, face_edges);
   define_face_list(file,
-                   connectivity("face_faces", "face_face_connectivity", {faces, max_nodes}, true),
+                   ugrid_indices("face_faces", "face_face_connectivity", {faces, max_nodes}, true),
                    corners, room, face_faces);
   define_pairs(file,
-               connectivity("edge_faces", "edge_face_connectivity", {edges, two},
-                            meshing::has_border(arrays)),
+               ugrid_indices("edge_faces", "edge_face_connectivity", {edges, two},
+                             meshing::has_border(arrays)),
                arrays.cells_on_edge);
 }
 

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// read_triangle_mesh() and write_triangle_mesh() pick the format of a mesh of triangles.
+#include "rondel/triangle_files.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "formats/ocean_lines.h"
+#include "io/atomic_file.h"
+#include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "system/job.h"
+
+namespace rondel::mesh {
+namespace {
+
+// A format of text, by an ending or a name.
+struct OceanFormat {
+  std::string_view ending;
+  void (*write)(io::AtomicFile&, const formats::MeshOfFile&);
+  void (*read)(std::string_view, formats::MeshInFile&);
+};
+constexpr std::array<OceanFormat, 10> ocean_formats = {
+    {{".msh", &formats::write_gmsh4, &formats::read_gmsh},
+     {".14", &formats::write_gr3, &formats::read_gr3},
+     {".gr3", &formats::write_gr3, &formats::read_gr3},
+     {".ll", &formats::write_gr3, &formats::read_gr3},
+     {".2dm", &formats::write_2dm, &formats::read_2dm},
+     {".gmsh", &formats::write_gmsh4, &formats::read_gmsh},
+     {".gmsh2", &formats::write_gmsh2, &formats::read_gmsh},
+     {".adcirc", &formats::write_gr3, &formats::read_gr3},
+     {".schism", &formats::write_gr3, &formats::read_gr3},
+     {".sms", &formats::write_2dm, &formats::read_2dm}}};
+
+const OceanFormat* ocean_format(const FileName& file) {
+  return io::find_format<OceanFormat>(ocean_formats, file);
+}
+
+constexpr std::string_view fesom_nodes = "nod2d.out";
+
+// True if a file is a folder of FESOM, or its file of nodes.
+bool is_fesom(const FileName& file) {
+  if (!file.format.empty()) return io::ending(file) == ".fesom";
+  if (file.bytes != nullptr) return false;
+  const std::filesystem::path path(file.path);
+  std::error_code error;
+  return path.filename() == fesom_nodes || std::filesystem::exists(path / fesom_nodes, error);
+}
+
+// Returns the beginning of the names of the files of FESOM: "mesh/", or nothing.
+std::string fesom_folder(const FileName& file) {
+  if (file.bytes != nullptr || file.path == "-") {
+    throw FileError(file.path + ": a mesh of FESOM is a folder");
+  }
+  const std::string_view path = file.path;
+  const std::size_t name = path.rfind('/') + 1;
+  if (path.substr(name) == fesom_nodes) return std::string(path.substr(0, name));
+  return file.path + (path.ends_with('/') ? "" : "/");
+}
+
+// True if a file is netCDF of UGRID by its name.
+bool is_ugrid_file(const FileName& file) {
+  return io::ending(file) == ".ugrid" || io::has_netcdf_ending(file);
+}
+
+// Reads the file in its format, without FESOM's.
+void read_into(const FileName& name, formats::MeshInFile& file) {
+  const auto [whole, part] = file_and_variable(name);
+  io::FileBytes bytes(whole, true);
+  const OceanFormat* const format = ocean_format(whole);
+  io::in_file(bytes.name(), [&] {
+    if (format != nullptr) {
+      if (bytes.head().empty()) throw io::BadValue("the file is empty");
+      format->read(bytes.text(), file);
+    } else if (is_ugrid_file(whole) || io::is_netcdf(bytes.head())) {
+      const io::NetcdfReader reader(bytes);
+      formats::read_ugrid_triangles(reader, part, file);
+    } else {
+      io::throw_unknown_ending(
+          name, "meshes of triangles are read from",
+          std::array<std::string_view, 6>{".msh", ".14", ".gr3", ".ll", ".2dm", ".nc"});
+    }
+    formats::complete_mesh(file);
+  });
+}
+
+}  // namespace
+
+bool is_triangle_mesh_file(const FileName& file) {
+  return ocean_format(file) != nullptr || is_fesom(file);
+}
+
+bool can_write_triangle_mesh(const FileName& file) {
+  return is_triangle_mesh_file(file) || is_ugrid_file(file);
+}
+
+void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
+                         const NetcdfOptions& netcdf, const Execution& execution) {
+  const system::Call call(execution);
+  require_valid(mesh);
+  const formats::MeshOfFile content = {
+      mesh, mesh.positions.empty() ? lonlats(mesh.points) : mesh.positions, execution};
+  if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
+  const OceanFormat* const format = ocean_format(name);
+  if (format == nullptr && !is_ugrid_file(name)) {
+    io::throw_unknown_ending(
+        name, "meshes of triangles are written as",
+        std::array<std::string_view, 7>{".msh", ".14", ".gr3", ".ll", ".2dm", ".nc", "fesom"});
+  }
+  io::AtomicFile file(name);
+  if (format != nullptr) {
+    format->write(file, content);
+  } else {
+    io::in_file(name.path, [&] {
+      formats::write_ugrid_triangles(file, content, io::with_kind(netcdf, name));
+    });
+  }
+  file.commit();
+}
+
+TriangleMesh read_triangle_mesh(const FileName& name, const Execution& execution,
+                                std::vector<std::string>* remarks) {
+  const system::Call call(execution);
+  formats::MeshInFile file;
+  if (is_fesom(name)) {
+    formats::read_fesom(fesom_folder(name), file);
+  } else {
+    read_into(name, file);
+  }
+  if (remarks != nullptr) *remarks = std::move(file.remarks);
+  return std::move(file.mesh);
+}
+
+}  // namespace rondel::mesh

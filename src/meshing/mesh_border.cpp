@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "meshing/mesh_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "exact/vector.h"
+#include "rondel/error.h"
+#include "rondel/predicates.h"
+
+namespace rondel::meshing {
+namespace {
+
+std::string numbered(const char* part, std::size_t index, Index base) {
+  return std::string(part) + ' ' + std::to_string(index + base);
+}
+
+// The sides of triangles, in lists by their lower nodes.
+class MeshSides {
+ public:
+  struct Side {
+    Index triangle;
+    Index other;  // the higher node
+    bool is_up;   // true if the triangle has the side from the lower to the higher node
+  };
+
+  MeshSides(std::size_t num_nodes, std::span<const Triple> triangles)
+      : offsets_(num_nodes + 1), sides_(3 * triangles.size()) {
+    visit(triangles, [&](Index low, const Side& /*side*/) { ++offsets_[low + 1]; });
+    for (std::size_t i = 0; i < num_nodes; ++i) offsets_[i + 1] += offsets_[i];
+    std::vector<std::uint64_t> next(offsets_.begin(), offsets_.end() - 1);
+    visit(triangles, [&](Index low, const Side& side) { sides_[next[low]++] = side; });
+  }
+
+  [[nodiscard]] std::span<const Side> of(Index low) const {
+    return std::span(sides_).subspan(offsets_[low], offsets_[low + 1] - offsets_[low]);
+  }
+
+ private:
+  template <class Visit>
+  static void visit(std::span<const Triple> triangles, const Visit& visit_side) {
+    for (Index t = 0; t < triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index a = triangles[t][k];
+        const Index b = triangles[t][(k + 1) % 3];
+        visit_side(std::min(a, b), Side{t, std::max(a, b), a < b});
+      }
+    }
+  }
+
+  std::vector<std::uint64_t> offsets_;
+  std::vector<Side> sides_;
+};
+
+// Returns true if the side is on the border. Throws InvalidInput if it has no single partner.
+bool is_on_border(const MeshSides& sides, Index low, const MeshSides::Side& side, Index base) {
+  std::size_t num_partners = 0;
+  for (const MeshSides::Side& other : sides.of(low)) {
+    if (other.other != side.other || &other == &side) continue;
+    const bool is_turned = other.is_up == side.is_up;
+    if (!is_turned && num_partners == 0) {
+      ++num_partners;
+      continue;
+    }
+    throw InvalidInput(numbered("triangle", side.triangle, base) + " has the edge between nodes " +
+                           std::to_string(low + base) + " and " +
+                           std::to_string(side.other + base) +
+                           (is_turned ? " in the direction in which triangle "
+                                      : " which is that of two others, one of them ") +
+                           std::to_string(other.triangle + base) + (is_turned ? " has it" : ""),
+                       side.triangle);
+  }
+  return num_partners == 0;
+}
+
+using Found = std::optional<MeshFault>;
+
+std::string text_of_lengths(const char* what, std::size_t count, std::size_t num_nodes) {
+  return "there are " + std::to_string(count) + ' ' + what + " for " + std::to_string(num_nodes) +
+         " nodes";
+}
+
+// Returns the first fault of the arrays of nodes and levels.
+Found fault_of_numbers(const mesh::TriangleMesh& mesh, Index base) {
+  const std::size_t n = mesh.points.size();
+  if (!mesh.positions.empty() && mesh.positions.size() != n) {
+    return MeshFault{.text = text_of_lengths("positions", mesh.positions.size(), n)};
+  }
+  if (!mesh.depths.empty() && mesh.depths.size() != n) {
+    return MeshFault{.text = text_of_lengths("depths", mesh.depths.size(), n)};
+  }
+  const auto at_node = [&](std::size_t i, const char* what) {
+    return MeshFault{MeshPart::node, i, numbered("node", i, base) + what};
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point& p = mesh.points[i];
+    if (!std::isfinite(p.x + p.y + p.z) || largest_coordinate(p) > 0x1p500) {
+      return at_node(i, " has coordinates that are not finite, or too large");
+    }
+    if (p == Point{}) return at_node(i, " is at the center of the sphere");
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto& [lon, lat] = mesh.positions[i];
+    if (!std::isfinite(lon) || !(std::abs(lat) <= 90)) {
+      return at_node(i, " has no longitude and latitude in degrees");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.depths.size(); ++i) {
+    if (!std::isfinite(mesh.depths[i])) return at_node(i, " has a depth that is not finite");
+  }
+  if (!mesh.levels.empty() && mesh.levels.size() < 3) {
+    return MeshFault{.text = "there are " + std::to_string(mesh.levels.size()) +
+                             " levels; three are needed, or none"};
+  }
+  for (std::size_t k = 0; k < mesh.levels.size(); ++k) {
+    if (std::isfinite(mesh.levels[k]) && (k == 0 || mesh.levels[k - 1] < mesh.levels[k])) continue;
+    return MeshFault{.text = numbered("level", k, base) +
+                             " is not finite, or not deeper than the one before"};
+  }
+  return std::nullopt;
+}
+
+// Returns the first fault of the triangles, and the border if there is none.
+Found fault_of_triangles(const mesh::TriangleMesh& mesh, Index base,
+                         std::vector<std::array<Index, 2>>& border) {
+  try {
+    require_corners(mesh.points.size(), mesh.triangles, base);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Sign sign = orientation(mesh.points[a], mesh.points[b], mesh.points[c]);
+      if (sign == Sign::positive) continue;
+      return MeshFault{MeshPart::triangle, t,
+                       numbered("triangle", t, base) +
+                           (sign == Sign::zero ? " has no area: nodes " : " is clockwise: nodes ") +
+                           std::to_string(a + base) + ", " + std::to_string(b + base) + " and " +
+                           std::to_string(c + base)};
+    }
+    border = border_of(mesh.points.size(), mesh.triangles, base);
+  } catch (const InvalidInput& error) {
+    return MeshFault{MeshPart::triangle, error.index(), error.what()};
+  }
+  std::vector<bool> is_corner(mesh.points.size());
+  for (const Triple& triangle : mesh.triangles) {
+    for (const Index corner : triangle) is_corner[corner] = true;
+  }
+  const auto alone = std::ranges::find(is_corner, false);
+  if (alone == is_corner.end()) return std::nullopt;
+  const auto i = static_cast<std::size_t>(alone - is_corner.begin());
+  return MeshFault{MeshPart::node, i, numbered("node", i, base) + " is in no triangle"};
+}
+
+// True if a segment has a type that its kind does not have, or that needs no mention.
+bool is_type_wrong(const mesh::BoundarySegment& segment) {
+  if (!segment.type) return false;
+  const std::int32_t type = *segment.type;
+  if (type < 0 || type > largest_type || type == usual_type(segment.kind)) return true;
+  if (segment.kind == mesh::BoundaryKind::open) return false;
+  return is_barrier_type(type) ||
+         is_island_type(type) != (segment.kind == mesh::BoundaryKind::island);
+}
+
+// Returns what is wrong with the nodes of a segment; an empty text if nothing is.
+std::string fault_of_nodes(const mesh::BoundarySegment& segment, std::size_t num_nodes,
+                           std::span<const std::array<Index, 2>> sorted, Index base) {
+  const bool is_island = segment.kind == mesh::BoundaryKind::island;
+  const std::vector<Index>& nodes = segment.nodes;
+  if (mesh::name_of(segment.kind).empty()) return " has no kind";
+  if (is_type_wrong(segment)) {
+    return " has the type " + std::to_string(*segment.type) + ", which is not one of " +
+           std::string(mesh::name_of(segment.kind)) + " segments that has to be said";
+  }
+  if (nodes.size() < (is_island ? 3U : 2U)) {
+    return " has " + std::to_string(nodes.size()) + (nodes.size() == 1 ? " node" : " nodes");
+  }
+  for (std::size_t k = 0; k < nodes.size() - (is_island ? 0 : 1); ++k) {
+    const Index a = nodes[k];
+    const Index b = nodes[(k + 1) % nodes.size()];
+    const Index too_large = std::max(a, b);
+    if (too_large >= num_nodes) {
+      return " has the node " + std::to_string(std::uint64_t{too_large} + base) + "; there are " +
+             std::to_string(num_nodes) + " nodes";
+    }
+    const std::array<Index, 2> edge = {std::min(a, b), std::max(a, b)};
+    if (std::ranges::binary_search(sorted, edge)) continue;
+    return ": nodes " + std::to_string(a + base) + " and " + std::to_string(b + base) +
+           " are not joined by an edge of the border";
+  }
+  return "";
+}
+
+}  // namespace
+
+void require_corners(std::size_t num_nodes, std::span<const Triple> triangles, Index base) {
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (const Index corner : triangles[t]) {
+      if (corner < num_nodes) continue;
+      throw InvalidInput(numbered("triangle", t, base) + " has the corner " +
+                             std::to_string(std::uint64_t{corner} + base) + "; there are " +
+                             std::to_string(num_nodes) + " nodes",
+                         t);
+    }
+  }
+}
+
+std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
+                                            std::span<const Triple> triangles, Index base) {
+  require_corners(num_nodes, triangles, base);
+  const MeshSides sides(num_nodes, triangles);
+  std::vector<std::array<Index, 2>> border;
+  for (Index t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = triangles[t][k];
+      const Index b = triangles[t][(k + 1) % 3];
+      if (a == b) {
+        throw InvalidInput(numbered("triangle", t, base) + " has the corner " +
+                               std::to_string(a + base) + " twice",
+                           t);
+      }
+      const auto list = sides.of(std::min(a, b));
+      const auto side = std::ranges::find_if(list, [&](const MeshSides::Side& one) {
+        return one.triangle == t && one.other == std::max(a, b);
+      });
+      if (is_on_border(sides, std::min(a, b), *side, base)) border.push_back({a, b});
+    }
+  }
+  return border;
+}
+
+Found fault_of(const mesh::TriangleMesh& mesh, Index base) {
+  if (Found fault = fault_of_numbers(mesh, base)) return fault;
+  std::vector<std::array<Index, 2>> border;
+  if (Found fault = fault_of_triangles(mesh, base, border)) return fault;
+  for (auto& edge : border) std::ranges::sort(edge);
+  std::ranges::sort(border);
+  for (std::size_t s = 0; s < mesh.boundary.size(); ++s) {
+    const std::string text = fault_of_nodes(mesh.boundary[s], mesh.points.size(), border, base);
+    if (text.empty()) continue;
+    return MeshFault{MeshPart::segment, s, numbered("segment", s, base) + text};
+  }
+  return std::nullopt;
+}
+
+}  // namespace rondel::meshing
