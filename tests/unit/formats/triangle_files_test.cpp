@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files of meshes of triangles: what is written is read back bit by bit, and what other programs
+// write is read as they mean it.
+#include "rondel/triangle_files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "support/temporary_files.h"
+#include "support/thrown.h"
+#include "unit/meshing/triangle_meshes.h"
+
+namespace rondel::test {
+namespace {
+
+using mesh::BoundaryKind;
+using mesh::BoundarySegment;
+using mesh::TriangleMesh;
+using Remarks = std::vector<std::string>;
+
+std::string text_of(const TriangleMesh& mesh, const std::string& format, unsigned threads = 1) {
+  std::string bytes;
+  mesh::write_triangle_mesh(FileName::in_memory(bytes, format), mesh, {}, {.threads = threads});
+  return bytes;
+}
+
+TriangleMesh mesh_in(std::string text, const std::string& format, Remarks* remarks = nullptr) {
+  return mesh::read_triangle_mesh(FileName::in_memory(text, format), {}, remarks);
+}
+
+// True if numbers have the same bits, where == takes -0 for 0.
+bool same_bits(std::span<const double> a, std::span<const double> b) {
+  return std::ranges::equal(a, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+std::span<const double> numbers_of(const std::vector<LonLat>& positions) {
+  return {&positions.data()->lon_deg, 2 * positions.size()};
+}
+
+// A mesh without what a format cannot hold.
+TriangleMesh held_by(const std::string& format, TriangleMesh mesh) {
+  if (format != "fesom") mesh.levels.clear();
+  if (format.starts_with("gmsh") || format == "msh") mesh.positions.clear();
+  const bool has_types = format == "14" || format == "gr3" || format == "ll" || format == "ugrid";
+  for (BoundarySegment& segment : mesh.boundary) {
+    if (!has_types) segment.type.reset();
+  }
+  if (format == "fesom") mesh.boundary = mesh::boundary_segments(mesh.points, mesh.triangles);
+  return mesh;
+}
+
+TriangleMesh typed_mesh() {
+  TriangleMesh mesh = arctic_mesh(11);
+  for (BoundarySegment& segment : mesh.boundary) {
+    if (segment.kind == BoundaryKind::island) segment.type = 21;
+    if (segment.kind == BoundaryKind::land) segment.type = 20;
+  }
+  mesh.boundary.front().type = 3;
+  std::ranges::reverse(mesh.boundary.back().nodes);
+  return mesh;
+}
+
+const std::vector<std::string> text_formats = {"msh", "gmsh2", "14", "gr3", "ll", "2dm", "ugrid"};
+
+TEST(triangle_files, come_back_bit_by_bit) {
+  std::vector<TriangleMesh> meshes = {arctic_mesh(4), global_mesh(5), typed_mesh(), TriangleMesh{}};
+  for (const TriangleMesh& mesh : meshes) {
+    for (const std::string& format : text_formats) {
+      if (mesh.points.empty() && format == "ugrid") continue;
+      SCOPED_TRACE(format);
+      const std::string text = text_of(mesh, format);
+      EXPECT_EQ(text, text_of(mesh, format, 3));
+      Remarks remarks;
+      const TriangleMesh read = mesh_in(text, format, &remarks);
+      const TriangleMesh expected = held_by(format, mesh);
+      EXPECT_TRUE(read == expected);
+      EXPECT_TRUE(same_bits(numbers_of(read.positions), numbers_of(expected.positions)));
+      EXPECT_TRUE(same_bits(read.depths, expected.depths));
+      EXPECT_EQ(text_of(read, format), text) << "written again";
+      EXPECT_TRUE(remarks.empty()) << remarks[0];
+    }
+  }
+}
+
+TEST(triangle_files, of_fesom_come_back_bit_by_bit) {
+  const TemporaryDirectory folder;
+  for (TriangleMesh mesh : {arctic_mesh(6), global_mesh(7), TriangleMesh{}}) {
+    const std::string path = folder.file("a/b");
+    mesh::write_triangle_mesh({path, "fesom"}, mesh);
+    EXPECT_TRUE(mesh::is_triangle_mesh_file(path));
+    Remarks remarks;
+    EXPECT_TRUE(mesh::read_triangle_mesh(path, {}, &remarks) == held_by("fesom", mesh));
+    EXPECT_TRUE(mesh::read_triangle_mesh(path + "/nod2d.out") == held_by("fesom", mesh));
+    EXPECT_TRUE(remarks.empty());
+    mesh.levels.clear();
+    mesh::write_triangle_mesh(path + "/", mesh);
+    EXPECT_TRUE(mesh::read_triangle_mesh(path) == held_by("fesom", mesh));
+  }
+  TriangleMesh mesh = arctic_mesh(6);
+  mesh.depths[5] = -1;
+  EXPECT_EQ(thrown_index([&] {
+              mesh::write_triangle_mesh({folder.file("new"), "fesom"}, mesh);
+              return 0;
+            }),
+            5U);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("new")));
+}
+
+TEST(triangle_files, of_points_without_degrees_have_those_of_lonlats) {
+  TriangleMesh mesh = global_mesh(8);
+  mesh.positions.clear();
+  EXPECT_TRUE(mesh_in(text_of(mesh, "msh"), "msh") == mesh);
+  EXPECT_TRUE(mesh_in(text_of(mesh, "gr3"), "gr3").positions == lonlats(mesh.points));
+  for (Point& p : mesh.points) p = {6371229 * p.x, 6371229 * p.y, 6371229 * p.z};
+  EXPECT_TRUE(mesh_in(text_of(mesh, "gmsh2"), "gmsh") == mesh);
+}
+
+TEST(triangle_files, without_segments_have_a_border_of_land) {
+  TriangleMesh mesh = arctic_mesh(9);
+  mesh.boundary.clear();
+  for (const char* format : {"msh", "2dm", "ugrid"}) {
+    EXPECT_EQ(mesh_in(text_of(mesh, format), format).boundary,
+              mesh::boundary_segments(mesh.points, mesh.triangles));
+  }
+  EXPECT_TRUE(mesh_in(text_of(mesh, "gr3"), "gr3").boundary.empty());
+}
+
+// ADCIRC's words behind numbers, Fortran's exponents, an island that is closed, a weir, and lines
+// that end with CR LF.
+TEST(triangle_files, of_adcirc_are_read_as_adcirc_reads_them) {
+  const std::string text =
+      "\r\n4 5   ! NE NP\r\n1 0.0d0 0 1.0D+01\r\n2 2 0 2\r\n3 2 2 3\r\n4 0 2 4\r\n5 1.0 1.0 5 "
+      "more\r\n"
+      "1 3 1 2 5\r\n2 3 2 3 5\r\n3 3 5 3 4\r\n4 3 4 1 5\r\n"
+      "1 = Number of open boundaries\r\n2 = Total\r\n2 = Number of nodes for open boundary "
+      "1\r\n1\r\n"
+      "2 a comment\r\n2\r\n4\r\n2 24\r\n2 4 1.5 1 1\r\n3 1 1.5 1 1\r\n2 10\r\n1 \r\n4\r\n";
+  Remarks remarks;
+  const TriangleMesh mesh = mesh_in(text, "14", &remarks);
+  EXPECT_EQ(mesh.positions[0], (LonLat{0, 0}));
+  EXPECT_EQ(mesh.depths, (std::vector<double>{10, 2, 3, 4, 5}));
+  ASSERT_EQ(mesh.boundary.size(), 4U);
+  EXPECT_EQ(mesh.boundary[0], (BoundarySegment{BoundaryKind::open, {0, 1}}));
+  EXPECT_EQ(mesh.boundary[1], (BoundarySegment{BoundaryKind::land, {1, 2}}));
+  EXPECT_EQ(mesh.boundary[2], (BoundarySegment{BoundaryKind::land, {3, 0}}));
+  EXPECT_EQ(mesh.boundary[3], (BoundarySegment{BoundaryKind::land, {0, 3}, 10}));
+  EXPECT_EQ(remarks, Remarks{"1 boundaries with numbers at their nodes (weirs, pipes) are read as "
+                             "land, without the numbers"});
+  const std::string island =
+      "x\n6 6\n1 0 0 0\n2 9 0 0\n3 0 9 0\n4 2 2 0\n5 4 2 0\n6 2 4 0\n1 3 1 2 5\n2 3 1 5 4\n3 3 2 3 "
+      "6\n"
+      "4 3 2 6 5\n5 3 3 1 4\n6 3 3 4 6\n0\n0\n1\n4\n4 21\n4\n6\n5\n4\n";
+  const TriangleMesh ring = mesh_in(island, "adcirc");
+  EXPECT_EQ(ring.boundary.at(0), (BoundarySegment{BoundaryKind::island, {3, 5, 4}, 21}));
+  EXPECT_TRUE(ring.depths.empty());
+  // A file of SCHISM that ends before the boundaries.
+  EXPECT_EQ(mesh_in(island.substr(0, island.find("0\n0\n1\n4\n")), "gr3").boundary.size(), 3U);
+}
+
+// Nodestrings without kinds are open water; numbers have gaps; a triangle is clockwise.
+TEST(triangle_files, of_sms_are_read_with_any_numbers) {
+  const std::string text =
+      "MESH2D\nMESHNAME \"a\"\nE3T 7 10 5 30 1\nE3T 8 30 20 10 1\nND 10 0 0 -5\nND 20 1 0 -6\n"
+      "ND 30 1 1 2.5\nND 5 0 1 0\nNS 10\nNS 20 -30 1\nNS 10 -30 2\nBEGPARAMDEF\n";
+  Remarks remarks;
+  const TriangleMesh mesh = mesh_in(text, "2dm", &remarks);
+  EXPECT_EQ(mesh.triangles, (std::vector<Triple>{{0, 2, 3}, {2, 0, 1}}));
+  EXPECT_EQ(mesh.depths, (std::vector<double>{5, 6, -2.5, 0}));
+  ASSERT_EQ(mesh.boundary.size(), 2U);
+  EXPECT_EQ(mesh.boundary[0], (BoundarySegment{BoundaryKind::open, {0, 1, 2}}));
+  EXPECT_EQ(mesh.boundary[1], (BoundarySegment{BoundaryKind::land, {2, 3, 0}}));
+  EXPECT_EQ(remarks.size(), 3U);
+}
+
+// What Gmsh writes: points as elements, nodes without triangles, other groups.
+TEST(triangle_files, of_gmsh_are_read_with_any_numbers) {
+  const std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 5 \"Open\"\n1 6 \"my coast\"\n2 "
+      "9 "
+      "\"sea\"\n$EndPhysicalNames\n$Entities\n1 2 1 0\n1 0 0 0 0\n1 0 0 0 1 1 1 1 5 2 1 -1\n2 0 0 "
+      "0 1 1 "
+      "1 1 6 0\n1 0 0 0 1 1 1 1 9 0\n$EndEntities\n$Nodes\n2 4 2 77\n0 1 0 1\n2\n0 0 0\n2 1 0 "
+      "3\n10\n"
+      "77\n11\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n4 4 1 4\n0 1 15 1\n1 2\n1 1 1 1\n2 10 "
+      "77\n"
+      "1 2 1 1\n3 77 11\n2 1 2 1\n4 10 77 11\n$EndElements\n$Periodic\n0\n$EndPeriodic\n";
+  Remarks remarks;
+  const TriangleMesh mesh = mesh_in(text, "msh", &remarks);
+  EXPECT_EQ(mesh.points, (std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(mesh.boundary, (std::vector<BoundarySegment>{{BoundaryKind::open, {0, 1}}}));
+  EXPECT_EQ(remarks.size(), 2U);
+}
+
+TEST(triangle_files, appear_complete_or_not_at_all) {
+  const TemporaryDirectory folder;
+  TriangleMesh mesh = arctic_mesh(10);
+  const std::string before = folder.with("mesh.gr3", "before");
+  mesh.triangles[0] = {0, 0, 0};
+  EXPECT_NE(thrown_message<InvalidInput>([&] {
+              mesh::write_triangle_mesh(before, mesh);
+              return 0;
+            }),
+            "");
+  std::ifstream in(before);
+  EXPECT_TRUE(std::string(std::istreambuf_iterator<char>(in), {}) == "before");
+  EXPECT_EQ(folder.num_files(), 1U);
+}
+
+TEST(triangle_files, are_known_by_name_and_format) {
+  for (const char* name : {"a.msh", "fort.14", "hgrid.gr3", "hgrid.LL", "a.2dm", "x/nod2d.out"}) {
+    EXPECT_TRUE(mesh::is_triangle_mesh_file(name)) << name;
+  }
+  EXPECT_FALSE(mesh::is_triangle_mesh_file("a.nc"));
+  EXPECT_TRUE(mesh::can_write_triangle_mesh("a.nc"));
+  EXPECT_TRUE(mesh::can_write_triangle_mesh({"a", "fesom"}));
+  EXPECT_FALSE(mesh::can_write_triangle_mesh("a.ply"));
+  EXPECT_EQ(thrown_message<FileError>([] { return mesh_in("", "ply"); }),
+            "<memory>: unknown format \"ply\"; meshes of triangles are read from .msh .14 .gr3 .ll "
+            ".2dm .nc");
+}
+
+}  // namespace
+}  // namespace rondel::test
