@@ -3,6 +3,7 @@
 #include "mesh_output.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,12 @@ std::string radius_error(const std::string& text) {
   std::string error = positive_error(text);
   if (!error.empty()) return error;
   return range_error(text, mesh::min_radius, mesh::largest_radius);
+}
+
+// True if OUTPUT is triangles with coordinates x, y, z, whose length is the radius.
+bool has_points(const CommonOptions& common) {
+  const std::string format = common.format();
+  return format == "msh" || format == "gmsh" || format == "gmsh2";
 }
 
 // True if OUTPUT is a mesh, and not sites.
@@ -175,6 +182,13 @@ void write_made(const MeshOutput& output, const std::vector<Point>& sites,
              how + "wrote " + count(sites.size(), "cell", "cells") + " to " + common.output + '\n');
 }
 
+void set_radius(mesh::TriangleMesh& mesh, double radius) {
+  for (Point& p : mesh.points) {
+    const double scale = radius / std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+    p = {scale * p.x, scale * p.y, scale * p.z};
+  }
+}
+
 void add_mesh_report_option(CLI::App& parser, std::string& report, const std::string& names) {
   parser
       .add_option(names, report,
@@ -187,10 +201,15 @@ void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKin
   const std::string of_meshes =
       "Where to write the mesh, netCDF: .nc and .nc4 are mpas (MPAS), .exo exodus; --format\n"
       "ugrid, scrip, esmf for the others";
+  const std::string of_sites = ". Or its sites: .csv .tsv .xyz .txt .npy";
+  const std::string of_triangles =
+      ". Or triangles: .msh (Gmsh 4.1; --format gmsh2:\n2.2), .14 (ADCIRC), .gr3 .ll (SCHISM), "
+      ".2dm "
+      "(SMS), --format fesom (a folder)";
   add_output_option(parser, output.common,
-                    kind == MeshOutputKind::mesh
-                        ? of_meshes
-                        : of_meshes + ". Or its sites: .csv .tsv .xyz .txt .npy")
+                    of_meshes + (kind == MeshOutputKind::mesh            ? ""
+                                 : kind == MeshOutputKind::mesh_or_sites ? of_sites
+                                                                         : of_triangles))
       ->required();
   add_netcdf_options(parser, output.common, output.netcdf, [&output] {
     return is_mesh_file(output.common) ? std::vector<FileName>{output.common.target()}
@@ -210,8 +229,11 @@ void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKin
           ->type_name("R");
   require_effect(
       output.common, radius,
-      [&output] { return is_mesh_file(output.common) || !output.report.empty(); },
-      "on sites, which are unit vectors");
+      [&output] {
+        return is_mesh_file(output.common) || !output.report.empty() || has_points(output.common);
+      },
+      kind == MeshOutputKind::mesh_or_triangles ? "on files in degrees"
+                                                : "on sites, which are unit vectors");
   add_mesh_report_option(parser, output.report);
 }
 

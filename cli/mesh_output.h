@@ -19,6 +19,7 @@
 #include "rondel/mesh_formats.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/mesh_size.h"
+#include "rondel/triangle_mesh.h"
 
 namespace rondel::cli {
 
@@ -45,7 +46,7 @@ mesh::VoronoiMesh read_mesh_or_sites(Job& job, const CommonOptions& common,
                                      std::optional<double> radius, bool allow_zero_edges);
 
 /// The kinds of files that OUTPUT may be.
-enum class MeshOutputKind { mesh, mesh_or_sites };
+enum class MeshOutputKind { mesh, mesh_or_sites, mesh_or_triangles };
 
 /// Adds the options that all commands that write a mesh share: --output, --format, --kind,
 /// --deflate, --graph, --sphere-radius, --report.
@@ -59,6 +60,9 @@ void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKin
 void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
                          const std::vector<NamedFile>& inputs = {},
                          const std::vector<NamedFile>& outputs = {});
+
+/// Gives all nodes the same distance from the origin.
+void set_radius(mesh::TriangleMesh& mesh, double radius);
 
 /// Writes OUTPUT, and graph and report if they are wanted, and prints what was written.
 void write_mesh(const MeshOutput& output, const mesh::VoronoiMesh& arrays, Job& job);

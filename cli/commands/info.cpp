@@ -3,7 +3,8 @@
 
 // rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
 // are in one place or hidden, and which columns there are.
-// in    sites; a file whose sites are all in one place, or at the center, is described as well
+// in    sites; a file whose sites are all in one place, or at the center, is described as well; or
+//       triangles in a format of ocean models
 // out   text for people, or one JSON object
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "triangle_output.h"
 
 namespace rondel::cli {
 namespace {
@@ -200,9 +202,42 @@ std::string text_of(const SiteTable& table, const Facts& facts) {
   return text + '\n';
 }
 
+// Returns the nodes in degrees.
+std::vector<LonLat> places_of(const mesh::TriangleMesh& mesh) {
+  return mesh.positions.empty() ? lonlats(mesh.points) : mesh.positions;
+}
+
+// Returns the report on a mesh of triangles.
+std::string text_of(const std::string& name, const mesh::TriangleMesh& mesh, const Range& depth) {
+  Range lon;
+  Range lat;
+  for (const auto& [lon_deg, lat_deg] : places_of(mesh)) {
+    lon.add(lon_deg);
+    lat.add(lat_deg);
+  }
+  return name + ": " + text_of_triangles(mesh) + '\n' + text_of("lon", lon) + text_of("lat", lat) +
+         text_of("depth", depth) +
+         (mesh.levels.empty() ? "" : "levels: " + std::to_string(mesh.levels.size()) + '\n');
+}
+
+// Prints what a mesh of triangles has. Throws FileError for a file that cannot be read.
+ExitStatus run_info_of_triangles(const CommonOptions& common) {
+  Job job(common);
+  const mesh::TriangleMesh mesh = read_triangles_of(common, job);
+  Range depth;
+  for (const double value : mesh.depths) depth.add(value);
+  Json json = json_of_triangles(mesh);
+  json["depth"] = json_of(depth);
+  json["levels"] = mesh.levels.size();
+  json["pinched_nodes"] = mesh::pinched_nodes(mesh);
+  job.report(json.dump(2) + '\n', text_of(common.input, mesh, depth));
+  return done;
+}
+
 // Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and
 // prints the facts. No file is written. Throws FileError for a file that cannot be read.
 ExitStatus run_info(const CommonOptions& options) {
+  if (is_triangle_input(options)) return run_info_of_triangles(options);
   CommonOptions common = options;
   common.read.keep_columns = true;
   Job job(common);
@@ -222,9 +257,11 @@ Command add_info_command(CLI::App& tool) {
   add_report_options(*parser, *options);
   parser->footer(
       "Prints the number of sites, their bounds, exact duplicates, the distance from\n"
-      "the sphere, and the columns.\n\n"
+      "the sphere, and the columns. Of triangles (.msh .14 .gr3 .ll .2dm, a folder of FESOM):\n"
+      "the numbers of nodes, triangles and segments of the border, bounds and depths.\n\n"
       "Example:\n"
-      "  rondel info stations.csv");
+      "  rondel info stations.csv\n"
+      "  rondel info hgrid.gr3");
   return {parser, [options] { return run_info(*options); }};
 }
 

@@ -27,6 +27,8 @@
 #include "rondel/delaunay.h"
 #include "rondel/geometries.h"
 #include "rondel/some_triangles.h"
+#include "rondel/triangle_files.h"
+#include "triangle_output.h"
 
 namespace rondel::cli {
 namespace {
@@ -185,10 +187,15 @@ ConstrainedTriangulation triangulated(const TriangulateOptions& options, Plan& p
   return result;
 }
 
+// True if OUTPUT is a mesh of an ocean model.
+bool is_for_model(const CommonOptions& common) {
+  return mesh::can_write_triangle_mesh(common.target());
+}
+
 void require_input(const TriangulateOptions& options) {
   const CommonOptions& common = options.common;
-  require_output(common, can_write_triangles(common.target()),
-                 ".npy .off .ply .obj .stl .vtp .geojson",
+  require_output(common, can_write_triangles(common.target()) || is_for_model(common),
+                 ".npy .off .ply .obj .stl .vtp .geojson .nc " + std::string(triangle_mesh_endings),
                  {{"--constraints", options.constraints}});
   const std::string format = format_of(common.source());
   if (options.constraints.empty() && format != "geojson" && format != "json") {
@@ -198,6 +205,23 @@ void require_input(const TriangulateOptions& options) {
   if (!options.constraints.empty() && format_of({options.constraints, {}}) != "csv") {
     throw UsageError("--constraints: '" + options.constraints + "' must be a .csv file");
   }
+}
+
+// Writes solid faces as a mesh: those in `inside`, or all. Edges that are constraints are coast.
+void write_for_model(const CommonOptions& common, const Plan& plan,
+                     const ConstrainedTriangulation& result, const std::vector<Index>* inside,
+                     Job& job) {
+  const Triangulation& triangulation = result.triangulation;
+  std::vector<Triple> triangles;
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    const bool is_wanted =
+        inside != nullptr ? std::ranges::binary_search(*inside, f) : !triangulation.is_ghost(f);
+    if (is_wanted) triangles.push_back(triangulation.faces()[f]);
+  }
+  if (triangles.empty()) throw FileError(plan.table.name + ": there are no triangles");
+  const mesh::TriangleMesh mesh =
+      mesh::triangle_mesh(plan.table.sites, plan.table.positions, triangles, result.edges);
+  write_triangles_of(common, {}, mesh, plan.table.name, job);
 }
 
 // Throws FileError for files that cannot be read or written, and constraints that cross; UsageError.
@@ -216,7 +240,11 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
     if (options.is_inside) inside = faces_in_polygons(result, plan);
   });
   const Triangulation& triangulation = result.triangulation;
+  if (is_for_model(options.common)) {
+    write_for_model(options.common, plan, result, options.is_inside ? &inside : nullptr, job);
+  }
   job.time(Stage::write, [&] {
+    if (is_for_model(options.common)) return;
     if (options.is_inside) {
       write_some_triangles(options.common.target(), plan.table, triangulation, inside,
                            job.execution());
@@ -261,9 +289,11 @@ Command add_triangulate_command(CLI::App& tool) {
       ->add_option("--constraints", options->constraints,
                    "The edges between sites: .csv, two columns of indices of sites from 0")
       ->type_name("FILE");
-  add_output_option(*parser, options->common,
-                    "Where to write the triangles: .npy (m x 3 indices) .off .ply .obj .stl .vtp\n"
-                    ".geojson")
+  add_output_option(
+      *parser, options->common,
+      "Where to write the triangles: .npy (m x 3 indices) .off .ply .obj .stl .vtp\n"
+      ".geojson. Or as a mesh of ocean models, whose coast are the constraints: .msh\n"
+      ".14 .gr3 .ll .2dm .nc (UGRID), --format fesom (a folder)")
       ->required();
   parser->add_flag("--split", options->is_split,
                    "Make a site where constraints cross, which is an error otherwise");
@@ -294,6 +324,7 @@ Command add_triangulate_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel triangulate coast.geojson -o mesh.ply\n"
       "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"
+      "  rondel triangulate sea.geojson --inside -o hgrid.gr3\n"
       "  rondel triangulate stations.csv --constraints faults.csv -o faces.npy");
   return {parser, [options] { return run_triangulate(*options); }};
 }

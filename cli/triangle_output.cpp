@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "triangle_output.h"
+
+#include <algorithm>
+#include <array>
+
+#include "report.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr std::array<mesh::BoundaryKind, 3> all_kinds = {
+    mesh::BoundaryKind::open, mesh::BoundaryKind::land, mesh::BoundaryKind::island};
+
+std::size_t number_of(mesh::BoundaryKind kind, const mesh::TriangleMesh& mesh) {
+  return static_cast<std::size_t>(
+      std::ranges::count(mesh.boundary, kind, &mesh::BoundarySegment::kind));
+}
+
+// Tells of nodes that models refuse, by the numbers that files give them.
+void tell_of_pinched(const std::string& file, const mesh::TriangleMesh& mesh) {
+  const std::vector<Index> pinched = mesh::pinched_nodes(mesh);
+  if (pinched.empty()) return;
+  const std::string first = "node " + std::to_string(pinched.front() + 1) + " (from 1)";
+  tell(file, {pinched.size() == 1
+                  ? first + " has several gaps between its triangles, which models refuse"
+                  : first + " and " + std::to_string(pinched.size() - 1) +
+                        " more have several gaps between their triangles, which models refuse"});
+}
+
+}  // namespace
+
+bool is_triangle_input(const CommonOptions& common) {
+  return mesh::is_triangle_mesh_file(common.source()) && !is_netcdf_file(common.source());
+}
+
+mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job) {
+  mesh::TriangleMesh mesh;
+  std::vector<std::string> remarks;
+  job.time(Stage::dual,
+           [&] { mesh = mesh::read_triangle_mesh(common.source(), job.execution(), &remarks); });
+  tell(common.source().path, remarks);
+  return mesh;
+}
+
+void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,
+                        const mesh::TriangleMesh& mesh, const std::string& source, Job& job) {
+  job.time(Stage::write, [&] {
+    try {
+      mesh::write_triangle_mesh(common.target(), mesh, netcdf, job.execution());
+    } catch (const InvalidInput& error) {
+      throw FileError(source + ": " + error.what());
+    }
+  });
+  tell_of_pinched(source, mesh);
+}
+
+nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh) {
+  nlohmann::ordered_json segments;
+  for (const mesh::BoundaryKind kind : all_kinds) {
+    segments[std::string(name_of(kind))] = number_of(kind, mesh);
+  }
+  return {
+      {"nodes", mesh.points.size()}, {"triangles", mesh.triangles.size()}, {"segments", segments}};
+}
+
+std::string text_of_triangles(const mesh::TriangleMesh& mesh) {
+  std::string text = count(mesh.points.size(), "node", "nodes") + ", " +
+                     count(mesh.triangles.size(), "triangle", "triangles") + "; border:";
+  for (const mesh::BoundaryKind kind : all_kinds) {
+    text += (kind == all_kinds.front() ? " " : ", ") + std::to_string(number_of(kind, mesh)) + ' ' +
+            std::string(name_of(kind));
+  }
+  return text;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Meshes of triangles in the formats of ocean models, which `mesh convert`, `triangulate` and `info`
+/// share.
+///
+/// in    a file of triangles, or a triangulation
+/// out   a file of triangles, and what is said of it
+/// index nodes and triangles from 0; from 1 where a message names them as files do
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "job.h"
+#include "rondel/triangle_files.h"
+
+namespace rondel::cli {
+
+/// The endings of files of triangles, for messages and help.
+inline constexpr const char* triangle_mesh_endings = ".msh .14 .gr3 .ll .2dm fesom";
+
+/// True if INPUT is a mesh of triangles in a format of its own, which netCDF is not.
+bool is_triangle_input(const CommonOptions& common);
+
+/// Reads a mesh of triangles, and tells what was left out of it. \throws FileError
+mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job);
+
+/// Writes OUTPUT, and tells of nodes that models refuse. \throws FileError with the name of the file
+/// that the triangles are from
+/// \param source  that file
+void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,
+                        const mesh::TriangleMesh& mesh, const std::string& source, Job& job);
+
+/// Returns the numbers of nodes, triangles and segments.
+nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh);
+/// Returns the same for people: "5 nodes, 4 triangles; border: 1 open, 1 land, 0 island".
+std::string text_of_triangles(const mesh::TriangleMesh& mesh);
+
+}  // namespace rondel::cli
