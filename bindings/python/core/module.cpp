@@ -102,6 +102,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_mesh(module);
   rondel::python::add_mesh_make(module);
   rondel::python::add_mesh_parts(module);
+  rondel::python::add_triangle_meshes(module);
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);
   rondel::python::add_remap(module);

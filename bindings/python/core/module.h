@@ -36,6 +36,7 @@ void add_distributed(nanobind::module_& module);
 void add_polygons(nanobind::module_& module);
 void add_regions(nanobind::module_& module);
 void add_remap(nanobind::module_& module);
+void add_triangle_meshes(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);
 
 // Returns the options of a build.

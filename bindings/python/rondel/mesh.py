@@ -22,19 +22,23 @@ from ._mesh_making import (
     scvt_points,
 )
 from ._mesh_parts import Lines
+from ._triangle_mesh import Boundary, TriangleMesh, read_triangles
 from ._types import ArrayLike, Path, Progress
 from ._voronoi_mesh import Culled, EdgeWeights, Mesh
 
 __all__ = [
+    "Boundary",
     "Culled",
     "Defects",
     "EdgeWeights",
     "EqualArea",
     "Mesh",
     "ScvtReport",
+    "TriangleMesh",
     "equal_area",
     "from_points",
     "read",
+    "read_triangles",
     "scvt",
 ]
 

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Meshes of triangles and their files.
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "mesh_sizes.h"
+#include "module.h"
+#include "named.h"
+#include "rondel/delaunay.h"
+#include "rondel/triangle_files.h"
+
+namespace rondel::python {
+namespace {
+
+using mesh::BoundarySegment;
+using mesh::TriangleMesh;
+using SegmentOut = std::tuple<std::string, ArrayOut<std::int32_t>, std::optional<std::int32_t>>;
+using SegmentIn = std::tuple<nb::object, IndicesIn, std::optional<std::int32_t>>;
+
+std::vector<SegmentOut> segments_out(const TriangleMesh& mesh) {
+  std::vector<SegmentOut> segments;
+  for (const BoundarySegment& segment : mesh.boundary) {
+    segments.emplace_back(std::string(name_of(segment.kind)),
+                          indices_out(std::vector<Index>(segment.nodes)), segment.type);
+  }
+  return segments;
+}
+
+void set_segments(TriangleMesh& mesh, const std::vector<SegmentIn>& segments) {
+  mesh.boundary.clear();
+  for (const auto& [kind, nodes, type] : segments) {
+    mesh.boundary.push_back(
+        {named<mesh::BoundaryKind>("kind", kind), vector_of<Index>(nodes), type});
+  }
+}
+
+// Makes a mesh. Positions are degrees; where there are some, they give the points.
+TriangleMesh mesh_of_triangles(const PointsIn& points, const PairsIn& positions,
+                               const TriplesIn& triangles, const std::optional<IndexPairsIn>& coast,
+                               const NumbersIn& depths, const NumbersIn& levels) {
+  std::vector<Point> from_degrees;
+  std::span<const Point> nodes = points_of(points);
+  const auto degrees = rows_of<LonLat>(positions);
+  if (!degrees.empty()) nodes = from_degrees = unit_vectors(degrees);
+  std::optional<std::span<const std::array<Index, 2>>> edges;
+  if (coast) edges = rows_of<std::array<Index, 2>>(*coast);
+  TriangleMesh mesh = mesh::triangle_mesh(nodes, degrees, rows_of<Triple>(triangles), edges);
+  mesh.depths = vector_of<double>(depths);
+  mesh.levels = vector_of<double>(levels);
+  mesh::require_valid(mesh);
+  return mesh;
+}
+
+FileName file_of(const std::string& path, const std::string& format) { return {path, format}; }
+
+std::tuple<TriangleMesh, std::vector<std::string>> triangles_of_file(const std::string& path,
+                                                                     const std::string& format,
+                                                                     unsigned threads) {
+  std::vector<std::string> remarks;
+  TriangleMesh mesh = watched_quietly(many_sites, threads, [&](const Execution& execution) {
+    return mesh::read_triangle_mesh(file_of(path, format), execution, &remarks);
+  });
+  return {std::move(mesh), std::move(remarks)};
+}
+
+void write_triangle_file(const TriangleMesh& mesh, const std::string& path,
+                         const std::string& format, unsigned threads) {
+  run_watched(mesh.points.size(), threads, nb::none(), [&](const Execution& execution) {
+    mesh::write_triangle_mesh(file_of(path, format), mesh, {}, execution);
+  });
+}
+
+}  // namespace
+
+void add_triangle_meshes(nb::module_& module) {
+  nb::class_<TriangleMesh> type(module, "TriangleMesh");
+  type.def(nb::init<>());
+  add_array<double, &TriangleMesh::points>(type, "points");
+  add_array<double, &TriangleMesh::positions>(type, "positions");
+  add_array<std::int32_t, &TriangleMesh::triangles>(type, "triangles");
+  add_array<double, &TriangleMesh::depths>(type, "depths");
+  add_array<double, &TriangleMesh::levels>(type, "levels");
+  type.def_prop_rw("boundary", &segments_out, &set_segments, nb::for_getter(nb::rv_policy::move));
+  type.def("pinched_nodes",
+           [](const TriangleMesh& mesh) { return indices_out(mesh::pinched_nodes(mesh)); });
+  type.def("write", &write_triangle_file, nb::arg("path"), nb::arg("format"), nb::arg("threads"));
+  module.def("mesh_of_triangles", &mesh_of_triangles, nb::arg("points").noconvert(),
+             nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),
+             nb::arg("coast").noconvert().none(), nb::arg("depths").noconvert(),
+             nb::arg("levels").noconvert());
+  module.def("read_triangles", &triangles_of_file, nb::arg("path"), nb::arg("format"),
+             nb::arg("threads"));
+}
+
+}  // namespace rondel::python

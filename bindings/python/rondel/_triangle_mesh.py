@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of triangles for models of the ocean, and their files."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_floats, as_indices, as_name, as_rows, as_threads, frozen
+from ._pickled import arrays_of, with_arrays
+from ._types import ArrayLike, FloatArray, IntArray, Path
+
+if TYPE_CHECKING:
+    import meshio
+
+
+class Boundary(NamedTuple):
+    """A segment of the border of a `TriangleMesh`: a chain of its edges.
+
+    Attributes
+    ----------
+    kind : {'open', 'land', 'island'}
+        What is beyond it. Around an island the chain is closed.
+    nodes : ndarray of int32
+        The nodes in order, with the mesh to their left unless a file has them otherwise.
+    type : int or None
+        ADCIRC's IBTYPE, if it is another one than 0 for open water and land, 1 for islands.
+
+    """
+
+    kind: Literal["open", "land", "island"]
+    nodes: IntArray
+    type: int | None = None
+
+
+class TriangleMesh:
+    """Triangles on the sphere for models of the ocean, with depths and a border, all immutable.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2) or (n, 3)
+        The nodes: longitude and latitude in degrees, or x, y, z. Those in no triangle are left
+        out; the others keep their order.
+    triangles : array_like of int, shape (m, 3)
+        The nodes of each triangle, counterclockwise seen from outside.
+    coast : array_like of int, shape (k, 2), optional
+        The edges that are coast; the rest of the border is open water. By default all of it is
+        coast.
+    depths : array_like, shape (nodes that are left,), optional
+        The depth of the water in metres, positive down.
+    levels : array_like, optional
+        The depths of the levels between layers in metres, three or more, increasing, for FESOM.
+
+    Raises
+    ------
+    InvalidInput
+        If a triangle is clockwise or has no area, or triangles do not fit together: an edge has
+        three of them, or two in one direction.
+
+    See Also
+    --------
+    read_triangles : reads files.
+
+    Notes
+    -----
+    The border consists of loops. A loop that is coast and has less than half of the sphere beyond
+    it is an island; others are divided into open and land segments, with the mesh to the left.
+    Where triangles meet in a node without a common edge, each gap has a loop of its own.
+
+    Examples
+    --------
+    >>> import rondel.mesh
+    >>> lonlat = [[0, 0], [4, 0], [4, 3], [0, 3], [2, 1]]
+    >>> triangles = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    >>> mesh = rondel.mesh.TriangleMesh(lonlat, triangles, coast=[[0, 1], [1, 2]])
+    >>> mesh
+    <TriangleMesh: 5 nodes, 4 triangles, 2 segments>
+    >>> [(segment.kind, segment.nodes.tolist()) for segment in mesh.boundary]
+    [('open', [2, 3, 0]), ('land', [0, 1, 2])]
+
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        *,
+        coast: ArrayLike | None = None,
+        depths: ArrayLike | None = None,
+        levels: ArrayLike | None = None,
+    ) -> None:
+        given = as_floats(points, "points")
+        is_lonlat = given.ndim == 2 and given.shape[1] == 2
+        nothing = np.empty(0)
+        self._arrays = _core.mesh_of_triangles(
+            np.empty((0, 3)) if is_lonlat else as_rows(points, 3, "points"),
+            given if is_lonlat else np.empty((0, 2)),
+            _rows_of_indices(triangles, 3, "triangles"),
+            None if coast is None else _rows_of_indices(coast, 2, "coast"),
+            nothing if depths is None else as_floats(depths, "depths"),
+            nothing if levels is None else as_floats(levels, "levels"),
+        )
+
+    @classmethod
+    def _of(cls, arrays: _core.TriangleMesh) -> TriangleMesh:
+        mesh = cls.__new__(cls)
+        mesh._arrays = arrays
+        return mesh
+
+    def __getstate__(self) -> dict[str, Any]:
+        return arrays_of(self._arrays)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self._arrays = with_arrays(_core.TriangleMesh(), state)
+
+    def __repr__(self) -> str:
+        return (
+            f"<TriangleMesh: {len(self.points)} nodes, {len(self.triangles)} triangles, "
+            f"{len(self.boundary)} segments>"
+        )
+
+    @property
+    def points(self) -> FloatArray:
+        """The nodes, float64 of shape (n, 3): unit vectors, or as long as a file has them."""
+        return self._arrays.points
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """The nodes in degrees, float64 of shape (n, 2), as given or computed."""
+        positions = self._arrays.positions
+        return positions if len(positions) else frozen(_core.lonlats(self.points))
+
+    @property
+    def triangles(self) -> IntArray:
+        """The nodes of each triangle, int32 of shape (m, 3)."""
+        return self._arrays.triangles
+
+    @property
+    def depths(self) -> FloatArray | None:
+        """The depth at each node in metres, positive down, float64; None if it is not known."""
+        return self._arrays.depths if len(self._arrays.depths) else None
+
+    @property
+    def levels(self) -> FloatArray | None:
+        """The depths of the levels between layers in metres, float64; None if not known."""
+        return self._arrays.levels if len(self._arrays.levels) else None
+
+    @property
+    def boundary(self) -> list[Boundary]:
+        """The segments of the border."""
+        return [Boundary(*segment) for segment in self._arrays.boundary]
+
+    @property
+    def pinched_nodes(self) -> IntArray:
+        """The nodes with several gaps between triangles, which models refuse, int32."""
+        return self._arrays.pinched_nodes()
+
+    def write(self, path: Path, *, format: str | None = None, threads: int | None = None) -> None:
+        """Writes a file, complete or not at all.
+
+        Parameters
+        ----------
+        path : path_like
+            The file to write: ``.msh`` (Gmsh 4.1), ``.14`` (ADCIRC's fort.14), ``.gr3`` and
+            ``.ll`` (SCHISM), ``.2dm`` (SMS), or ``.nc`` (UGRID).
+        format : str, optional
+            'gmsh', 'gmsh2' (2.2), 'adcirc', 'schism', 'sms', 'ugrid', or 'fesom', for which `path`
+            is a folder; by default the ending of the name decides.
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written, or no format has such a name.
+        InvalidInput
+            If a depth is negative and the format is 'fesom'.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import rondel.mesh
+        >>> mesh = rondel.mesh.TriangleMesh([[0, 0], [4, 0], [4, 3]], [[0, 1, 2]], depths=[5, 6, 7])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     name = os.path.join(folder, "hgrid.gr3")
+        ...     mesh.write(name)
+        ...     rondel.mesh.read_triangles(name).depths
+        array([5., 6., 7.])
+
+        """
+        self._arrays.write(as_name(path), format or "", as_threads(threads))
+
+    def to_meshio(self) -> meshio.Mesh:
+        """Returns a mesh of meshio, which has to be installed.
+
+        The triangles and the lines of the border are its cells, with the names of physical groups:
+        'domain', 'open', 'land', 'island'; `depths` are the data 'depth' of its points.
+        """
+        import meshio
+
+        cells: list[tuple[str, Any]] = [("triangle", self.triangles)]
+        groups = [np.full(len(self.triangles), 4)]
+        kinds = ("open", "land", "island")
+        for kind, nodes, _ in self.boundary:
+            ring = np.append(nodes, nodes[0]) if kind == "island" else nodes
+            cells.append(("line", np.stack([ring[:-1], ring[1:]], axis=1)))
+            groups.append(np.full(len(ring) - 1, 1 + kinds.index(kind)))
+        names = {kind: np.array([1 + k, 1]) for k, kind in enumerate(kinds)}
+        return meshio.Mesh(
+            self.points,
+            cells,
+            point_data={} if self.depths is None else {"depth": self.depths},
+            cell_data={"gmsh:physical": groups, "gmsh:geometrical": groups},
+            field_data={**names, "domain": np.array([4, 2])},
+        )
+
+
+def _rows_of_indices(values: ArrayLike, columns: int, name: str) -> IntArray:
+    """Rows of that many indices."""
+    array = np.asarray(values)
+    if array.ndim != 2 or array.shape[1] != columns:
+        if array.size:
+            raise ValueError(f"{name} must have shape (n, {columns}), not {array.shape}")
+        return np.empty((0, columns), np.int32)
+    return as_indices(array.ravel(), name).reshape(-1, columns)
+
+
+def read_triangles(
+    path: Path, *, format: str | None = None, threads: int | None = None
+) -> TriangleMesh:
+    r"""Reads a mesh of triangles: what `TriangleMesh.write` writes, and files of other programs.
+
+    Parameters
+    ----------
+    path : path_like
+        A file of Gmsh (text, 4.1 or 2.2, on a sphere around the origin), ADCIRC, SCHISM or SMS (in
+        degrees), UGRID whose faces are triangles, or a folder of FESOM2.
+    format : str, optional
+        The format, as for `TriangleMesh.write`; by default the ending of the name decides.
+    threads : int, optional
+        The largest number of threads; by default one for each core.
+
+    Returns
+    -------
+    TriangleMesh
+        The mesh. Clockwise triangles are turned; a border of which the file says nothing is land.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read or is not valid; the message has the line and the value.
+
+    Warns
+    -----
+    UserWarning
+        If something was changed or left out.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import rondel.mesh
+    >>> text = "a lake\n1 3\n1 8.1 47.2 9\n2 8.3 47.2 5\n3 8.2 47.3 4\n1 3 1 2 3\n"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     name = os.path.join(folder, "fort.14")
+    ...     with open(name, "w") as file:
+    ...         _ = file.write(text)
+    ...     rondel.mesh.read_triangles(name)
+    <TriangleMesh: 3 nodes, 1 triangles, 2 segments>
+
+    """
+    name = as_name(path)
+    found, remarks = _core.read_triangles(name, format or "", as_threads(threads))
+    for remark in remarks:
+        warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
+    return TriangleMesh._of(found)

@@ -1,0 +1,119 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Meshes of triangles: their borders, and files that come back bit by bit."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import rondel
+import rondel.mesh
+from rondel.mesh import TriangleMesh, read_triangles
+
+FORMATS = ("msh", "14", "gr3", "ll", "2dm", "nc")
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    """An ocean around the pole with an island, open where x is positive."""
+    rng = np.random.default_rng(5)
+    lat = np.degrees(np.arcsin(rng.uniform(0.4, 1, 400)))
+    tri = rondel.delaunay_lonlat(rng.uniform(-180, 180, 400), lat)
+    solid = tri.simplices[~tri.ghost]
+    middle = tri.points[solid].mean(axis=1)
+    kept = solid[(np.hypot(middle[:, 0] - 0.3, middle[:, 1]) > 0.1) & (middle[:, 2] > 0.5)]
+    edges = np.concatenate([kept[:, [0, 1]], kept[:, [1, 2]], kept[:, [2, 0]]])
+    coast = edges[
+        (tri.points[edges].sum(axis=1)[:, 0] < 0) | (tri.points[edges, 2].min(axis=1) > 0.7)
+    ]
+    kept_nodes = len(np.unique(kept))
+    return TriangleMesh(tri.lonlat, kept, coast=coast, depths=rng.uniform(1, 5000, kept_nodes))
+
+
+def same(one, other, names=("points", "triangles", "depths")):
+    for name in names:
+        assert np.array_equal(getattr(one, name), getattr(other, name)), name
+    for a, b in zip(one.boundary, other.boundary, strict=True):
+        assert (a.kind, a.type, a.nodes.tolist()) == (b.kind, b.type, b.nodes.tolist())
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_files_come_back(mesh, ending, tmp_path):
+    path = tmp_path / f"mesh.{ending}"
+    mesh.write(path)
+    found = read_triangles(path)
+    same(found, mesh)
+    if ending != "msh":
+        assert np.array_equal(found.lonlat, mesh.lonlat)
+    assert {segment.kind for segment in mesh.boundary} == {"open", "land", "island"}
+
+
+def test_fesom_is_a_folder(mesh, tmp_path):
+    levels = TriangleMesh(mesh.lonlat, mesh.triangles, depths=mesh.depths, levels=[0, 10, 9000])
+    levels.write(tmp_path / "mesh", format="fesom")
+    assert {path.name for path in (tmp_path / "mesh").iterdir()} == {
+        "nod2d.out",
+        "elem2d.out",
+        "aux3d.out",
+    }
+    found = read_triangles(tmp_path / "mesh")
+    same(found, levels, ("points", "lonlat", "triangles", "depths", "levels"))
+
+
+def test_pickles_are_the_same(mesh):
+    again = pickle.loads(pickle.dumps(mesh))
+    same(again, mesh, ("points", "lonlat", "triangles", "depths"))
+    assert again.levels is None
+    with pytest.raises(ValueError, match="read-only"):
+        again.points[0] = 0
+
+
+def test_degrees_are_computed_for_points(mesh):
+    points = TriangleMesh(mesh.points, mesh.triangles)
+    assert np.allclose(points.lonlat, mesh.lonlat)
+    assert points.depths is None
+    assert not points.pinched_nodes.size
+
+
+def test_wrong_input_is_named(tmp_path):
+    lonlat = [[0, 0], [1, 0], [0, 1]]
+    with pytest.raises(rondel.InvalidInput, match="triangle 0 is clockwise") as caught:
+        TriangleMesh(lonlat, [[0, 2, 1]])
+    assert caught.value.index == 0
+    with pytest.raises(rondel.InvalidInput, match="triangle 0 has the corner 3"):
+        TriangleMesh(lonlat, [[0, 1, 3]])
+    with pytest.raises(rondel.InvalidInput, match="there are 2 depths for 3 nodes"):
+        TriangleMesh(lonlat, [[0, 1, 2]], depths=[1, 2])
+    with pytest.raises(ValueError, match="triangles must have shape"):
+        TriangleMesh(lonlat, [0, 1, 2])
+    with pytest.raises(OSError, match="unknown ending"):
+        TriangleMesh(lonlat, [[0, 1, 2]]).write(tmp_path / "mesh.ply")
+    (tmp_path / "fort.14").write_text("x\n1 3\n1 0 95 0\n")
+    with pytest.raises(OSError, match=r"fort.14:3: latitude 95 is outside"):
+        read_triangles(tmp_path / "fort.14")
+
+
+def test_remarks_are_warnings(tmp_path):
+    (tmp_path / "a.gr3").write_text("x\n1 3\n1 0 0 1\n2 1 0 1\n3 0 1 1\n1 3 1 3 2\n")
+    with pytest.warns(UserWarning, match="1 of 1 triangles were clockwise"):
+        assert read_triangles(tmp_path / "a.gr3").triangles.tolist() == [[0, 1, 2]]
+
+
+@pytest.mark.parametrize("form", ["gmsh", "gmsh2"])
+def test_meshio_reads_and_writes_the_same(mesh, form, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    mesh.write(tmp_path / "mesh.msh", format=form)
+    read = meshio.read(tmp_path / "mesh.msh")
+    assert np.array_equal(read.points, mesh.points)
+    assert np.array_equal(read.cells_dict["triangle"], mesh.triangles)
+    assert np.array_equal(read.point_data["depth"].ravel(), mesh.depths)
+    lines = np.concatenate([cells.data for cells in read.cells if cells.type == "line"])
+    mine = mesh.to_meshio()
+    assert np.array_equal(
+        lines, np.concatenate([cells.data for cells in mine.cells if cells.type == "line"])
+    )
+    # meshio 5.3 writes depths as "np.float64(5.0)", which no program reads.
+    mine.point_data.clear()
+    mine.write(tmp_path / "theirs.msh", file_format="gmsh22", binary=False)
+    same(read_triangles(tmp_path / "theirs.msh"), mesh, ("points", "triangles"))
