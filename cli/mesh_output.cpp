@@ -11,6 +11,7 @@
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/names.h"
+#include "triangle_output.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -113,6 +114,9 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
   std::string endings = may_be_sites ? ".csv .tsv .xyz .txt .npy" : "";
   if (!is_stream) {
     endings = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)" + (may_be_sites ? ' ' + endings : "");
+  }
+  if (kind == MeshOutputKind::mesh_or_triangles) {
+    endings += ' ' + std::string(triangle_mesh_endings);
   }
   std::vector<NamedFile> written = {{"--report", output.report}, {"--graph", output.graph}};
   written.insert(written.end(), outputs.begin(), outputs.end());

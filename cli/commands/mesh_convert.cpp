@@ -65,7 +65,7 @@ ExitStatus convert_triangles(const MeshOutput& written) {
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   const MeshOutput& written = options.written;
   if (are_triangles(written.common)) return convert_triangles(written);
-  require_mesh_output(written, MeshOutputKind::mesh);
+  require_mesh_output(written, MeshOutputKind::mesh_or_triangles);
   Job job(written.common);
   const mesh::VoronoiMesh arrays =
       read_mesh_or_sites(job, written.common, written.radius, options.allow_zero_edges);

@@ -27,8 +27,8 @@ namespace rondel::mesh {
 /// A file without a format is a folder of FESOM if it is a folder with nod2d.out.
 RONDEL_API bool is_triangle_mesh_file(const FileName& file);
 
-/// True if write_triangle_mesh() knows the format: is_triangle_mesh_file(), or `ugrid`, or the
-/// ending of a netCDF file without a format.
+/// True if write_triangle_mesh() knows the format: is_triangle_mesh_file(), or UGRID's by the format
+/// `ugrid` or the ending .nc .nc4 .ug.
 RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 
 /// Writes a mesh of triangles: in the formats of is_triangle_mesh_file(), and as netCDF by the

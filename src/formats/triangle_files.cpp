@@ -67,7 +67,8 @@ std::string fesom_folder(const FileName& file) {
 
 // True if a file is netCDF of UGRID by its name.
 bool is_ugrid_file(const FileName& file) {
-  return io::ending(file) == ".ugrid" || io::has_netcdf_ending(file);
+  const std::string ending = io::ending(file);
+  return ending == ".ugrid" || ending == ".nc" || ending == ".nc4" || ending == ".ug";
 }
 
 // Reads the file in its format, without FESOM's.

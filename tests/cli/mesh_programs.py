@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Packages of Python read Rondel's files of meshes (mesh_programs.py TOOL); scripts/test --mesh-clients installs them.
 
-uxarray, VTK, YAC, gpuwm-hex and ugrid-checks. Prints a line for each.
+uxarray, VTK, YAC, gpuwm-hex, ugrid-checks; and of triangles meshio, Gmsh and xugrid. Prints a line for each.
 """
 
 import contextlib
@@ -14,10 +14,14 @@ import subprocess
 import sys
 import tempfile
 
+import gmsh
+import meshio
 import netCDF4
 import numpy as np
 import uxarray
 import vtk
+import xarray
+import xugrid
 import yac.core
 from ugrid_checks.check import check_dataset
 
@@ -139,6 +143,35 @@ def check_ugrid(folder):
     return "no problems found"
 
 
+def check_triangles(folder):
+    """Land: meshio, Gmsh, xugrid and uxarray find the same nodes, triangles and groups; what Gmsh writes is read."""
+    land = pathlib.Path(__file__).parents[2] / "data" / "countries-110m.geojson"
+    for name in ("land4.msh", "land2.msh", "land.nc"):
+        form = ["--format", "gmsh2"] if name == "land2.msh" else []
+        run(TOOL, "triangulate", land, "--inside", "--split", "-o", folder / name, *form)
+    facts = json.loads(run(TOOL, "info", folder / "land4.msh", "--json"))
+    counts = (facts["nodes"], facts["triangles"])
+    for name in ("land4.msh", "land2.msh"):
+        mesh = meshio.read(folder / name)
+        assert (len(mesh.points), len(mesh.cells_dict["triangle"])) == counts, name
+        assert set(mesh.field_data) == {"land", "island", "domain"}, mesh.field_data
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(str(folder / name))
+        groups = {gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups()}
+        assert groups == {"land", "island", "domain"}, groups
+        assert len(gmsh.model.mesh.getNodes()[0]) == counts[0], name
+        gmsh.write(str(folder / "gmsh.msh"))
+        gmsh.finalize()
+        assert json.loads(run(TOOL, "info", folder / "gmsh.msh", "--json"))["segments"] == facts["segments"]
+    with xarray.open_dataset(folder / "land.nc") as dataset:
+        grid = xugrid.Ugrid2d.from_dataset(dataset)
+        assert (grid.n_node, grid.n_face) == counts
+    grid = uxarray.open_grid(folder / "land.nc")
+    assert (grid.n_node, grid.n_face) == counts
+    return f"{counts[1]} triangles of land"
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -154,7 +187,8 @@ def main():
         run(TOOL, "generate", "uniform", "-n", "300", "-o", folder / "sites.csv")
         run(TOOL, "mesh", "convert", folder / "sites.csv", "-o", folder / "other.nc", "--kind", "cdf2")
         for client, check in (("uxarray", check_uxarray), ("vtk", check_vtk), ("yac", check_yac),
-                              ("gpuwm-hex", check_gpuwm), ("ugrid-checks", check_ugrid)):
+                              ("gpuwm-hex", check_gpuwm), ("ugrid-checks", check_ugrid),
+                              ("meshio, gmsh, xugrid", check_triangles)):
             print(f"{client}: {check(folder)}", flush=True)
 
 

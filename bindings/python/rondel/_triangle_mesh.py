@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Boundary(NamedTuple):
 
     """
 
-    kind: Literal["open", "land", "island"]
+    kind: str
     nodes: IntArray
     type: int | None = None
 

@@ -225,6 +225,7 @@ TEST(triangle_files, are_known_by_name_and_format) {
   EXPECT_TRUE(mesh::can_write_triangle_mesh("a.nc"));
   EXPECT_TRUE(mesh::can_write_triangle_mesh({"a", "fesom"}));
   EXPECT_FALSE(mesh::can_write_triangle_mesh("a.ply"));
+  EXPECT_FALSE(mesh::can_write_triangle_mesh("a.exo"));
   EXPECT_EQ(thrown_message<FileError>([] { return mesh_in("", "ply"); }),
             "<memory>: unknown format \"ply\"; meshes of triangles are read from .msh .14 .gr3 .ll "
             ".2dm .nc");
