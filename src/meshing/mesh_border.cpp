@@ -9,6 +9,7 @@
 #include "exact/vector.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
+#include "system/row_assembly.h"
 
 namespace rondel::meshing {
 namespace {
@@ -17,24 +18,26 @@ std::string numbered(const char* part, std::size_t index, Index base) {
   return std::string(part) + ' ' + std::to_string(index + base);
 }
 
+// A side of a triangle in the list of its lower node.
+struct MeshSide {
+  Index triangle;
+  Index other;  // the higher node
+  bool is_up;   // true if the triangle has the side from the lower to the higher node
+};
+
 // The sides of triangles, in lists by their lower nodes.
 class MeshSides {
  public:
-  struct Side {
-    Index triangle;
-    Index other;  // the higher node
-    bool is_up;   // true if the triangle has the side from the lower to the higher node
-  };
-
   MeshSides(std::size_t num_nodes, std::span<const Triple> triangles)
-      : offsets_(num_nodes + 1), sides_(3 * triangles.size()) {
-    visit(triangles, [&](Index low, const Side& /*side*/) { ++offsets_[low + 1]; });
-    for (std::size_t i = 0; i < num_nodes; ++i) offsets_[i + 1] += offsets_[i];
-    std::vector<std::uint64_t> next(offsets_.begin(), offsets_.end() - 1);
-    visit(triangles, [&](Index low, const Side& side) { sides_[next[low]++] = side; });
+      : sides_(3 * triangles.size()) {
+    system::RowPlaces<> places(num_nodes);
+    visit(triangles, [&](Index low, const MeshSide& /*side*/) { places.count(low); });
+    places.sum();
+    visit(triangles, [&](Index low, const MeshSide& side) { sides_[places.place(low)] = side; });
+    offsets_ = std::move(places).offsets();
   }
 
-  [[nodiscard]] std::span<const Side> of(Index low) const {
+  [[nodiscard]] std::span<const MeshSide> of(Index low) const {
     return std::span(sides_).subspan(offsets_[low], offsets_[low + 1] - offsets_[low]);
   }
 
@@ -45,19 +48,19 @@ class MeshSides {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index a = triangles[t][k];
         const Index b = triangles[t][(k + 1) % 3];
-        visit_side(std::min(a, b), Side{t, std::max(a, b), a < b});
+        visit_side(std::min(a, b), MeshSide{t, std::max(a, b), a < b});
       }
     }
   }
 
   std::vector<std::uint64_t> offsets_;
-  std::vector<Side> sides_;
+  std::vector<MeshSide> sides_;
 };
 
 // Returns true if the side is on the border. Throws InvalidInput if it has no single partner.
-bool is_on_border(const MeshSides& sides, Index low, const MeshSides::Side& side, Index base) {
+bool is_on_border(const MeshSides& sides, Index low, const MeshSide& side, Index base) {
   std::size_t num_partners = 0;
-  for (const MeshSides::Side& other : sides.of(low)) {
+  for (const MeshSide& other : sides.of(low)) {
     if (other.other != side.other || &other == &side) continue;
     const bool is_turned = other.is_up == side.is_up;
     if (!is_turned && num_partners == 0) {
@@ -219,7 +222,7 @@ std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
                            t);
       }
       const auto list = sides.of(std::min(a, b));
-      const auto side = std::ranges::find_if(list, [&](const MeshSides::Side& one) {
+      const auto side = std::ranges::find_if(list, [&](const MeshSide& one) {
         return one.triangle == t && one.other == std::max(a, b);
       });
       if (is_on_border(sides, std::min(a, b), *side, base)) border.push_back({a, b});

@@ -13,7 +13,7 @@ import sys
 
 # By convention: the files that read and write it, and names that its files have and no others.
 CONVENTIONS = {
-    "UGRID": ("ugrid.cpp", ["face_node_connectivity", "face_coordinates", "edge_face_connectivity"]),
+    "UGRID": ("ugrid.cpp ugrid_triangles.cpp", ["face_node_connectivity", "face_coordinates", "edge_face_connectivity"]),
     "SCRIP": ("scrip.cpp", ["grid_corner_lon", "grid_corner_lat"]),
     "ESMF": ("esmf.cpp", ["nodeCoords", "elementConn", "centerCoords", "polybreak_value"]),
     "MPAS": ("mpas.cpp mpas_arrays.cpp", ["verticesOnCell", "edgesOnCell", "nEdgesOnCell", "kiteAreasOnVertex"]),
