@@ -88,8 +88,8 @@ struct TriangleMesh {
 /// \param triangles  counterclockwise seen from outside
 /// \param coast  the edges that are coast, in either direction; edges that are not on the border
 ///               have no effect. Not given: all edges are
-/// \throws InvalidInput (the position of the triangle) if a corner is no node, or if three triangles
-///         have an edge, or two in the same direction; (the position of the node) if a point is not
+/// \throws InvalidInput (the position of the triangle) if a corner is no node, or if two triangles
+///         have an edge in the same direction, as of three do; (the position of the node) if a point is not
 ///         finite or the center
 RONDEL_API std::vector<BoundarySegment> boundary_segments(
     std::span<const Point> points, std::span<const Triple> triangles,

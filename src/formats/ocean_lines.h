@@ -128,7 +128,7 @@ void write_gmsh2(io::AtomicFile& file, const MeshOfFile& mesh);
 void write_gr3(io::AtomicFile& file, const MeshOfFile& mesh);
 void write_2dm(io::AtomicFile& file, const MeshOfFile& mesh);
 void write_fesom(const std::string& folder, const MeshOfFile& mesh);
-void write_ugrid_triangles(io::AtomicFile& file, const MeshOfFile& mesh,
+void write_ugrid_triangles(io::AtomicFile& output, const MeshOfFile& mesh,
                            const NetcdfOptions& options);
 void read_gmsh(std::string_view text, MeshInFile& file);
 void read_gr3(std::string_view text, MeshInFile& file);

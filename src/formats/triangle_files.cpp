@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/ocean_lines.h"
 #include "io/atomic_file.h"
@@ -73,7 +74,8 @@ bool is_ugrid_file(const FileName& file) {
 
 // Reads the file in its format, without FESOM's.
 void read_into(const FileName& name, formats::MeshInFile& file) {
-  const auto [whole, part] = file_and_variable(name);
+  const std::pair<FileName, std::string> divided = file_and_variable(name);
+  const FileName& whole = divided.first;
   io::FileBytes bytes(whole, true);
   const OceanFormat* const format = ocean_format(whole);
   io::in_file(bytes.name(), [&] {
@@ -82,7 +84,7 @@ void read_into(const FileName& name, formats::MeshInFile& file) {
       format->read(bytes.text(), file);
     } else if (is_ugrid_file(whole) || io::is_netcdf(bytes.head())) {
       const io::NetcdfReader reader(bytes);
-      formats::read_ugrid_triangles(reader, part, file);
+      formats::read_ugrid_triangles(reader, divided.second, file);
     } else {
       io::throw_unknown_ending(
           name, "meshes of triangles are read from",

@@ -116,6 +116,7 @@ class BorderWalk {
 bool is_outer(std::span<const Point> points, const std::vector<Index>& loop) {
   constexpr double tolerance = 4 * std::numbers::pi * 1e-9;
   std::vector<Point> ring;
+  ring.reserve(loop.size());
   for (const Index node : loop) ring.push_back(normalized(points[node]));
   const double area = map::area_on_left(ring);
   if (area <= 0) return area <= tolerance - 2 * std::numbers::pi;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "exact/vector.h"
 #include "rondel/error.h"
@@ -35,10 +36,20 @@ class MeshSides {
     places.sum();
     visit(triangles, [&](Index low, const MeshSide& side) { sides_[places.place(low)] = side; });
     offsets_ = std::move(places).offsets();
+    for (std::size_t i = 0; i < num_nodes; ++i) {
+      std::ranges::sort(sides_.begin() + static_cast<std::ptrdiff_t>(offsets_[i]),
+                        sides_.begin() + static_cast<std::ptrdiff_t>(offsets_[i + 1]), {},
+                        [](const MeshSide& side) { return std::pair(side.other, side.triangle); });
+    }
   }
 
-  [[nodiscard]] std::span<const MeshSide> of(Index low) const {
-    return std::span(sides_).subspan(offsets_[low], offsets_[low + 1] - offsets_[low]);
+  // Returns the sides between two nodes, by their triangles.
+  [[nodiscard]] std::span<const MeshSide> between(Index low, Index high) const {
+    const auto of_low = std::span(sides_).subspan(offsets_[low], offsets_[low + 1] - offsets_[low]);
+    const auto begin = std::ranges::lower_bound(of_low, high, {}, &MeshSide::other);
+    const auto end =
+        std::find_if(begin, of_low.end(), [&](const MeshSide& side) { return side.other != high; });
+    return {begin, end};
   }
 
  private:
@@ -57,25 +68,19 @@ class MeshSides {
   std::vector<MeshSide> sides_;
 };
 
-// Returns true if the side is on the border. Throws InvalidInput if it has no single partner.
-bool is_on_border(const MeshSides& sides, Index low, const MeshSide& side, Index base) {
-  std::size_t num_partners = 0;
-  for (const MeshSide& other : sides.of(low)) {
-    if (other.other != side.other || &other == &side) continue;
-    const bool is_turned = other.is_up == side.is_up;
-    if (!is_turned && num_partners == 0) {
-      ++num_partners;
-      continue;
-    }
-    throw InvalidInput(numbered("triangle", side.triangle, base) + " has the edge between nodes " +
-                           std::to_string(low + base) + " and " +
-                           std::to_string(side.other + base) +
-                           (is_turned ? " in the direction in which triangle "
-                                      : " which is that of two others, one of them ") +
-                           std::to_string(other.triangle + base) + (is_turned ? " has it" : ""),
-                       side.triangle);
+// Throws InvalidInput if another triangle has the side in the same direction. Of three triangles at
+// an edge, two do.
+void require_one_direction(std::span<const MeshSide> sides, Index triangle, Index a, Index b,
+                           Index base) {
+  for (const MeshSide& other : sides) {
+    if (other.triangle == triangle || other.is_up != (a < b)) continue;
+    throw InvalidInput(numbered("triangle", triangle, base) + " has the edge between nodes " +
+                           std::to_string(std::min(a, b) + base) + " and " +
+                           std::to_string(std::max(a, b) + base) +
+                           " in the direction in which triangle " +
+                           std::to_string(other.triangle + base) + " has it",
+                       triangle);
   }
-  return num_partners == 0;
 }
 
 using Found = std::optional<MeshFault>;
@@ -221,11 +226,9 @@ std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
                                std::to_string(a + base) + " twice",
                            t);
       }
-      const auto list = sides.of(std::min(a, b));
-      const auto side = std::ranges::find_if(list, [&](const MeshSide& one) {
-        return one.triangle == t && one.other == std::max(a, b);
-      });
-      if (is_on_border(sides, std::min(a, b), *side, base)) border.push_back({a, b});
+      const std::span<const MeshSide> at_edge = sides.between(std::min(a, b), std::max(a, b));
+      require_one_direction(at_edge, t, a, b, base);
+      if (at_edge.size() == 1) border.push_back({a, b});
     }
   }
   return border;

@@ -24,7 +24,7 @@ namespace rondel::meshing {
 void require_corners(std::size_t num_nodes, std::span<const Triple> triangles, Index base = 0);
 
 // Finds the border, edges in the order of their triangles. Throws InvalidInput (the triangle) if a
-// corner is no node, three triangles share an edge, or two have it in one direction. Messages give
+// corner is no node, or two triangles have an edge in one direction. Messages give
 // the first element the number `base`.
 std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
                                             std::span<const Triple> triangles, Index base = 0);
