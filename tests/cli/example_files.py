@@ -130,6 +130,9 @@ def copy(root, name):
     return lambda path: shutil.copy(root / name, path)
 
 
+triangles = table("a square", ["2 4", "1 0 0 9", "2 1 0 8", "3 1 1 7", "4 0 1 6", "1 3 1 2 3", "2 3 1 3 4"])
+
+
 def makers(root):
     """Makers of the files, by name."""
     return {
@@ -142,6 +145,9 @@ def makers(root):
         "islands.geojson": features(box(-10, -10, 5, 8), box(100, 40, 130, 60), box(-80, -60, -50, -30)),
         "basins.geojson": features(box(-10, -20, 30, 20), box(20, 0, 60, 30), box(-70, -40, -50, 0)),
         "roads.geojson": features(("LineString", [[0, 4], [10, 0]]), ("LineString", [[20, 0], [30, 0]])),
+        "sea.geojson": features(box(-10, 40, 20, 60)),
+        "fort.14": triangles,
+        "hgrid.gr3": triangles,
         "lakes.geojson": features(box(31, -3, 34, 1), box(50, 37, 54, 47), box(-80, 43, -76, 44)),
         "parcels.geojson": features(("Polygon", [[[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]]]), box(32, -2, 40, 6)),
         "region.geojson": features(box(-30, -20, 40, 50)),

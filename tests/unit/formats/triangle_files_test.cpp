@@ -45,7 +45,8 @@ bool same_bits(std::span<const double> a, std::span<const double> b) {
 }
 
 std::span<const double> numbers_of(const std::vector<LonLat>& positions) {
-  return {&positions.data()->lon_deg, 2 * positions.size()};
+  if (positions.empty()) return {};
+  return {&positions.front().lon_deg, 2 * positions.size()};
 }
 
 // A mesh without what a format cannot hold.
