@@ -109,7 +109,8 @@ void read_fesom(const std::string& folder, MeshInFile& file) {
   in_file_of(folder, "nod2d.out",
              [&](OceanLines& lines) { is_coast = read_fesom_nodes(lines, file); });
   in_file_of(folder, "elem2d.out", [&](OceanLines& lines) { read_fesom_triangles(lines, file); });
-  if (std::filesystem::exists(folder + "aux3d.out")) {
+  std::error_code error;
+  if (std::filesystem::exists(folder + "aux3d.out", error)) {
     in_file_of(folder, "aux3d.out", [&](OceanLines& lines) { read_fesom_depths(lines, file); });
   } else {
     file.remarks.emplace_back("there is no aux3d.out, which has the depths");

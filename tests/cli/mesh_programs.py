@@ -169,6 +169,8 @@ def check_triangles(folder):
         assert (grid.n_node, grid.n_face) == counts
     grid = uxarray.open_grid(folder / "land.nc")
     assert (grid.n_node, grid.n_face) == counts
+    report = check_dataset(str(folder / "land.nc"), print_summary=False).checking_report()
+    assert "No problems found" in report, report
     return f"{counts[1]} triangles of land"
 
 
