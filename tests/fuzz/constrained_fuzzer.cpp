@@ -15,6 +15,8 @@
 #include "rondel/constrained.h"
 #include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
+#include "rondel/polygon_triangles.h"
+#include "rondel/predicates.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -103,6 +105,31 @@ void test_split(const std::vector<Point>& sites, const std::vector<Edge>& constr
   }
 }
 
+// Triangles of polygons are positive, have no side in common in one direction, and no point is idle.
+void test_triangles(const CellRings& polygons) {
+  for (const double spacing : {0.0, 30.0}) {
+    try {
+      const PolygonTriangles made = triangles_of_polygons(polygons, spacing);
+      require(made.triangles.size() == polygons.num_cells(), "each polygon has a row");
+      std::vector<bool> is_used(made.points.size());
+      std::vector<Edge> sides;
+      for (const Triple& t : made.triangles.values) {
+        require(orientation(made.points.at(t[0]), made.points.at(t[1]), made.points.at(t[2])) ==
+                    Sign::positive,
+                "triangles are positive");
+        for (std::size_t i = 0; i < 3; ++i) {
+          is_used[t[i]] = true;
+          sides.push_back({t[i], t[(i + 1) % 3]});
+        }
+      }
+      require(std::ranges::count(is_used, false) == 0, "each point is a corner");
+      std::ranges::sort(sides);
+      require(std::ranges::adjacent_find(sides) == sides.end(), "triangles do not overlap");
+    } catch (const InvalidInput&) {  // sides that do not divide in and out
+    }
+  }
+}
+
 // A ring has the sides of the line along it, and one more if its ends are apart.
 void test_features(const std::vector<Point>& points) {
   if (points.empty()) return;
@@ -130,6 +157,7 @@ void test_features(const std::vector<Point>& points) {
   for (const Point& p : made.sites) {
     require(std::ranges::count(made.sites, p) == 1, "each place is one site");
   }
+  test_triangles(polygons);
 }
 
 }  // namespace

@@ -283,8 +283,8 @@ RONDEL_C_API rondel_status rondel_dynamic_snapshot(const rondel_dynamic* dynamic
 
 /* ---- Polygons (rondel/polygon_files.h, cell_rings.h) ---- */
 
-/* A library that is built without files (RONDEL_BUILD_IO=OFF), as that for WebAssembly, lacks this section and those
- * that follow up to "Predicates". */
+/* A library that is built without polygons (RONDEL_BUILD_POLYGONS=OFF) lacks this section and those that follow up to
+ * "Predicates". */
 
 #ifndef ARROW_C_DATA_INTERFACE
 #define ARROW_C_DATA_INTERFACE
@@ -495,6 +495,28 @@ RONDEL_C_API rondel_status rondel_buffer(const rondel_polygons* polygons, double
 RONDEL_C_API rondel_status rondel_buffer_points(const double* points, size_t n, double distance,
                                                 double tolerance, const rondel_execution* execution,
                                                 rondel_polygons** made);
+
+/* ---- Triangles of polygons (rondel/polygon_triangles.h) ---- */
+
+typedef struct rondel_triangles rondel_triangles;
+
+/** Triangulates polygons together, exactly and never outside of them. `spacing_deg` is the length of the longest sides of
+ *  triangles in degrees, about; 0: only the corners of polygons are corners of triangles.
+ *  RONDEL_INVALID_INPUT: the spacing is negative, not finite or too small; the index of a polygon whose sides do not
+ *  close rings that have the interior on one side. */
+RONDEL_C_API rondel_status rondel_triangulate_polygons(const rondel_polygons* polygons,
+                                                       double spacing_deg,
+                                                       const rondel_execution* execution,
+                                                       rondel_triangles** made);
+RONDEL_C_API void rondel_triangles_free(rondel_triangles* triangles);
+
+RONDEL_C_API size_t rondel_num_triangle_points(const rondel_triangles* triangles);
+/** Unit vectors, shape (num_triangle_points, 3). */
+RONDEL_C_API const double* rondel_triangle_points(const rondel_triangles* triangles);
+/** Polygon i has the triangles offsets[i] ... offsets[i + 1] - 1; shape (num_polygons + 1,). */
+RONDEL_C_API const uint64_t* rondel_triangle_offsets(const rondel_triangles* triangles);
+/** Positions in rondel_triangle_points(), counterclockwise seen from outside, shape (number of triangles, 3). */
+RONDEL_C_API const uint32_t* rondel_triangle_corners(const rondel_triangles* triangles);
 
 /* ---- Predicates (rondel/predicates.h), exact ---- */
 

@@ -14,6 +14,7 @@
 #include "rondel.h"
 #include "rondel/buffer.h"
 #include "rondel/polygon_files.h"
+#include "rondel/polygon_triangles.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
 #include "rondel/set_operations.h"
@@ -30,6 +31,7 @@ struct Freed {
 };
 using Features = std::unique_ptr<rondel_features, Freed<rondel_features, rondel_features_free>>;
 using Polygons = std::unique_ptr<rondel_polygons, Freed<rondel_polygons, rondel_polygons_free>>;
+using Triangles = std::unique_ptr<rondel_triangles, Freed<rondel_triangles, rondel_triangles_free>>;
 using Texts = std::unique_ptr<rondel_texts, Freed<rondel_texts, rondel_texts_free>>;
 using Lists = std::unique_ptr<rondel_lists, Freed<rondel_lists, rondel_lists_free>>;
 
@@ -238,6 +240,37 @@ TEST_F(CPolygons, have_the_buffers_of_cpp) {
     return rondel_buffer_points(&points.front().x, 2, 0.2, 0, nullptr, made);
   });
   expect_same(disks.get(), rondel::buffered(points, {0.2, 0}));
+}
+
+TEST_F(CPolygons, have_the_triangles_of_cpp) {
+  for (const double spacing : {0.0, 10.0}) {
+    const auto made = made_by<Triangles>([&](rondel_triangles** triangles) {
+      return rondel_triangulate_polygons(made_.get(), spacing, nullptr, triangles);
+    });
+    const rondel::PolygonTriangles expected = rondel::triangles_of_polygons(cells_, spacing);
+    ASSERT_EQ(rondel_num_triangle_points(made.get()), expected.points.size());
+    EXPECT_TRUE(std::equal(expected.points.begin(), expected.points.end(),
+                           reinterpret_cast<const rondel::Point*>(  // three doubles each
+                               rondel_triangle_points(made.get()))));
+    const auto& offsets = expected.triangles.offsets;
+    EXPECT_TRUE(std::equal(offsets.begin(), offsets.end(), rondel_triangle_offsets(made.get())));
+    EXPECT_TRUE(std::equal(expected.triangles.values.begin(), expected.triangles.values.end(),
+                           reinterpret_cast<const rondel::Triple*>(  // three indices each
+                               rondel_triangle_corners(made.get()))));
+  }
+  rondel_triangles* none = nullptr;
+  EXPECT_EQ(rondel_triangulate_polygons(made_.get(), -1, nullptr, &none), RONDEL_INVALID_INPUT);
+  EXPECT_EQ(none, nullptr);
+  EXPECT_EQ(rondel_triangulate_polygons(nullptr, 0, nullptr, &none), RONDEL_INVALID_INPUT);
+  const auto nothing = made_by<Polygons>([](rondel_polygons** polygons) {
+    return rondel_polygons_create(nullptr, 0, nullptr, nullptr, nullptr, 0, polygons);
+  });
+  const auto empty = made_by<Triangles>([&](rondel_triangles** triangles) {
+    return rondel_triangulate_polygons(nothing.get(), 0, nullptr, triangles);
+  });
+  EXPECT_EQ(rondel_num_triangle_points(empty.get()), 0U);
+  EXPECT_EQ(rondel_triangle_offsets(empty.get())[0], 0U);
+  rondel_triangles_free(nullptr);
 }
 
 TEST_F(CPolygons, that_are_not_valid_are_told_and_repaired) {

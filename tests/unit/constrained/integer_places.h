@@ -68,14 +68,13 @@ class IntegerPlaces {
     const int side = side_of_circle(rays_[a], rays_[b], rays_[c], rays_[p]);
     return (side != 0 ? side : oracle_.perturbed_side(a, b, c, p)) > 0;
   }
-  // Returns a ray inside of a face, different ones for different numbers.
+  // Returns a ray inside of a face. Those for different numbers are on a curve that a plane meets
+  // at most three times.
   [[nodiscard]] IntegerRay inner_ray(const Triple& face, std::int64_t number) const {
+    const std::int64_t square = number * number;
+    const std::array<std::int64_t, 3> weights = {7 + number, 11 + square, 13 + square * number};
     IntegerRay sum;
-    std::int64_t weight = 7 + number;
-    for (const Index corner : face) {
-      sum = sum - scaled_ray(rays_[corner], -weight);
-      weight += 4 + number;
-    }
+    for (std::size_t i = 0; i < 3; ++i) sum = sum - scaled_ray(rays_[face[i]], -weights[i]);
     return sum;
   }
   // Returns -1 if a ray is outside of a positive face, 1 if inside, 0 if it is in a plane of a side.

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /**
- * geoDelaunay, geoVoronoi and geoContour as d3-geo-voronoi 2.1 has them, exact for close, cocircular and equal points.
+ * geoDelaunay, geoVoronoi and geoContour as d3-geo-voronoi 2.1 has them, exact for close, cocircular and equal points;
+ * and geoTriangulate, the triangles of polygons.
  * @module
  */
 
 export { geoContour } from "./contour.js";
 export { geoDelaunay } from "./delaunay.js";
+export { geoTriangulate } from "./triangulate.js";
 export { geoVoronoi } from "./voronoi.js";

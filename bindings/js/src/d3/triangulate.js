@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Triangles of polygons as d3-geo has them: sides are great circles, and what is inside is to the right of rings.
+
+import { unitVectors } from "../build.js";
+import { engine } from "../engine.js";
+import { flatPolygons } from "../geojson.js";
+import { trianglesOf, wideOffsets, withMade } from "../triangulate.js";
+import { toLonLat } from "./sphere.js";
+
+/** @typedef {import("./sphere.js").LonLat} LonLat */
+
+/**
+ * `triangles` are three positions in points each, counterclockwise seen from outside. `features` has those of each
+ * feature.
+ * @typedef {{points: LonLat[], triangles: [number, number, number][], features: [number, number, number][][]}} GeoTriangles
+ */
+
+/**
+ * The rings of features with the interior to their left, each corner once: a polygon of arcs for each feature.
+ * @param {import("../geojson.js").FlatPolygons} flat
+ */
+function turnedRings({ features, polygons, rings, lonLat }) {
+  /** @type {{cells: number[], rings: number[], lonLat: number[]}} */
+  const turned = { cells: [], rings: [0], lonLat: [] };
+  for (let r = 0; r + 1 < rings.length; ++r) {
+    const positions = [];
+    for (let k = rings[r]; k < rings[r + 1]; ++k) positions.push([lonLat[2 * k], lonLat[2 * k + 1]]);
+    const [first, last] = [positions[0], positions[positions.length - 1]];
+    if (positions.length > 1 && first[0] === last[0] && first[1] === last[1]) positions.pop();
+    for (const [lon, lat] of positions.reverse()) turned.lonLat.push(lon, lat);
+    turned.rings.push(turned.lonLat.length / 2);
+  }
+  turned.cells = features.map((polygon) => polygons[polygon]);
+  return turned;
+}
+
+/**
+ * Triangulates the inside of polygons as d3-geo reads them: great circles join positions, exterior rings are clockwise,
+ * and a polygon may be larger than a hemisphere. Corners are the positions that were given.
+ * @param {any} object GeoJSON, also {type: "Sphere"}
+ * @param {{spacing?: number}} [options] `spacing` as for triangulate()
+ * @returns {GeoTriangles}
+ * @throws {import("../errors.js").RondelError} with the index of a feature whose rings do not divide in and out
+ */
+export function geoTriangulate(object, { spacing = 0 } = {}) {
+  const owner = engine();
+  const flat = flatPolygons(object);
+  const { cells, rings, lonLat } = turnedRings(flat);
+  const corners = unitVectors(lonLat);
+  const n = cells.length - 1;
+  const whole = Uint32Array.from(flat.isSphere.flatMap((is, f) => (is ? [f] : [])));
+  const made = withMade(
+    owner,
+    "rondel_polygons_free",
+    (scope) =>
+      scope.made(
+        "rondel_polygons_create",
+        scope.copy(wideOffsets(cells)),
+        n,
+        scope.copy(wideOffsets(rings)),
+        scope.copy(corners),
+        scope.copy(whole),
+        whole.length,
+      ),
+    (polygons) => trianglesOf(owner, polygons, n, spacing),
+  );
+  /** @type {Map<string, LonLat>} */
+  const given = new Map();
+  for (let i = 0; i < lonLat.length / 2; ++i) {
+    const key = corners.subarray(3 * i, 3 * i + 3).join();
+    if (!given.has(key)) given.set(key, [lonLat[2 * i], lonLat[2 * i + 1]]);
+  }
+  const points = Array.from({ length: made.points.length / 3 }, (_, i) => {
+    const [x, y, z] = made.points.subarray(3 * i, 3 * i + 3);
+    return given.get(`${x},${y},${z}`) ?? toLonLat(x, y, z);
+  });
+  /** @type {[number, number, number][]} */
+  const triangles = [];
+  for (let t = 0; t < made.triangles.length; t += 3) {
+    triangles.push([made.triangles[t], made.triangles[t + 1], made.triangles[t + 2]]);
+  }
+  const features = Array.from({ length: n }, (_, f) => triangles.slice(made.offsets[f], made.offsets[f + 1]));
+  return { points, triangles, features };
+}
