@@ -4,7 +4,7 @@
 // Hashes of the overlay: of the cells of each kind of sites of tests/support with those of uniform sites, with
 // themselves and with a grid of parallels, and of halves of both, the pieces and the weights of both orders; of their cells clipped to
 // uniform ones, and dissolved, and of the polygons in longitude and latitude of these and of all cells and faces; of set operations,
-// buffers, simplified cells and relations; with 1, 2 and 5 threads.
+// buffers, simplified cells, triangles and relations; of the triangles of countries; with 1, 2 and 5 threads.
 //
 //     same_bytes_overlay EXPECTED              compares with the hashes that are recorded, and tells
 //                                              what differs
@@ -20,6 +20,8 @@
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/geometries.h"
+#include "rondel/polygon_files.h"
+#include "rondel/polygon_triangles.h"
 #include "rondel/polygons.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
@@ -117,6 +119,20 @@ std::string hash_of_geometries(const GeometryPieces& all) {
   return hash.text() + hash_of_rings(all.pieces.polygons);
 }
 
+// The tests of the JavaScript package compute this hash, too.
+std::string hash_of_triangles(const CellRings& cells, double spacing_deg, unsigned threads) {
+  const PolygonTriangles made = triangles_of_polygons(cells, spacing_deg, {.threads = threads});
+  std::vector<Index> corners;
+  for (const Triple& t : made.triangles.values) corners.insert(corners.end(), t.begin(), t.end());
+  std::vector<double> coordinates;
+  for (const Point& p : made.points) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+  Hash hash;
+  hash.add(made.triangles.offsets);
+  hash.add(corners);
+  hash.add(coordinates);
+  return hash.text();
+}
+
 // Returns the rings of cells as closed lines, all of one feature.
 Geometries outlines_of(const CellRings& cells) {
   Geometries outlines;
@@ -154,6 +170,9 @@ void record_operations(const CellRings& cells, const CellRings& others, const Re
   record("simplified", [&](unsigned threads) {
     return hash_of_rings(simplified(cells, {.tolerance = 0.1}, {threads}));
   });
+  record("triangles", [&](unsigned threads) {
+    return hash_of_triangles(cells, 0, threads) + hash_of_triangles(cells, 4, threads);
+  });
   record("relations", [&](unsigned threads) {
     Hash hash;
     for (const RelatedPair& pair :
@@ -163,6 +182,19 @@ void record_operations(const CellRings& cells, const CellRings& others, const Re
     }
     return hash.text();
   });
+}
+
+void add_countries(std::vector<std::string>& lines) {
+  const CellRings cells = read_polygons(RONDEL_SOURCE_DIR "/data/countries-110m.geojson").cells;
+  for (const int spacing_deg : {0, 2}) {
+    std::set<std::string> found;
+    for (const unsigned threads : {1U, 2U, 5U}) {
+      found.insert(hash_of_triangles(cells, spacing_deg, threads));
+    }
+    for (const std::string& hash : found) {
+      lines.push_back("countries triangles-" + std::to_string(spacing_deg) + ' ' + hash);
+    }
+  }
 }
 
 void add_lines(const std::string& name, const SiteSet& set, std::size_t num_others,
@@ -229,6 +261,7 @@ std::vector<std::string> all_lines() {
   for (const char* name : {"uniform", "globe_grid", "clustered"}) {
     add_lines(std::string(name) + "_5000", generator(name).make(5'000, 1), 6'000, lines);
   }
+  add_countries(lines);
   return lines;
 }
 

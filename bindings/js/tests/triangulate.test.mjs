@@ -201,3 +201,19 @@ test("geoTriangulate reads polygons as d3-geo does", () => {
   assert.throws(() => geoTriangulate(bow), /do not divide in and out/);
   assert.deepEqual(geoTriangulate(polygon()), { points: [], triangles: [], features: [[]] });
 });
+
+test("triangles have the bytes that are recorded", () => {
+  const recorded = readFileSync(join(process.env.RONDEL_SOURCE_DIR, "tests/same_bytes/expected_overlay.txt"), "utf8");
+  for (const spacing of [0, 2]) {
+    const { points, triangles, offsets } = triangulate(countries, { spacing });
+    let hash = 0xcbf29ce484222325n; // tests/same_bytes/portable/hash.h
+    const add = (words, count) => {
+      for (const word of [count, ...words]) hash = BigInt.asUintN(64, (hash ^ BigInt(word)) * 0x100000001b3n);
+    };
+    add([...offsets].flatMap((offset) => [offset, 0]), offsets.length);
+    add(triangles, triangles.length);
+    add(new Uint32Array(points.buffer), points.length);
+    const text = hash.toString(16).padStart(16, "0");
+    assert.ok(recorded.includes(`countries triangles-${spacing} ${text}\n`), text);
+  }
+});
