@@ -5,7 +5,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { delaunay, RondelError, voronoi } from "rondel";
+import { delaunay, RondelError, triangulate, voronoi } from "rondel";
 import { startWorker } from "rondel/worker";
 import { randomSites } from "./support.mjs";
 
@@ -31,6 +31,14 @@ test("a worker answers as the functions do", async (t) => {
   const weighted = await rondel.delaunay(xyz, { model: "weighted" });
   assert.deepEqual(weighted.triangles, delaunay(xyz, { model: "weighted" }).triangles);
   await weighted.free();
+});
+
+test("a worker fills polygons", async (t) => {
+  const rondel = await startWorker();
+  t.after(() => rondel.stop());
+  const box = { type: "Polygon", coordinates: [[[170, 60], [190, 60], [190, 90], [170, 90], [170, 60]]] };
+  assert.deepEqual(await rondel.triangulate(box, { spacing: 5 }), triangulate(box, { spacing: 5 }));
+  await assert.rejects(rondel.triangulate({ type: "Circle" }), { name: "RondelError", index: 0 });
 });
 
 test("sites of a worker change", async (t) => {

@@ -21,6 +21,8 @@ import { RondelError } from "../errors.js";
 /** @typedef {import("../triangulation.js").Cells} Cells */
 /** @typedef {import("../located.js").SiteLists} SiteLists */
 /** @typedef {import("../located.js").Locations} Locations */
+/** @typedef {import("../triangulate.js").Triangles} Triangles */
+/** @typedef {import("../triangulate.js").TriangulateOptions} TriangulateOptions */
 
 /**
  * @typedef {object} RemoteQuestions see Located
@@ -138,6 +140,11 @@ export class RondelWorker {
   /** @param {Numbers} [xyz] @param {Options} [options] @returns {Promise<RemoteDynamic>} */
   async dynamic(xyz = new Float64Array(), options = {}) {
     return this.#remote(await this.#ask(0, "dynamic", [xyz, options]), [...questions, ...changes]);
+  }
+
+  /** @param {any} object GeoJSON @param {TriangulateOptions} [options] @returns {Promise<Triangles>} */
+  async triangulate(object, options = {}) {
+    return this.#ask(0, "triangulate", [object, options]);
   }
 
   /** Ends the worker; pending requests are never answered. */

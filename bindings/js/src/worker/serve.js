@@ -6,6 +6,7 @@
 
 import { DynamicTriangulation } from "../dynamic.js";
 import { delaunay, voronoi } from "../build.js";
+import { triangulate } from "../triangulate.js";
 
 const properties = ["dimension", "numSites", "numVertices", "numFaces"];
 const arrays = ["triangles", "neighbors", "ghostFaces", "ring", "duplicates", "hidden"];
@@ -32,6 +33,8 @@ const makers = {
   delaunay: (...args) => described(delaunay(.../** @type {[any]} */ (args)), [...properties, ...arrays]),
   /** @param {any[]} args */
   voronoi: (...args) => described(voronoi(.../** @type {[any]} */ (args)), [...properties, ...arrays, ...dualArrays]),
+  /** @param {any[]} args */
+  triangulate: (...args) => triangulate(.../** @type {[any]} */ (args)),
   /** @param {any[]} args */
   dynamic: (...args) => ({ object: keep(new DynamicTriangulation(...args)) }),
 };
