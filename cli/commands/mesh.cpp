@@ -16,10 +16,10 @@ Command add_mesh_command(CLI::App& tool) {
   CLI::App* const parser = tool.add_subcommand("mesh", "Make, judge and convert meshes of models");
   parser->require_subcommand(1);
   const std::vector<Command> commands = {
-      add_mesh_scvt_command(*parser),    add_mesh_icosahedral_command(*parser),
-      add_mesh_points_command(*parser),  add_mesh_equal_area_command(*parser),
-      add_mesh_convert_command(*parser), add_mesh_cull_command(*parser),
-      add_mesh_quality_command(*parser)};
+      add_mesh_scvt_command(*parser),        add_mesh_triangles_command(*parser),
+      add_mesh_icosahedral_command(*parser), add_mesh_points_command(*parser),
+      add_mesh_equal_area_command(*parser),  add_mesh_convert_command(*parser),
+      add_mesh_cull_command(*parser),        add_mesh_quality_command(*parser)};
   parser->footer("'rondel mesh COMMAND --help' explains a command.");
   return {parser, [commands] {
             const auto at = std::ranges::find_if(

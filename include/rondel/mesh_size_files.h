@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Reading the spacings of a mesh. Every function throws FileError with one line that names the
-/// file.
+/// Reading the spacings of a mesh, and heights at its nodes. Every function throws FileError with one
+/// line that names the file.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,15 @@ RONDEL_API SizeFunction read_density(const FileName& file, const std::string& na
                                      std::size_t steps = SizeFunction::usual_steps,
                                      const Execution& execution = {},
                                      std::vector<std::string>* remarks = nullptr);
+
+/// Reads heights or depths as read_spacings() reads spacings, and interpolates them linearly at
+/// nodes.
+/// \param nodes  unit vectors
+/// \return metres, positive as in the file. Values are metres, unless the attribute `units` says
+///         kilometers; other units are refused.
+RONDEL_API std::vector<double> read_heights(const FileName& file, const std::string& name,
+                                            std::span<const Point> nodes,
+                                            const Execution& execution = {},
+                                            std::vector<std::string>* remarks = nullptr);
 
 }  // namespace rondel::mesh

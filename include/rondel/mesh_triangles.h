@@ -20,9 +20,11 @@ namespace rondel::mesh {
 /// The part of the sphere that a mesh covers, and lines that its edges follow. Straight lines in
 /// longitude and latitude become arcs by read_features_together(), which takes all files at once.
 struct MeshDomain {
-  Geometries coast;  ///< polygons of land, which the mesh leaves out; lines are edges of the mesh
-  Geometries area;   ///< polygons inside of which the mesh is; none: everywhere
-  Geometries lines;  ///< lines, points and sides of polygons inside that are edges and nodes
+  /// Polygons of land, which the mesh leaves out; lines are edges of the mesh.
+  std::vector<Geometries> coast;
+  std::vector<Geometries> area;  ///< polygons inside of which the mesh is; none: everywhere
+  /// Lines and sides of polygons that are edges inside, and points that are nodes.
+  std::vector<Geometries> lines;
 };
 
 /// What an edge of RefinedMesh::edges follows.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads spacings and densities of files, at places in any order, as functions on the sphere:
-// read_spacings(), read_density() and read_refinement().
+// Reads spacings, densities and heights of files, at places in any order, as functions on the sphere:
+// read_spacings(), read_density(), read_heights() and read_refinement().
 //
 // The places of a table are its sites; those of a netCDF field are its longitudes and latitudes, or
 // the cells of a mesh. The values are interpolated linearly on the triangulation of the places.
@@ -32,7 +32,7 @@
 namespace rondel::mesh {
 namespace {
 
-// Spacings, or densities, at places.
+// Spacings, or densities, or heights, at places.
 struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
@@ -205,40 +205,60 @@ void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::str
   spacings.values.resize(kept);
 }
 
-// Returns the kilometers in one unit of length; without units, they are kilometers. Throws
-// FileError for other units.
-double kilometers_of(const FileName& file, const std::string& units) {
+// Returns the kilometers in one unit of length; `without_units` if there is none. Throws FileError
+// for other units.
+double kilometers_of(const FileName& file, const std::string& units, double without_units,
+                     const char* what) {
   const std::string_view text = formats::without_blanks(units);
-  for (const std::string_view name :
-       {"", "km", "kilometer", "kilometers", "kilometre", "kilometres"}) {
+  if (text.empty()) return without_units;
+  for (const std::string_view name : {"km", "kilometer", "kilometers", "kilometre", "kilometres"}) {
     if (text == name) return 1;
   }
   for (const std::string_view name : {"m", "meter", "meters", "metre", "metres"}) {
     if (text == name) return 1e-3;
   }
-  throw FileError(file.path + ": the spacings have the units '" + units +
+  throw FileError(file.path + ": the " + what + " have the units '" + units +
                   "', which are neither kilometers nor meters");
 }
 
-// Returns the function that is linear on the triangulation of the places, and beyond them has the
-// value of the nearest one. `steps` is the resolution of SizeFunction::from_function().
+// Values that are linear on the triangulation of their places, and beyond it those of the nearest
+// one.
+class LinearValues {
+ public:
+  LinearValues(const Spacings& given, const Execution& execution, std::vector<std::string>* remarks)
+      : given_(given),
+        execution_(execution),
+        triangulation_(delaunay(Sites::view(given.places), {}, execution)),
+        interpolator_(triangulation_) {
+    const auto num_other =
+        std::ranges::count_if(triangulation_.duplicates(), [&](const Duplicate& duplicate) {
+          return given.values[duplicate.site] != given.values[duplicate.representative];
+        });
+    remark_on(
+        static_cast<std::size_t>(num_other), given.values.size(), "is", "are",
+        " at the place of another one with another value: of each place the first value counts",
+        remarks);
+  }
+
+  [[nodiscard]] std::vector<double> at(std::span<const Point> places) const {
+    return interpolator_.values(
+        given_.values, places, {.method = Method::linear, .outside = Outside::nearest}, execution_);
+  }
+
+ private:
+  const Spacings& given_;
+  const Execution& execution_;
+  Triangulation triangulation_;
+  Interpolator interpolator_;
+};
+
+// Returns values at places as a function. `steps` is the resolution of SizeFunction::from_function().
 SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
                          std::vector<std::string>* remarks) {
-  const Triangulation triangulation = delaunay(Sites::view(spacings.places), {}, execution);
-  const auto num_other =
-      std::ranges::count_if(triangulation.duplicates(), [&](const Duplicate& duplicate) {
-        return spacings.values[duplicate.site] != spacings.values[duplicate.representative];
-      });
-  remark_on(static_cast<std::size_t>(num_other), spacings.values.size(), "is", "are",
-            " at the place of another one with another value: of each place the first value counts",
-            remarks);
-  const Interpolator interpolator(triangulation);
-  const InterpolationOptions options{.method = Method::linear, .outside = Outside::nearest};
+  const LinearValues values(spacings, execution, remarks);
   return SizeFunction::from_function(
       [&](std::span<const Point> places, std::span<double> out) {
-        const std::vector<double> values =
-            interpolator.values(spacings.values, places, options, execution);
-        std::ranges::copy(values, out.begin());
+        std::ranges::copy(values.at(places), out.begin());
       },
       steps);
 }
@@ -266,7 +286,7 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
   Spacings spacings = spacings_of(file, name, execution);
   drop_missing(file, spacings, remarks);
   // Meters become kilometers, which `unit` turns into radians.
-  unit *= kilometers_of(file, spacings.units);
+  unit *= kilometers_of(file, spacings.units, 1, "spacings");
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
     // A spacing is an angle in radians here; no mesh has one of nearly half a circle.
@@ -293,6 +313,17 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   // Spacing goes with the density to the power of -1/4; the smallest density has spacing 1.
   for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
   return function_of(densities, steps, execution, remarks);
+}
+
+std::vector<double> read_heights(const FileName& file, const std::string& name,
+                                 std::span<const Point> nodes, const Execution& execution,
+                                 std::vector<std::string>* remarks) {
+  Spacings heights = spacings_of(file, name, execution);
+  drop_missing(file, heights, remarks);
+  const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
+  std::vector<double> result = LinearValues(heights, execution, remarks).at(nodes);
+  for (double& height : result) height *= metres;
+  return result;
 }
 
 }  // namespace rondel::mesh

@@ -28,7 +28,9 @@ void append(const Geometries& more, Geometries& all) {
       all.lines.rows.append(more.lines.rows[k]);
     }
     all.lines.end_group();
-    if (more.polygons.is_whole(i)) all.polygons.whole.push_back(static_cast<Index>(i));
+    if (more.polygons.is_whole(i)) {
+      all.polygons.whole.push_back(static_cast<Index>(all.polygons.num_cells()));
+    }
     for (std::uint64_t r = more.polygons.cells[i]; r < more.polygons.cells[i + 1]; ++r) {
       ring.clear();
       for (const Index corner : more.polygons.corners_of(r)) ring.push_back(first + corner);
@@ -43,19 +45,19 @@ class TrianglesOfDomain {
   TrianglesOfDomain(const MeshDomain& domain, const TrianglesOptions& options,
                     const Execution& execution)
       : options_(options), execution_(execution) {
-    append(domain.coast, all_);
+    for (const Geometries& more : domain.coast) append(more, all_);
     end_of_coast_ = all_.size();
-    append(domain.area, all_);
+    for (const Geometries& more : domain.area) append(more, all_);
     end_of_area_ = all_.size();
-    append(domain.lines, all_);
+    for (const Geometries& more : domain.lines) append(more, all_);
   }
 
   DomainTriangles run() {
     simplify();
     features_ = constraints_of_features(all_.lines, all_.polygons);
     triangulate();
-    if (end_of_area_ == end_of_coast_ &&
-        triangulation_.triangulation.num_faces() != num_solid_faces()) {
+    const Triangulation& first = triangulation_.triangulation;
+    if (end_of_area_ == end_of_coast_ && (first.dimension() < 2 || first.num_ghost_faces() > 0)) {
       for (const Point& point : icosahedron()) features_.sites.push_back(point);
       triangulate();
     }
@@ -74,11 +76,6 @@ class TrianglesOfDomain {
   }
 
  private:
-  [[nodiscard]] std::size_t num_solid_faces() const {
-    const Triangulation& t = triangulation_.triangulation;
-    return t.num_faces() - t.num_ghost_faces();
-  }
-
   void simplify() {
     SimplifyOptions simplify{.tolerance = options_.tolerance.value_or(0), .drop_small = true};
     const auto& spacing = options_.refine.spacing;

@@ -1,0 +1,317 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel mesh triangles: fills what coasts leave, or an area, with triangles.
+// in    polygons of land and of an area, lines, spacings, depths
+// out   a mesh of triangles for ocean models
+// index nodes and triangles from 0; in files as the format has them
+#include "rondel/mesh_triangles.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "files_of_command.h"
+#include "job.h"
+#include "mesh_spacing.h"
+#include "options.h"
+#include "report.h"
+#include "rondel/error.h"
+#include "rondel/geometries.h"
+#include "rondel/mesh_size_files.h"
+#include "rondel/triangle_files.h"
+#include "triangle_output.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of the command.
+struct MeshTrianglesOptions {
+  CommonOptions common;
+  std::vector<std::string> coast;
+  std::vector<std::string> area;
+  std::vector<std::string> lines;
+  ScvtFiles sizes;  // --spacing --refine --gradient, and how polygons are read
+  double angle = mesh::RefineOptions{}.smallest_angle_deg;
+  std::optional<double> tolerance_km;
+  std::string depth;      // --depth: positive down
+  std::string elevation;  // --elevation: positive up
+  NetcdfOptions netcdf;
+};
+
+std::vector<NamedFile> files_read(const MeshTrianglesOptions& options) {
+  std::vector<NamedFile> files = files_read(options.sizes);
+  for (const std::string& path : options.coast) files.push_back({"--coast", path});
+  for (const std::string& path : options.area) files.push_back({"--area", path});
+  for (const std::string& path : options.lines) files.push_back({"--lines", path});
+  files.push_back({"--depth", options.depth});
+  files.push_back({"--elevation", options.elevation});
+  return files;
+}
+
+mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Execution& execution) {
+  std::vector<FileName> files;
+  for (const auto* paths : {&options.coast, &options.area, &options.lines}) {
+    for (const std::string& path : *paths) files.push_back({path, {}});
+  }
+  std::vector<FeatureTable> tables =
+      read_features_together(files, options.sizes.polygons, execution);
+  mesh::MeshDomain domain;
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    tell(tables[k].facts.name, tables[k].facts.remarks);
+    auto& part = k < options.coast.size()                         ? domain.coast
+                 : k < options.coast.size() + options.area.size() ? domain.area
+                                                                  : domain.lines;
+    part.push_back({std::move(tables[k].lines), std::move(tables[k].polygons)});
+  }
+  return domain;
+}
+
+// Returns the depths at the nodes of --depth or --elevation.
+std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<const Point> nodes,
+                              const Execution& execution) {
+  const bool is_up = options.depth.empty();
+  const auto [file, name] = split_at_colon(is_up ? options.elevation : options.depth);
+  std::vector<std::string> remarks;
+  std::vector<double> depths = mesh::read_heights({file, {}}, name, nodes, execution, &remarks);
+  tell(file, remarks);
+  if (is_up) {
+    for (double& depth : depths) depth = depth == 0 ? 0 : -depth;
+  }
+  return depths;
+}
+
+// Returns the mesh with the border that its edges have, and its depths.
+mesh::TriangleMesh mesh_of(const mesh::DomainTriangles& made, const MeshTrianglesOptions& options,
+                           const Execution& execution) {
+  std::vector<std::array<Index, 2>> coast;
+  for (std::size_t e = 0; e < made.features.size(); ++e) {
+    if (made.features[e] == mesh::FeatureOfEdge::coast) coast.push_back(made.mesh.edges[e]);
+  }
+  mesh::TriangleMesh result = mesh::triangle_mesh(made.mesh.nodes, {}, made.mesh.triangles,
+                                                  std::span(std::as_const(coast)));
+  if (!options.depth.empty() || !options.elevation.empty()) {
+    result.depths = depths_of(options, result.points, execution);
+  }
+  return result;
+}
+
+// What people want to know of the triangles.
+struct TriangleQuality {
+  double smallest_angle_deg = 180;
+  double shortest_km = std::numeric_limits<double>::infinity();
+  double longest_km = 0;
+};
+
+TriangleQuality quality_of(const mesh::RefinedMesh& made) {
+  TriangleQuality quality;
+  const auto square_of_chord = [&](Index a, Index b) {
+    const Point& p = made.nodes[a];
+    const Point& q = made.nodes[b];
+    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
+  };
+  double least = 4;
+  double most = 0;
+  double largest_cosine = -1;
+  for (const auto& [a, b, c] : made.triangles) {
+    const std::array<double, 3> squares = {square_of_chord(b, c), square_of_chord(c, a),
+                                           square_of_chord(a, b)};
+    for (unsigned i = 0; i < 3; ++i) {
+      const double p = squares[(i + 1) % 3];
+      const double q = squares[(i + 2) % 3];
+      largest_cosine = std::max(largest_cosine, (p + q - squares[i]) / (2 * std::sqrt(p * q)));
+      least = std::min(least, squares[i]);
+      most = std::max(most, squares[i]);
+    }
+  }
+  quality.smallest_angle_deg = std::acos(std::min(largest_cosine, 1.0)) * 180 / std::numbers::pi;
+  const auto kilometers = [](double square) {
+    return 2 * std::asin(std::sqrt(square) / 2) * kilometers_per_radian;
+  };
+  quality.shortest_km = kilometers(least);
+  quality.longest_km = kilometers(most);
+  return quality;
+}
+
+void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTriangles& made,
+                      const mesh::TriangleMesh& result, Job& job) {
+  const mesh::RefineReport& refined = made.mesh.report;
+  const TriangleQuality quality = quality_of(made.mesh);
+  const double seconds = job.seconds().total;
+  nlohmann::ordered_json json = json_of_triangles(result);
+  json["smallest_angle"] = quality.smallest_angle_deg;
+  json["shortest_edge_km"] = quality.shortest_km;
+  json["longest_edge_km"] = quality.longest_km;
+  json["near_small_angles"] = refined.num_near_small_angles;
+  json["too_small"] = refined.num_too_small;
+  json["seconds"] = seconds;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                "edges from %.4g to %.4g km; the smallest angle is %.2f degrees\n",
+                quality.shortest_km, quality.longest_km, quality.smallest_angle_deg);
+  std::string summary = text_of_triangles(result) + '\n' + text.data();
+  const auto say = [&](std::size_t number, const std::string& why) {
+    if (number == 0) return;
+    summary += count(number, "triangle is", "triangles are") + " not as wanted " + why + '\n';
+  };
+  say(refined.num_near_small_angles, "near a small angle of coasts, borders or lines");
+  say(refined.num_too_small, "where doubles have no place between its corners");
+  job.report(json.dump(2) + '\n',
+             summary + "wrote " + options.common.output + " in " + text_of_seconds(seconds) + '\n');
+}
+
+// Throws FileError for files that cannot be read or written, and UsageError.
+ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
+  require_output(options.common, mesh::can_write_triangle_mesh(options.common.target()),
+                 std::string(triangle_mesh_endings) + " .nc", files_read(options));
+  if (options.coast.empty() && options.area.empty() && options.sizes.spacing.empty()) {
+    throw UsageError("--coast, --area or --spacing says what triangles there shall be");
+  }
+  Job job(options.common);
+  const Execution execution = job.execution();
+  mesh::TrianglesOptions wanted;
+  wanted.refine.smallest_angle_deg = options.angle;
+  // With a number of cells that is not 0 nothing asks whether a mesh of Voronoi cells could have
+  // them: here a coast of a few large triangles is a mesh.
+  wanted.refine.spacing = size_of(options.sizes, 1, execution);
+  if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
+  const mesh::MeshDomain domain = read_domain(options, execution);
+  mesh::DomainTriangles made;
+  mesh::TriangleMesh result;
+  const std::string source = files_read(options).front().path;
+  job.time(Stage::dual, [&] {
+    try {
+      made = mesh::triangles(domain, wanted, execution);
+      result = mesh_of(made, options, execution);
+    } catch (const InvalidInput& error) {
+      throw FileError((options.coast.empty() ? source : options.coast.front()) + ": " +
+                      error.what());
+    }
+  });
+  job.time(Stage::write, [&] {
+    write_triangles_of(options.common, options.netcdf, result, options.common.output, job);
+  });
+  report_triangles(options, made, result, job);
+  return done;
+}
+
+// Adds the files of what the mesh covers.
+void add_domain(CLI::App& parser, MeshTrianglesOptions& options) {
+  const auto add = [&parser](const char* name, std::vector<std::string>& files, const char* what) {
+    parser.add_option(name, files, what)->allow_extra_args(false)->type_name("FILE");
+  };
+  add("--coast", options.coast,
+      "Polygons of land, which the mesh leaves out, .geojson or a format of GDAL;\n"
+      "may be repeated");
+  add("--area", options.area,
+      "Polygons inside of which the mesh is (default: everywhere); may be repeated");
+  add("--lines", options.lines,
+      "Lines, and sides of polygons, that edges follow; points are nodes; may be\n"
+      "repeated");
+  CLI::Option* const edges = add_word<PolygonEdges>(
+      parser, "--edges", options.sizes.polygons.edges, named_values<PolygonEdges>(),
+      "What joins positions of these files: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
+  for (CLI::Option* const option :
+       {edges, add_invalid_option(parser, options.sizes.polygons.invalid)}) {
+    require_effect(
+        options.common, option,
+        [&options] {
+          return !(options.coast.empty() && options.area.empty() && options.lines.empty() &&
+                   options.sizes.refine.empty());
+        },
+        "without --coast, --area, --lines or --refine");
+  }
+}
+
+void add_spacing(CLI::App& parser, MeshTrianglesOptions& options) {
+  CLI::Option* const spacing = parser.add_option(
+      "--spacing", options.sizes.spacing,
+      "Length of edges: kilometers, or a file of them, FILE.nc[:NAME] or\n"
+      "FILE.csv:COLUMN. No edge is longer than 1.5 times this (default: as long as\n"
+      "angles allow)");
+  spacing->type_name("KM|FILE");
+  parser
+      .add_option("--refine", options.sizes.refine,
+                  "Kilometers near the lines, outlines or points of FILE, .geojson or a table;\n"
+                  "may be repeated")
+      ->allow_extra_args(false)
+      ->needs(spacing)
+      ->type_name("FILE:KM");
+  const CLI::Option* const gradient =
+      parser
+          .add_option("--gradient", options.sizes.slope,
+                      "How much the spacing grows over its own distance, at most\n"
+                      "(default: 0.05 of --refine; files as they are)")
+          ->check(positive_error)
+          ->type_name("G");
+  require_effect(
+      options.common, gradient,
+      [&options] {
+        return !options.sizes.refine.empty() || is_file_of_spacings(options.sizes.spacing);
+      },
+      "without --refine or a file of --spacing");
+  parser
+      .add_option("--tolerance", options.tolerance_km,
+                  "How far coasts, borders and lines of the mesh may be from those given;\n"
+                  "islands and lakes that are nowhere wider vanish (default: a quarter of the\n"
+                  "spacing, or 0)")
+      ->check([](const std::string& text) { return range_error(text, 0, 5000); })
+      ->type_name("KM");
+  parser
+      .add_option("--angle", options.angle,
+                  "The smallest angle of triangles, up to 33 degrees (default: 26.5)")
+      ->check([](const std::string& text) { return range_error(text, 0, 33); })
+      ->type_name("DEG");
+}
+
+}  // namespace
+
+Command add_mesh_triangles_command(CLI::App& group) {
+  auto options = std::make_shared<MeshTrianglesOptions>();
+  CLI::App* parser = group.add_subcommand("triangles", "Fill an ocean with triangles");
+  add_domain(*parser, *options);
+  add_spacing(*parser, *options);
+  CLI::Option* const depth = parser->add_option(
+      "--depth", options->depth,
+      "Depths at the nodes, in metres, interpolated in FILE.nc[:NAME] or FILE.csv:COLUMN");
+  depth->type_name("FILE");
+  parser->add_option("--elevation", options->elevation, "The same, for heights above the sea")
+      ->excludes(depth)
+      ->type_name("FILE");
+  add_output_option(*parser, options->common,
+                    "Where to write the mesh: .msh (Gmsh; --format gmsh2 for 2.2) .14 (ADCIRC)\n"
+                    ".gr3 .ll (SCHISM) .2dm (SMS) .nc (UGRID), or a folder with --format fesom")
+      ->required();
+  add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
+    return if_of_format(given->common.target(), {"nc", "nc4", "ugrid"});
+  });
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "Edges follow coasts, borders and lines; each angle is at least the smallest one, except\n"
+      "near places where these meet at less than 60 degrees. Coasts finer than the mesh are\n"
+      "simplified first, without a change of topology. Kilometers are those of a sphere of\n"
+      "6371.229 km.\n\n"
+      "Examples:\n"
+      "  rondel mesh triangles --coast land.geojson --spacing 200 -o ocean.msh\n"
+      "  rondel mesh triangles --coast land.geojson --spacing 400 --refine coast.geojson:100 -o "
+      "fort.14\n"
+      "  rondel mesh triangles --coast land.geojson --area basin.geojson --spacing 50 -o "
+      "hgrid.gr3");
+  return {parser, [options] { return run_mesh_triangles(*options); }};
+}
+
+}  // namespace rondel::cli
