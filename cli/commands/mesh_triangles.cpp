@@ -190,14 +190,13 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   const mesh::MeshDomain domain = read_domain(options, execution);
   mesh::DomainTriangles made;
   mesh::TriangleMesh result;
-  const std::string source = files_read(options).front().path;
   job.time(Stage::dual, [&] {
     try {
       made = mesh::triangles(domain, wanted, execution);
       result = mesh_of(made, options, execution);
     } catch (const InvalidInput& error) {
-      throw FileError((options.coast.empty() ? source : options.coast.front()) + ": " +
-                      error.what());
+      const auto& paths = !options.coast.empty() ? options.coast : options.area;
+      throw FileError((paths.empty() ? "--spacing" : paths.front()) + ": " + error.what());
     }
   });
   job.time(Stage::write, [&] {

@@ -60,6 +60,11 @@ COMMANDS = {
         ["--spacing", "--refine", "--density", "--fixed", "--along", "--start"],
         {"--output": ".nc", "--graph": "", "--report": ""},
     ),
+    "mesh triangles": (
+        "--spacing {--spacing}",
+        ["--spacing", "--refine", "--coast", "--area", "--lines", "--depth"],
+        {"--output": ".nc"},
+    ),
     "mesh icosahedral": ("1", [], {"--output": ".nc", "--graph": "", "--report": ""}),
     "mesh points": (
         "poisson --radius 3000",

@@ -8,8 +8,10 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -21,6 +23,7 @@
 #include "module.h"
 #include "named.h"
 #include "rondel/delaunay.h"
+#include "rondel/mesh_triangles.h"
 #include "rondel/triangle_files.h"
 
 namespace rondel::python {
@@ -84,6 +87,33 @@ void write_triangle_file(const TriangleMesh& mesh, const std::string& path,
   });
 }
 
+// Fills a domain with triangles. Returns the mesh, and the number of triangles that are not as wanted
+// because doubles have no place.
+std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
+    const Geometries& coast, const Geometries& area, const Geometries& lines,
+    const NumbersIn& spacings, std::size_t steps, double gradient,
+    const std::optional<double>& tolerance, double smallest_angle, unsigned threads,
+    const nb::object& listener) {
+  mesh::TrianglesOptions options;
+  options.refine.spacing = size_of(rows_of<double>(spacings), steps, gradient);
+  options.refine.smallest_angle_deg = smallest_angle;
+  options.tolerance = tolerance;
+  mesh::MeshDomain domain;
+  if (coast.size() > 0) domain.coast.push_back(coast);
+  if (area.size() > 0) domain.area.push_back(area);
+  if (lines.size() > 0) domain.lines.push_back(lines);
+  return watched(many_sites, threads, listener, [&](const Execution& execution) {
+    const mesh::DomainTriangles made = mesh::triangles(domain, options, execution);
+    std::vector<std::array<Index, 2>> edges;
+    for (std::size_t e = 0; e < made.features.size(); ++e) {
+      if (made.features[e] == mesh::FeatureOfEdge::coast) edges.push_back(made.mesh.edges[e]);
+    }
+    return std::tuple(mesh::triangle_mesh(made.mesh.nodes, {}, made.mesh.triangles,
+                                          std::span(std::as_const(edges))),
+                      made.mesh.report.num_too_small);
+  });
+}
+
 }  // namespace
 
 void add_triangle_meshes(nb::module_& module) {
@@ -102,6 +132,10 @@ void add_triangle_meshes(nb::module_& module) {
              nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),
              nb::arg("coast").noconvert().none(), nb::arg("depths").noconvert(),
              nb::arg("levels").noconvert());
+  module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area"),
+             nb::arg("lines"), nb::arg("spacings").noconvert(), nb::arg("steps"),
+             nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("smallest_angle"),
+             nb::arg("threads"), nb::arg("progress").none());
   module.def("read_triangles", &triangles_of_file, nb::arg("path"), nb::arg("format"),
              nb::arg("threads"));
 }

@@ -5,14 +5,20 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_name, as_rows, as_threads, frozen
+from ._errors import warn_caller
+from ._geometries import Edges, Invalid
+from ._mesh_making import Spacing, raster_of
+from ._operands import operands
 from ._pickled import arrays_of, with_arrays
-from ._types import ArrayLike, FloatArray, IntArray, Path
+from ._repr import count
+from ._types import ArrayLike, FloatArray, IntArray, Path, Progress
 
 if TYPE_CHECKING:
     import meshio
@@ -277,3 +283,128 @@ def read_triangles(
     for remark in remarks:
         warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
     return TriangleMesh._of(found)
+
+
+def triangles(
+    coast: Any = None,
+    *,
+    area: Any = None,
+    lines: Any = None,
+    spacing: Spacing | None = None,
+    gradient: float | None = None,
+    tolerance: float | None = None,
+    smallest_angle: float = 26.5,
+    depths: Callable[[FloatArray], FloatArray] | None = None,
+    raster_steps: int = 1024,
+    edges: Edges = "lonlat",
+    invalid: Invalid = "error",
+    threads: int | None = None,
+    progress: Progress = None,
+) -> TriangleMesh:
+    """Fills an ocean with triangles whose edges follow the coast.
+
+    Parameters
+    ----------
+    coast : geometries, optional
+        Polygons of land, which the mesh leaves out: of shapely, GeoPandas, GeoArrow or GeoJSON.
+        Lines are edges of the mesh.
+    area : geometries, optional
+        Polygons inside of which the mesh is; by default everywhere.
+    lines : geometries, optional
+        Lines and sides of polygons that are edges inside, and points that are nodes.
+    spacing : float or callable, optional
+        The length of edges in radians: a number, or a function of places, float64 of shape (n, 3),
+        that returns n numbers. No edge is longer than 1.5 times the spacing at its ends. By default
+        edges are as long as angles allow.
+    gradient : float, optional
+        The largest growth of the spacing per distance; by default it is not limited.
+    tolerance : float, optional
+        How far coasts, borders and lines of the mesh may be from those given, in radians. They are
+        simplified with their topology kept; islands and lakes that are nowhere wider vanish. By
+        default a quarter of the spacing, or 0 without one.
+    smallest_angle : float, optional
+        The smallest angle of triangles in degrees, up to 33; by default 26.5. Triangles near
+        places where coasts, borders or lines meet at less than 60 degrees may have smaller ones.
+    depths : callable, optional
+        A function of the nodes, float64 of shape (n, 3), that returns the depths there in metres,
+        positive down.
+    raster_steps : int, optional
+        The function of the spacing is sampled at this many places along a quarter of a great
+        circle, a power of two.
+    edges : {'lonlat', 'geodesic'}, optional
+        What joins the positions of geometries: straight lines in longitude and latitude (default),
+        or arcs of great circles.
+    invalid : {'error', 'repair'}, optional
+        What becomes of polygons that are not valid.
+    threads : int, optional
+        The largest number of threads; by default one for each core. It changes no result.
+    progress : callable or bool, optional
+        As in `rondel.delaunay`.
+
+    Returns
+    -------
+    TriangleMesh
+        The mesh; sides of `coast` are land or islands of its border, others are open.
+
+    Raises
+    ------
+    ValueError
+        If geometries are not valid, a number is not as described, or nothing is left to fill.
+
+    See Also
+    --------
+    scvt : meshes of Voronoi cells.
+
+    Notes
+    -----
+    Delaunay refinement after Chew [1]_, with the off-centers of Üngör [2]_;
+    docs/theory/refinement.md says what is guaranteed.
+
+    References
+    ----------
+    .. [1] L. P. Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993.
+    .. [2] A. Üngör, "Off-centers: a new type of Steiner points for computing size-optimal
+       quality-guaranteed Delaunay triangulations", Computational Geometry 42, 2009.
+
+    Examples
+    --------
+    The sea around an island, in edges of about 1 degree:
+
+    >>> import math, rondel.mesh, shapely
+    >>> sea, island = shapely.box(0, 0, 10, 8), shapely.box(4, 3, 6, 5)
+    >>> mesh = rondel.mesh.triangles(island, area=sea, spacing=math.radians(1))
+    >>> [(segment.kind, len(segment.nodes)) for segment in mesh.boundary]
+    [('open', 17), ('open', 17), ('island', 8)]
+
+    """
+    given = {"coast": coast, "area": area, "lines": lines}
+    present = {name: value for name, value in given.items() if value is not None}
+    parts = dict.fromkeys(given, _core.Geometries())
+    if present:
+        for operand in operands(present, edges, threads, invalid):
+            parts[operand.name] = operand.geometries()
+    elif spacing is None:
+        raise TypeError("triangles() needs coast, area or spacing")
+    steps = raster_steps if callable(spacing) else 1
+    made, too_small = _core.triangles_of_domain(
+        **parts,
+        spacings=raster_of(spacing, steps),
+        steps=steps,
+        gradient=0.0 if gradient is None else float(gradient),
+        tolerance=None if tolerance is None else float(tolerance),
+        smallest_angle=float(smallest_angle),
+        threads=as_threads(threads),
+        progress=progress,
+    )
+    if too_small:
+        warn_caller(
+            f"{count(too_small, 'triangle is', 'triangles are')} not as wanted where "
+            "doubles have no place between the corners"
+        )
+    mesh = TriangleMesh._of(made)
+    if depths is None:
+        return mesh
+    made.depths = np.ascontiguousarray(as_floats(depths(mesh.points), "depths"))
+    if made.depths.shape != (len(mesh.points),):
+        raise ValueError(f"depths has the shape {made.depths.shape}, not ({len(mesh.points)},)")
+    return mesh

@@ -22,7 +22,7 @@ from ._mesh_making import (
     scvt_points,
 )
 from ._mesh_parts import Lines
-from ._triangle_mesh import Boundary, TriangleMesh, read_triangles
+from ._triangle_mesh import Boundary, TriangleMesh, read_triangles, triangles
 from ._types import ArrayLike, Path, Progress
 from ._voronoi_mesh import Culled, EdgeWeights, Mesh
 
@@ -40,6 +40,7 @@ __all__ = [
     "read",
     "read_triangles",
     "scvt",
+    "triangles",
 ]
 
 
