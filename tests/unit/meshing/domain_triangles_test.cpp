@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Domains filled with triangles: their areas against those of polygons, and what edges follow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <tuple>
+
+#include "rondel/error.h"
+#include "rondel/mesh_triangles.h"
+#include "rondel/predicates.h"
+#include "rondel/regions.h"
+#include "rondel/sites.h"
+#include "support/thrown.h"
+
+namespace rondel::test {
+namespace {
+
+using mesh::DomainTriangles;
+using mesh::FeatureOfEdge;
+using mesh::MeshDomain;
+using mesh::triangles;
+using mesh::TrianglesOptions;
+using Ring = std::vector<LonLat>;
+
+constexpr double whole_sphere = 4 * std::numbers::pi;
+
+// A feature of one polygon, or of lines.
+Geometries polygon(const std::vector<Ring>& rings) {
+  Geometries geometries;
+  for (const Ring& ring : rings) {
+    for (const Point& point : unit_vectors(ring)) {
+      geometries.polygons.corners.push_back(static_cast<Index>(geometries.polygons.points.size()));
+      geometries.polygons.points.push_back(point);
+    }
+    geometries.polygons.end_ring();
+  }
+  geometries.polygons.end_cell();
+  geometries.lines.end_group();
+  return geometries;
+}
+
+Geometries line(const Ring& positions) {
+  Geometries geometries;
+  geometries.lines.rows.append(unit_vectors(positions));
+  geometries.lines.end_group();
+  geometries.polygons.end_cell();
+  return geometries;
+}
+
+Ring box(double west, double south, double east, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}};
+}
+
+Ring around_pole(double lat) {
+  Ring ring;
+  for (int k = 0; k < 12; ++k) ring.push_back({30.0 * k, lat});
+  return ring;
+}
+
+double area_of(const Geometries& geometries) { return areas(geometries.polygons).front(); }
+
+double area_of(const DomainTriangles& made) {
+  CellRings cells;
+  cells.points = made.mesh.nodes;
+  for (const Triple& triangle : made.mesh.triangles) {
+    cells.append_ring(triangle);
+    cells.end_cell();
+  }
+  const std::vector<double> found = areas(cells);
+  return std::accumulate(found.begin(), found.end(), 0.0);
+}
+
+std::size_t number_of(const DomainTriangles& made, FeatureOfEdge feature) {
+  return static_cast<std::size_t>(std::ranges::count(made.features, feature));
+}
+
+TrianglesOptions spaced(double degrees) {
+  TrianglesOptions options;
+  options.refine.spacing = mesh::SizeFunction::constant(degrees * std::numbers::pi / 180, 64);
+  options.tolerance = 0;
+  return options;
+}
+
+// The triangles by their corners, whatever numbers these have.
+std::set<std::array<std::tuple<double, double, double>, 3>> places_of(const DomainTriangles& made) {
+  std::set<std::array<std::tuple<double, double, double>, 3>> places;
+  for (const Triple& triangle : made.mesh.triangles) {
+    std::array<std::tuple<double, double, double>, 3> corners;
+    for (unsigned i = 0; i < 3; ++i) {
+      const Point& p = made.mesh.nodes[triangle[i]];
+      corners[i] = {p.x, p.y, p.z};
+    }
+    std::ranges::sort(corners);
+    places.insert(corners);
+  }
+  return places;
+}
+
+TEST(domain_triangles, a_sea_with_an_island) {
+  const Geometries sea = polygon({box(-5, -4, 6, 5)});
+  const Geometries island = polygon({box(1, 1, 2, 3)});
+  const DomainTriangles made = triangles({{island}, {sea}, {}}, spaced(1));
+  EXPECT_NEAR(area_of(made), area_of(sea) - area_of(island), 1e-13);
+  EXPECT_GT(number_of(made, FeatureOfEdge::coast), 5U);
+  EXPECT_GT(number_of(made, FeatureOfEdge::area), 30U);
+  EXPECT_EQ(number_of(made, FeatureOfEdge::none) + number_of(made, FeatureOfEdge::line), 0U);
+  EXPECT_EQ(made.features.size(), made.mesh.edges.size());
+}
+
+TEST(domain_triangles, poles_and_the_antimeridian) {
+  const Geometries cap = polygon({around_pole(80)});
+  const Geometries island = polygon({{{175, -10}, {-175, -10}, {-175, 10}, {175, 10}}});
+  const DomainTriangles made = triangles({{cap, island}, {}, {}}, spaced(8));
+  EXPECT_NEAR(area_of(made), whole_sphere - area_of(cap) - area_of(island), 1e-11);
+  EXPECT_EQ(number_of(made, FeatureOfEdge::coast), made.features.size());
+}
+
+TEST(domain_triangles, one_island_in_the_ocean) {
+  const Geometries island = polygon({box(10, 10, 12, 12)});
+  const DomainTriangles made = triangles({{island}, {}, {}}, {});
+  EXPECT_NEAR(area_of(made), whole_sphere - area_of(island), 1e-11);
+  EXPECT_EQ(made.mesh.report.num_too_small, 0U);
+}
+
+TEST(domain_triangles, the_whole_sphere) {
+  const DomainTriangles made = triangles({}, spaced(20));
+  EXPECT_NEAR(area_of(made), whole_sphere, 1e-11);
+  EXPECT_TRUE(made.features.empty());
+}
+
+TEST(domain_triangles, lines_are_edges_where_there_is_water) {
+  const Geometries sea = polygon({box(-5, -5, 5, 5)});
+  const Geometries island = polygon({box(2, -1, 4, 1)});
+  const Geometries along = line({{-3, 0}, {3, 0}});
+  const Geometries across = line({{0, -3}, {0, 3}});
+  const Geometries buoy = line({{-4, 4}});
+  const DomainTriangles made = triangles({{island}, {sea}, {along, across, buoy}}, spaced(2));
+  std::size_t num_at_crossing = 0;
+  std::size_t num_at_buoy = 0;
+  const Point at = unit_vectors(Ring{{-4, 4}}).front();
+  for (const Point& p : made.mesh.nodes) {
+    num_at_crossing += p.x == 1 && p.y == 0 && p.z == 0 ? 1U : 0U;
+    num_at_buoy += p == at ? 1U : 0U;
+  }
+  EXPECT_EQ(num_at_crossing, 1U);
+  EXPECT_EQ(num_at_buoy, 1U);
+  const Point pole = {0, 0, 1};
+  for (std::size_t e = 0; e < made.features.size(); ++e) {
+    if (made.features[e] != FeatureOfEdge::line) continue;
+    const Point& p = made.mesh.nodes[made.mesh.edges[e][0]];
+    const Point& q = made.mesh.nodes[made.mesh.edges[e][1]];
+    EXPECT_TRUE((p.z == 0 && q.z == 0) || (p.y == 0 && q.y == 0));
+    EXPECT_NE(orientation(p, q, pole) == Sign::zero, p.z == 0 && q.z == 0);
+  }
+  EXPECT_GT(number_of(made, FeatureOfEdge::line), 5U);
+}
+
+TEST(domain_triangles, small_islands_vanish) {
+  const Geometries sea = polygon({box(-5, -4, 6, 5)});
+  const Geometries rock = polygon({box(1, 1, 1.01, 1.01)});
+  TrianglesOptions options = spaced(1);
+  const std::size_t num_with_rock = triangles({{rock}, {sea}, {}}, options).mesh.nodes.size();
+  options.tolerance.reset();
+  const DomainTriangles made = triangles({{rock}, {sea}, {}}, options);
+  EXPECT_LT(made.mesh.nodes.size(), num_with_rock);
+  EXPECT_EQ(number_of(made, FeatureOfEdge::coast), 0U);
+}
+
+TEST(domain_triangles, order_and_threads_change_nothing) {
+  const Geometries sea = polygon({box(-5, -4, 6, 5)});
+  const Geometries east = polygon({box(1, 1, 2, 3)});
+  const Geometries west = polygon({box(-3, -2, 0, 1)});
+  const auto first = places_of(triangles({{east, west}, {sea}, {}}, spaced(1)));
+  EXPECT_TRUE(first == places_of(triangles({{west, east}, {sea}, {}}, spaced(1), {.threads = 2})));
+}
+
+TEST(domain_triangles, nothing_is_left) {
+  const Geometries sea = polygon({box(-5, -4, 6, 5)});
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              return triangles({{sea}, {sea}, {}}, spaced(1));
+            }),
+            "nothing is left for triangles: the land covers the area");
+}
+
+TEST(domain_triangles, names_of_features) {
+  EXPECT_EQ(name_of(FeatureOfEdge::coast), "coast");
+  EXPECT_EQ(name_of(static_cast<FeatureOfEdge>(4)), "");
+}
+
+}  // namespace
+}  // namespace rondel::test
