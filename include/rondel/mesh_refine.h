@@ -27,7 +27,7 @@ struct RefineOptions {
   /// The wanted length of edges. No edge of a triangle is longer than 1.5 times the smallest
   /// spacing at its corners. It should change slowly (SizeFunction::limited()): it is looked at
   /// where vertices are. Without it triangles grow as fast as their angles allow.
-  std::optional<SizeFunction> spacing;
+  std::optional<SizeFunction> spacing = std::nullopt;
   /// The most vertices that the mesh may have.
   std::size_t most_vertices = max_sites;
 };

@@ -40,11 +40,11 @@ RONDEL_API std::string_view name_of(FeatureOfEdge feature) noexcept;
 
 /// The settings of triangles().
 struct TrianglesOptions {
-  RefineOptions refine;
+  RefineOptions refine = {};
   /// How far the coasts, borders and lines of the mesh may be from those given, in radians
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
   /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
-  std::optional<double> tolerance;
+  std::optional<double> tolerance = std::nullopt;
 };
 
 /// The result of triangles().

@@ -246,22 +246,19 @@ class Refinement {
   void improve(Index f, const Shape& shape) {
     const Vector place = better_vertex(f, shape);
     const auto found = faces_.locate(f, place);
-    if (!found) return give_up();
+    if (!found) return;
     if (found->blocked != no_index) {
-      if (!divide(found->blocked)) return give_up();
-      await(f);
+      if (divide(found->blocked)) await(f);
       return;
     }
     for (const Index v : faces_.face(found->face).vertex) {
-      if (square_of_distance(faces_.direction(v), place) < square(closest)) return give_up();
+      if (square_of_distance(faces_.direction(v), place) < square(closest)) return;
     }
     const auto added = faces_.insert(found->face, place);
-    if (!added) return give_up();
+    if (!added) return;
     ++report_.num_inserted;
     finish(*added);
   }
-
-  void give_up() { ++report_.num_too_small; }
 
   void finish(Index vertex) {
     if (faces_.num_vertices() > options_.most_vertices) {
@@ -399,7 +396,7 @@ class Refinement {
 
   // True if the shortest edge joins two segments that meet at a small angle, at the same distance
   // from their common end.
-  bool is_between_shells(Index f, const Shape& shape) {
+  [[nodiscard]] bool is_between_shells(Index f, const Shape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Index p = corners[topology::next_corner[shape.shortest]];
     const Index q = corners[topology::previous_corner[shape.shortest]];
@@ -410,11 +407,7 @@ class Refinement {
     const Vector& center = faces_.direction(shell(p));
     const double to_p = square_of_distance(faces_.direction(p), center);
     const double to_q = square_of_distance(faces_.direction(q), center);
-    if (std::abs(to_p - to_q) > 0x1p-10 * to_p || shape.squares[shape.shortest] >= to_p) {
-      return false;
-    }
-    ++report_.num_near_small_angles;
-    return true;
+    return std::abs(to_p - to_q) <= 0x1p-10 * to_p && shape.squares[shape.shortest] < to_p;
   }
 
   void divide_long_segments() {
@@ -435,6 +428,7 @@ class Refinement {
     }
   }
 
+  void judge(Index f, RefineReport& report) const;
   [[nodiscard]] RefinedMesh result() const;
 
   const RefineOptions& options_;
@@ -451,6 +445,16 @@ class Refinement {
   FaceQueue narrow_;
   RefineReport report_;
 };
+
+// Counts the triangle if it is not as wanted.
+void Refinement::judge(Index f, RefineReport& report) const {
+  const Shape shape = shape_of(f);
+  if (is_large(shape)) {
+    ++report.num_too_small;
+  } else if (is_narrow(shape)) {
+    ++(is_between_shells(f, shape) ? report.num_near_small_angles : report.num_too_small);
+  }
+}
 
 RefinedMesh Refinement::result() const {
   RefinedMesh mesh;
@@ -473,6 +477,7 @@ RefinedMesh Refinement::result() const {
     const RefinedFace& face = faces_.face(f);
     mesh.triangles.push_back({node[face.vertex[0]], node[face.vertex[1]], node[face.vertex[2]]});
     mesh.regions.push_back(face.region);
+    judge(f, mesh.report);
     for (unsigned i = 0; i < 3; ++i) {
       if (face.segment[i] == no_index) continue;
       const Index h = halfedge(f, i);

@@ -154,6 +154,11 @@ void test_files(std::string_view bytes) {
     } catch (const InvalidInput&) {
     }
     try {
+      (void)mesh::read_heights(path, "h", mesh::SizeFunction::nodes(1), {.threads = 1});
+    } catch (const FileError&) {
+    } catch (const InvalidInput&) {
+    }
+    try {
       (void)mesh::read_lines(path);
     } catch (const FileError&) {
     }
