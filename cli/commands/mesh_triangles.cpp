@@ -308,7 +308,7 @@ Command add_mesh_triangles_command(CLI::App& group) {
       "  rondel mesh triangles --coast land.geojson --spacing 200 -o ocean.msh\n"
       "  rondel mesh triangles --coast land.geojson --spacing 400 --refine coast.geojson:100 -o "
       "fort.14\n"
-      "  rondel mesh triangles --coast land.geojson --area basin.geojson --spacing 50 -o "
+      "  rondel mesh triangles --coast land.geojson --area basins.geojson --spacing 50 -o "
       "hgrid.gr3");
   return {parser, [options] { return run_mesh_triangles(*options); }};
 }

@@ -62,7 +62,7 @@ COMMANDS = {
     ),
     "mesh triangles": (
         "--spacing {--spacing}",
-        ["--spacing", "--refine", "--coast", "--area", "--lines", "--depth"],
+        ["--spacing", "--refine", "--coast", "--area", "--lines", "--depth", "--elevation"],
         {"--output": ".nc"},
     ),
     "mesh icosahedral": ("1", [], {"--output": ".nc", "--graph": "", "--report": ""}),

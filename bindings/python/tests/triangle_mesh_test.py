@@ -100,6 +100,55 @@ def test_remarks_are_warnings(tmp_path):
         assert read_triangles(tmp_path / "a.gr3").triangles.tolist() == [[0, 1, 2]]
 
 
+def sides_of(mesh):
+    a, b, c = mesh.points[mesh.triangles].transpose(1, 0, 2)
+    return np.array([np.linalg.norm(p - q, axis=1) for p, q in ((b, c), (c, a), (a, b))])
+
+
+def test_an_ocean_has_the_spacing_and_the_angles():
+    shapely = pytest.importorskip("shapely")
+    sea, island = shapely.box(170, -10, 195, 15), shapely.box(178, 0, 183, 4)
+
+    def spacing(places):
+        return np.where(places[:, 2] > 0.05, 0.02, 0.04)
+
+    mesh = rondel.mesh.triangles(
+        island, area=sea, spacing=spacing, gradient=0.2, tolerance=0, depths=lambda p: 100 * p[:, 2]
+    )
+    sides = sides_of(mesh)
+    assert sides.max() <= 1.5 * 0.04
+    assert sides.min() > 0.005
+    cosines = (np.roll(sides, 1, 0) ** 2 + np.roll(sides, 2, 0) ** 2 - sides**2) / (
+        2 * np.roll(sides, 1, 0) * np.roll(sides, 2, 0)
+    )
+    assert np.degrees(np.arccos(cosines.max(axis=0))).min() > 26.4
+    assert np.array_equal(mesh.depths, 100 * mesh.points[:, 2])
+    assert {segment.kind for segment in mesh.boundary} == {"open", "island"}
+    same(pickle.loads(pickle.dumps(mesh)), mesh)
+
+
+def test_lines_that_cross_make_a_node():
+    shapely = pytest.importorskip("shapely")
+    cross = shapely.MultiLineString([[(-3, 0), (3, 0)], [(0, -3), (0, 3)]])
+    mesh = rondel.mesh.triangles(area=shapely.box(-5, -5, 5, 5), lines=cross, spacing=0.05)
+    assert (mesh.points == [1, 0, 0]).all(axis=1).sum() == 1
+
+
+def test_what_cannot_be_filled():
+    shapely = pytest.importorskip("shapely")
+    sea = shapely.box(0, 0, 10, 10)
+    with pytest.raises(ValueError, match="the land covers the area"):
+        rondel.mesh.triangles(sea, area=sea)
+    with pytest.raises(ValueError, match="not between 0 and pi"):
+        rondel.mesh.triangles(sea, spacing=-1)
+    with pytest.raises(ValueError, match="from 0 to 33 degrees, not 40"):
+        rondel.mesh.triangles(sea, smallest_angle=40)
+    with pytest.raises(TypeError, match="coast, area or spacing"):
+        rondel.mesh.triangles()
+    with pytest.raises(ValueError, match="depths has the shape"):
+        rondel.mesh.triangles(sea, spacing=0.5, depths=lambda p: p[:3, 0])
+
+
 @pytest.mark.parametrize("form", ["gmsh", "gmsh2"])
 def test_meshio_reads_and_writes_the_same(mesh, form, tmp_path):
     meshio = pytest.importorskip("meshio")
