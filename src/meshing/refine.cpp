@@ -57,7 +57,8 @@ double square_of_distance(const Vector& a, const Vector& b) { return dot(a - b, 
 // First in, first out.
 class FaceQueue {
  public:
-  [[nodiscard]] bool is_empty() const { return first_ == faces_.size(); }
+  [[nodiscard]] std::size_t size() const { return faces_.size() - first_; }
+  [[nodiscard]] bool is_empty() const { return size() == 0; }
   void push(Index f) {
     if (f >= is_waiting_.size()) is_waiting_.resize(f + std::size_t{1} + f / 2);
     if (std::exchange(is_waiting_[f], 1) != 0) return;
@@ -132,7 +133,7 @@ class Refinement {
 
   void pause_for(std::size_t done) {
     system::obey_stop();
-    system::announce(execution_, "refine", done % 2 == 0 ? 0.5 : 0.5);
+    system::announce(execution_, "refine", done, done + large_.size() + narrow_.size());
   }
 
   // Returns the wanted spacing as the length of a chord.

@@ -299,59 +299,56 @@ void RefinedFaces::legalize(bool is_star) {
   }
 }
 
-void RefinedFaces::remove(Index vertex, Index face) {
-  changed_.clear();
-  const auto corner = [&](Index f) {
-    unsigned i = 0;
-    while (faces_[f].vertex[i] != vertex) ++i;
-    return i;
-  };
-  // Flips leave the vertex with three neighbors.
-  Index f = face;
+unsigned RefinedFaces::corner_of(Index f, Index vertex) const {
+  const Triple& corners = faces_[f].vertex;
+  return corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+}
+
+// Flips edges of a free vertex, a corner of the face, until it has three. Returns one of its faces.
+Index RefinedFaces::cut_ears(Index vertex, Index f) {
   std::size_t degree = 0;
+  const Index first = f;
   do {
-    f = face_of(faces_[f].opposite[topology::next_corner[corner(f)]]);
+    f = face_of(faces_[f].opposite[topology::next_corner[corner_of(f, vertex)]]);
     ++degree;
-  } while (f != face);
+  } while (f != first);
   while (degree > 3) {
     // The edge from the vertex to y, between the faces vxy and vyz, may go if xyz is positive, and
-    // the vertex is not right of xz.
-    const unsigned i = corner(f);
+    // the vertex is not right of xz. Some edge may: the polygon around the vertex has two ears.
+    const unsigned i = corner_of(f, vertex);
     const Index edge = halfedge(f, topology::next_corner[i]);  // from y to the vertex
     const Index beyond = face_of(faces_[f].opposite[topology::next_corner[i]]);
     const Index x = faces_[f].vertex[topology::next_corner[i]];
     const Index y = faces_[f].vertex[topology::previous_corner[i]];
-    const Index z = faces_[beyond].vertex[topology::previous_corner[corner(beyond)]];
-    const bool is_ear = side(x, y, z) == Sign::positive && side(x, z, vertex) != Sign::negative;
-    if (!is_ear) {
-      f = beyond;
-      continue;
+    const Index z = faces_[beyond].vertex[topology::previous_corner[corner_of(beyond, vertex)]];
+    if (side(x, y, z) == Sign::positive && side(x, z, vertex) != Sign::negative) {
+      flip(edge);  // the face becomes xyz
+      --degree;
+      changed_.push_back(f);
+      for (unsigned j = 0; j < 3; ++j) to_test_.push_back(halfedge(f, j));
     }
-    flip(edge);
-    --degree;
-    const Index outside = faces_[f].vertex[0] == vertex || faces_[f].vertex[1] == vertex ||
-                                  faces_[f].vertex[2] == vertex
-                              ? beyond
-                              : f;
-    changed_.push_back(outside);
-    for (unsigned j = 0; j < 3; ++j) to_test_.push_back(halfedge(outside, j));
-    if (outside == f) f = beyond;
+    f = beyond;
   }
-  // The last three faces become one.
-  const unsigned i = corner(f);
+  return f;
+}
+
+void RefinedFaces::remove(Index vertex, Index face) {
+  changed_.clear();
+  const Index f = cut_ears(vertex, face);
+  // The last three faces vxy, vyz and vzx become one.
+  const unsigned i = corner_of(f, vertex);
   const Index g = face_of(faces_[f].opposite[topology::next_corner[i]]);
   const Index k = face_of(faces_[f].opposite[topology::previous_corner[i]]);
   const RefinedFace of_g = faces_[g];
   const RefinedFace of_k = faces_[k];
-  const unsigned at_g = corner(g);
-  const unsigned at_k = corner(k);
+  const unsigned at_g = corner_of(g, vertex);
+  const unsigned at_k = corner_of(k, vertex);
   faces_[f].vertex[i] = of_g.vertex[topology::previous_corner[at_g]];
   const auto take = [&](unsigned j, const RefinedFace& other, unsigned at) {
     faces_[f].segment[j] = other.segment[at];
     faces_[f].opposite[j] = no_index;
     if (other.opposite[at] != no_index) link(halfedge(f, j), other.opposite[at]);
   };
-  // The face was vxy; g is vyz, k is vzx.
   take(topology::next_corner[i], of_g, at_g);
   take(topology::previous_corner[i], of_k, at_k);
   for (const Index gone : {g, k}) {

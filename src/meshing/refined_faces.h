@@ -94,9 +94,10 @@ class RefinedFaces {
   Index add_vertex(const predicates::Vector& point, Kind kind);
   Index add_face();
   void link(Index h, Index g);
-  void take_edge(Index h, Index old);
   void flip(Index h);
   void legalize(bool is_star);
+  [[nodiscard]] unsigned corner_of(Index f, Index vertex) const;
+  Index cut_ears(Index vertex, Index f);
   void divide_faces(Index h, Index v);
 
   std::vector<Point> points_;
