@@ -28,7 +28,7 @@ using predicates::Vector;
 using topology::edge_of;
 using topology::face_of;
 using topology::halfedge;
-using Kind = RefinedFaces::Kind;
+using VertexKind = RefinedFaces::VertexKind;
 
 // Circumradii are at most this part of the spacing, so that edges are at most twice as long.
 constexpr double largest_radius = 0.75;
@@ -119,7 +119,7 @@ class Refinement {
 
  private:
   // What is known of a triangle.
-  struct Shape {
+  struct TriangleShape {
     std::array<double, 3> squares;  // of its edges
     unsigned shortest;              // edge
     Vector normal;                  // to its plane, twice as long as its area
@@ -185,12 +185,12 @@ class Refinement {
     }
   }
 
-  [[nodiscard]] Shape shape_of(Index f) const {
+  [[nodiscard]] TriangleShape shape_of(Index f) const {
     const auto& [a, b, c] = faces_.face(f).vertex;
     const Vector& p = faces_.direction(a);
     const Vector& q = faces_.direction(b);
     const Vector& r = faces_.direction(c);
-    Shape shape{};
+    TriangleShape shape{};
     shape.squares = {square_of_distance(q, r), square_of_distance(r, p), square_of_distance(p, q)};
     for (unsigned i = 1; i < 3; ++i) {
       if (shape.squares[i] < shape.squares[shape.shortest]) shape.shortest = i;
@@ -202,16 +202,16 @@ class Refinement {
     return shape;
   }
 
-  [[nodiscard]] static bool is_large(const Shape& shape) {
+  [[nodiscard]] static bool is_large(const TriangleShape& shape) {
     return shape.square_of_radius > square(largest_radius * shape.wish);
   }
-  [[nodiscard]] bool is_narrow(const Shape& shape) const {
+  [[nodiscard]] bool is_narrow(const TriangleShape& shape) const {
     return shape.square_of_radius > largest_ratio_ * shape.squares[shape.shortest];
   }
 
   void improve_large(Index f) {
     if (!is_asked_for(f)) return;
-    const Shape shape = shape_of(f);
+    const TriangleShape shape = shape_of(f);
     if (is_large(shape)) {
       improve(f, shape);
     } else if (is_narrow(shape)) {
@@ -221,14 +221,14 @@ class Refinement {
 
   void improve_narrow(Index f) {
     if (!is_asked_for(f)) return;
-    const Shape shape = shape_of(f);
+    const TriangleShape shape = shape_of(f);
     if (!is_narrow(shape) || is_between_shells(f, shape)) return;
     improve(f, shape);
   }
 
   // Returns the place of a vertex that improves a triangle: on the way from the middle of the
   // shortest edge to the circumcenter, not farther than is of use.
-  [[nodiscard]] Vector better_vertex(Index f, const Shape& shape) const {
+  [[nodiscard]] Vector better_vertex(Index f, const TriangleShape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Vector& p = faces_.direction(corners[topology::next_corner[shape.shortest]]);
     const Vector& q = faces_.direction(corners[topology::previous_corner[shape.shortest]]);
@@ -244,7 +244,7 @@ class Refinement {
     return normalized(0.5 * (p + q) + (height / norm(inwards)) * inwards);
   }
 
-  void improve(Index f, const Shape& shape) {
+  void improve(Index f, const TriangleShape& shape) {
     const Vector place = better_vertex(f, shape);
     const auto found = faces_.locate(f, place);
     if (!found) return;
@@ -291,7 +291,7 @@ class Refinement {
       if (!is_asked_for(f)) continue;
       const Index apex = faces_.apex(way_[k]);
       const bool is_inside = square_of_distance(faces_.direction(apex), middle) < radius2;
-      if (is_inside && faces_.kind(apex) == Kind::free) return {{apex, f}};
+      if (is_inside && faces_.kind(apex) == VertexKind::free) return {{apex, f}};
       for (const unsigned i :
            {topology::next_corner[edge_of(way_[k])], topology::previous_corner[edge_of(way_[k])]}) {
         const Index next = faces_.face(f).opposite[i];
@@ -351,7 +351,7 @@ class Refinement {
     shells = {shell, shell};
     if (shell == no_index) {
       const auto is_small = [&](Index v) {
-        return faces_.kind(v) == Kind::given && has_small_angle_[v];
+        return faces_.kind(v) == VertexKind::given && has_small_angle_[v];
       };
       const auto before = [&](Index v, Index w) {
         const Point& a = faces_.point(v);
@@ -397,7 +397,7 @@ class Refinement {
 
   // True if the shortest edge joins two segments that meet at a small angle, at the same distance
   // from their common end.
-  [[nodiscard]] bool is_between_shells(Index f, const Shape& shape) const {
+  [[nodiscard]] bool is_between_shells(Index f, const TriangleShape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Index p = corners[topology::next_corner[shape.shortest]];
     const Index q = corners[topology::previous_corner[shape.shortest]];
@@ -449,7 +449,7 @@ class Refinement {
 
 // Counts the triangle if it is not as wanted.
 void Refinement::judge(Index f, RefineReport& report) const {
-  const Shape shape = shape_of(f);
+  const TriangleShape shape = shape_of(f);
   if (is_large(shape)) {
     ++report.num_too_small;
   } else if (is_narrow(shape)) {
@@ -470,7 +470,7 @@ RefinedMesh Refinement::result() const {
     if (node[v] == no_index) continue;
     node[v] = static_cast<Index>(mesh.nodes.size());
     mesh.nodes.push_back(faces_.point(v));
-    mesh.sites.push_back(faces_.kind(v) == Kind::given ? v : no_index);
+    mesh.sites.push_back(faces_.kind(v) == VertexKind::given ? v : no_index);
   }
   std::vector<std::array<Index, 3>> edges;
   for (Index f = 0; f < faces_.faces().size(); ++f) {

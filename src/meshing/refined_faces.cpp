@@ -22,7 +22,7 @@ RefinedFaces::RefinedFaces(const ConstrainedTriangulation& given, std::span<cons
   points_.assign(sites.begin(), sites.end());
   directions_.resize(sites.size());
   predicates::directions(sites, {}, directions_.data());
-  kinds_.assign(sites.size(), Kind::given);
+  kinds_.assign(sites.size(), VertexKind::given);
   const std::span<const Triple> corners = triangulation.faces();
   const std::span<const Triple> neighbors = triangulation.neighbors();
   std::vector<Index> number(corners.size(), no_index);
@@ -96,17 +96,17 @@ bool RefinedFaces::is_in_circle(const Triple& face, Index v) const {
   return is_in_conflict(points_[face[0]], points_[face[1]], points_[face[2]], points_[v]);
 }
 
-std::optional<RefinedFaces::Place> RefinedFaces::locate(Index face,
-                                                        const predicates::Vector& point) const {
+std::optional<RefinedFaces::PointPlace> RefinedFaces::locate(
+    Index face, const predicates::Vector& point) const {
   unsigned i = 0;
   while (i < 3 && side(point, halfedge(face, i)) != Sign::negative) ++i;
-  if (i == 3) return Place{face, no_index};
+  if (i == 3) return PointPlace{face, no_index};
   // The straight way begins at the corner opposite to the edge beyond which the point is.
   const Index start = faces_[face].vertex[i];
   Index h = halfedge(face, i);
   for (std::size_t steps = 0; steps < faces_.size(); ++steps) {
     const RefinedFace& left = faces_[face_of(h)];
-    if (left.segment[edge_of(h)] != no_index) return Place{face_of(h), h};
+    if (left.segment[edge_of(h)] != no_index) return PointPlace{face_of(h), h};
     const Index entered = left.opposite[edge_of(h)];
     const Index next = face_of(entered);
     const Index middle = apex(entered);
@@ -117,12 +117,12 @@ std::optional<RefinedFaces::Place> RefinedFaces::locate(Index face,
     // If the apex is on the left of the way, it leaves between it and the end on the right.
     h = halfedge(next, turn == Sign::positive ? topology::next_corner[edge_of(entered)]
                                               : topology::previous_corner[edge_of(entered)]);
-    if (side(point, h) != Sign::negative) return Place{next, no_index};
+    if (side(point, h) != Sign::negative) return PointPlace{next, no_index};
   }
   return {};
 }
 
-Index RefinedFaces::add_vertex(const predicates::Vector& point, Kind kind) {
+Index RefinedFaces::add_vertex(const predicates::Vector& point, VertexKind kind) {
   points_.push_back(exact::to_point(point));
   directions_.push_back(point);
   kinds_.push_back(kind);
@@ -158,7 +158,7 @@ std::optional<Index> RefinedFaces::insert(Index face, const predicates::Vector& 
   }
   if (zeros > 1 || (zeros == 1 && faces_[face].segment[on] != no_index)) return {};
   changed_.clear();
-  const Index v = add_vertex(point, Kind::free);
+  const Index v = add_vertex(point, VertexKind::free);
   if (zeros == 1) {
     divide_faces(halfedge(face, on), v);
     legalize(false);
@@ -225,7 +225,7 @@ std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& poi
   const Index g = faces_[face_of(h)].opposite[edge_of(h)];
   if (!fits(h) || (g != no_index && !fits(g))) return {};
   changed_.clear();
-  const Index v = add_vertex(point, Kind::on_segment);
+  const Index v = add_vertex(point, VertexKind::on_segment);
   const Index old = faces_[face_of(h)].segment[edge_of(h)];
   const Index added = static_cast<Index>(segments_.size());
   segments_.push_back({segments_[old].source, shells[1]});

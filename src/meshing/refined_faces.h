@@ -45,10 +45,10 @@ struct RefinedFace {
 class RefinedFaces {
  public:
   // What a vertex may be: it was given, or it divides a segment, or it is in the inside.
-  enum class Kind : std::uint8_t { given, on_segment, free };
+  enum class VertexKind : std::uint8_t { given, on_segment, free };
 
   // Where a point is: in a face, or beyond a segment, which is the first one on the way to it.
-  struct Place {
+  struct PointPlace {
     Index face;
     Index blocked;  // the halfedge; no_index: the point is in the face
   };
@@ -64,14 +64,14 @@ class RefinedFaces {
   [[nodiscard]] std::size_t num_vertices() const { return points_.size(); }
   [[nodiscard]] const Point& point(Index v) const { return points_[v]; }
   [[nodiscard]] const predicates::Vector& direction(Index v) const { return directions_[v]; }
-  [[nodiscard]] Kind kind(Index v) const { return kinds_[v]; }
+  [[nodiscard]] VertexKind kind(Index v) const { return kinds_[v]; }
   [[nodiscard]] const RefinedSegment& segment(Index s) const { return segments_[s]; }
   [[nodiscard]] Index from(Index h) const;
   [[nodiscard]] Index to(Index h) const;
   [[nodiscard]] Index apex(Index h) const;
 
   // Goes from a face straight to a point. Nothing is returned if rounding leads astray.
-  [[nodiscard]] std::optional<Place> locate(Index face, const predicates::Vector& point) const;
+  [[nodiscard]] std::optional<PointPlace> locate(Index face, const predicates::Vector& point) const;
 
   // Inserts a free vertex in a face that locate() found. Returns nothing, and changes nothing, if
   // the point is not in the face or in the place of a corner; blocked() tells of a point on a
@@ -91,7 +91,7 @@ class RefinedFaces {
   [[nodiscard]] Sign side(Index a, Index b, Index v) const;
   [[nodiscard]] Sign side(const predicates::Vector& p, Index h) const;
   [[nodiscard]] bool is_in_circle(const Triple& face, Index v) const;
-  Index add_vertex(const predicates::Vector& point, Kind kind);
+  Index add_vertex(const predicates::Vector& point, VertexKind kind);
   Index add_face();
   void link(Index h, Index g);
   void flip(Index h);
@@ -102,7 +102,7 @@ class RefinedFaces {
 
   std::vector<Point> points_;
   std::vector<predicates::Vector> directions_;
-  std::vector<Kind> kinds_;
+  std::vector<VertexKind> kinds_;
   std::vector<RefinedFace> faces_;
   std::vector<Index> free_faces_;
   std::vector<RefinedSegment> segments_;
