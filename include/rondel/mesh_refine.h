@@ -25,8 +25,8 @@ struct RefineOptions {
   /// refinement is proved to end; beyond that it ended in all our tests, with more triangles.
   double smallest_angle_deg = 26.5;
   /// The wanted length of edges. No edge of a triangle is longer than 1.5 times the smallest
-  /// spacing at its corners. It should change slowly (SizeFunction::limited()): it is looked at
-  /// where vertices are. Without it triangles grow as fast as their angles allow.
+  /// spacing at its corners, both as chords. It should change slowly (SizeFunction::limited()): it
+  /// is looked at where vertices are. Without it triangles grow as fast as their angles allow.
   std::optional<SizeFunction> spacing = std::nullopt;
   /// The most vertices that the mesh may have.
   std::size_t most_vertices = max_sites;
@@ -37,10 +37,10 @@ struct RefineReport {
   std::size_t num_divisions = 0;  ///< of constrained edges
   std::size_t num_inserted = 0;   ///< vertices inside
   std::size_t num_removed = 0;    ///< and those of them that were too close to a division
-  /// Triangles with smaller angles, because two constrained edges meet at less than 60 degrees
-  /// nearby.
+  /// Triangles with a smaller angle, the shortest edge of which is between two constrained edges
+  /// that meet at less than 60 degrees, at equal distances from their common end.
   std::size_t num_near_small_angles = 0;
-  /// Triangles that are not as wanted because doubles have no place between their corners.
+  /// All others that are not as wanted: doubles have no place for a vertex.
   std::size_t num_too_small = 0;
 };
 

@@ -107,13 +107,17 @@ class Refinement {
     std::size_t done = 0;
     while (!large_.is_empty() || !narrow_.is_empty()) {
       constexpr std::size_t pause = 4096;
-      if (done++ % pause == 0) pause_for(done);
+      if (done++ % pause == 0) {
+        system::obey_stop();
+        system::announce(execution_, "refine", done, done + large_.size() + narrow_.size());
+      }
       if (!large_.is_empty()) {
         improve_large(large_.pop());
       } else {
         improve_narrow(narrow_.pop());
       }
     }
+    count_unwanted();
     return result();
   }
 
@@ -129,11 +133,6 @@ class Refinement {
 
   [[nodiscard]] bool is_asked_for(Index f) const {
     return faces_.is_alive(f) && faces_.face(f).region != no_index;
-  }
-
-  void pause_for(std::size_t done) {
-    system::obey_stop();
-    system::announce(execution_, "refine", done, done + large_.size() + narrow_.size());
   }
 
   // Returns the wanted spacing as the length of a chord.
@@ -222,28 +221,31 @@ class Refinement {
   void improve_narrow(Index f) {
     if (!is_asked_for(f)) return;
     const TriangleShape shape = shape_of(f);
-    if (!is_narrow(shape) || is_between_shells(f, shape)) return;
-    improve(f, shape);
+    if (is_narrow(shape) && !is_between_shells(f, shape)) improve(f, shape);
   }
 
   // Returns the place of a vertex that improves a triangle: on the way from the middle of the
-  // shortest edge to the circumcenter, not farther than is of use.
+  // shortest edge to the circumcenter, along the great circle, not farther than is of use.
   [[nodiscard]] Vector better_vertex(Index f, const TriangleShape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Vector& p = faces_.direction(corners[topology::next_corner[shape.shortest]]);
     const Vector& q = faces_.direction(corners[topology::previous_corner[shape.shortest]]);
-    const double edge = std::sqrt(shape.squares[shape.shortest]);
-    const double from_center =
-        std::sqrt(std::max(0.0, shape.square_of_radius - shape.squares[shape.shortest] / 4));
-    double height = std::min(from_center, edge * height_of_angle_);
-    if (edge < longest_front * shape.wish && is_large(shape)) {
-      height = std::min(height, std::sqrt(square(shape.wish) - square(edge / 2)));
+    const double edge2 = shape.squares[shape.shortest];
+    // The height is the chord from the middle of the arc.
+    double height = std::sqrt(edge2) * height_of_angle_;
+    if (edge2 < square(longest_front * shape.wish) && is_large(shape)) {
+      height = std::min(height, std::sqrt(square(shape.wish) - edge2 / 4));
     }
-    if (height == from_center) return normalized(shape.normal);
-    const Vector inwards = cross(shape.normal, q - p);
-    return normalized(0.5 * (p + q) + (height / norm(inwards)) * inwards);
+    const double height2 = square(height);
+    const double sine2 = height2 * (1 - height2 / 4);
+    const double sine2_of_center = (shape.square_of_radius - edge2 / 4) / (1 - edge2 / 4);
+    if (height2 >= 2 || sine2 >= sine2_of_center) return normalized(shape.normal);
+    const Vector inwards = cross(p + q, q - p);
+    return normalized((1 - height2 / 2) * normalized(p + q) +
+                      std::sqrt(sine2) * normalized(inwards));
   }
 
+  // Leaves the triangle as it is if doubles have no place for a vertex.
   void improve(Index f, const TriangleShape& shape) {
     const Vector place = better_vertex(f, shape);
     const auto found = faces_.locate(f, place);
@@ -262,7 +264,7 @@ class Refinement {
   }
 
   void finish(Index vertex) {
-    if (faces_.num_vertices() > options_.most_vertices) {
+    if (faces_.num_vertices() - report_.num_removed > options_.most_vertices) {
       throw InvalidInput("a mesh with these spacings and angles has more than " +
                          std::to_string(options_.most_vertices) + " vertices");
     }
@@ -306,12 +308,16 @@ class Refinement {
     return {};
   }
 
-  // True if an edge has a point within the distance of a place.
+  // True if an arc has a point within the distance of a place. Its chord may pass far below.
   [[nodiscard]] bool is_near(Index h, const Vector& place, double square_of_distance_) const {
     const Vector& a = faces_.direction(faces_.from(h));
-    const Vector along = faces_.direction(faces_.to(h)) - a;
-    const double part = std::clamp(dot(place - a, along) / dot(along, along), 0.0, 1.0);
-    return square_of_distance(a + part * along, place) < square_of_distance_;
+    const Vector& b = faces_.direction(faces_.to(h));
+    const Vector normal = cross(a, b - a);
+    const Vector foot = place - (dot(place - a, normal) / dot(normal, normal)) * normal;
+    const bool is_beside = dot(cross(normal, a), foot) > 0 && dot(cross(b, normal), foot) > 0;
+    return std::min(square_of_distance(a, place), square_of_distance(b, place)) <
+               square_of_distance_ ||
+           (is_beside && square_of_distance(normalized(foot), place) < square_of_distance_);
   }
 
   // Divides a segment, after the free vertices in its cap are removed. Returns false if it cannot
@@ -411,6 +417,17 @@ class Refinement {
     return std::abs(to_p - to_q) <= 0x1p-10 * to_p && shape.squares[shape.shortest] < to_p;
   }
 
+  // Counts the triangles that are not as wanted.
+  void count_unwanted() {
+    for (Index f = 0; f < faces_.faces().size(); ++f) {
+      if (!is_asked_for(f)) continue;
+      const TriangleShape shape = shape_of(f);
+      if (!is_large(shape) && !is_narrow(shape)) continue;
+      const bool is_known = !is_large(shape) && is_between_shells(f, shape);
+      ++(is_known ? report_.num_near_small_angles : report_.num_too_small);
+    }
+  }
+
   void divide_long_segments() {
     while (!long_segments_.empty()) {
       const Index h = long_segments_.back();
@@ -429,7 +446,6 @@ class Refinement {
     }
   }
 
-  void judge(Index f, RefineReport& report) const;
   [[nodiscard]] RefinedMesh result() const;
 
   const RefineOptions& options_;
@@ -446,16 +462,6 @@ class Refinement {
   FaceQueue narrow_;
   RefineReport report_;
 };
-
-// Counts the triangle if it is not as wanted.
-void Refinement::judge(Index f, RefineReport& report) const {
-  const TriangleShape shape = shape_of(f);
-  if (is_large(shape)) {
-    ++report.num_too_small;
-  } else if (is_narrow(shape)) {
-    ++(is_between_shells(f, shape) ? report.num_near_small_angles : report.num_too_small);
-  }
-}
 
 RefinedMesh Refinement::result() const {
   RefinedMesh mesh;
@@ -478,7 +484,6 @@ RefinedMesh Refinement::result() const {
     const RefinedFace& face = faces_.face(f);
     mesh.triangles.push_back({node[face.vertex[0]], node[face.vertex[1]], node[face.vertex[2]]});
     mesh.regions.push_back(face.region);
-    judge(f, mesh.report);
     for (unsigned i = 0; i < 3; ++i) {
       if (face.segment[i] == no_index) continue;
       const Index h = halfedge(f, i);

@@ -5,6 +5,5 @@ rondel_add_test(triangle_mesh_test
   formats/triangle_files_test.cpp
   meshing/boundary_segments_test.cpp
   meshing/domain_triangles_test.cpp
-  meshing/refine_test.cpp
   meshing/triangle_meshes.cpp
   LIBS rondel_geo rondel_test_support)

@@ -1,429 +1,410 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Laws of refined triangles, on hostile sites and constraints: they are those of
-// constrained_delaunay(), which an oracle of its own proves, and as large and as wide as promised.
+// Laws of refine() on hostile input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numbers>
-#include <set>
-#include <tuple>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "rondel/error.h"
-#include "rondel/mesh_refine.h"
-#include "rondel/predicates.h"
-#include "support/random.h"
+#include "support/refine_laws.h"
 #include "support/thrown.h"
 
-namespace rondel::test::of_refine {
+namespace rondel::test::of_refinement {
 namespace {
 
-using mesh::refine;
-using mesh::RefinedMesh;
-using mesh::RefineOptions;
-using mesh::SizeFunction;
 using Ends = std::array<Index, 2>;
+using mesh::refine;
 
-constexpr double degrees_per_radian = 180 / std::numbers::pi;
-
-struct Scene {
+struct Input {
   std::vector<Point> sites;
   std::vector<Ends> constraints;
 };
 
-// Returns a point of the plane that touches the sphere at (1, 0, 0), seen from the center.
-Point at(double x, double y) {
-  const double length = std::sqrt(1 + x * x + y * y);
-  return {1 / length, x / length, y / length};
+// A point of a map around longitude and latitude 0, whose straight lines are arcs.
+Point on_map(double x, double y) { return normalized({1, x, y}); }
+
+void add_corners(Input& input) {
+  for (const double x : {-0.5, 0.5}) {
+    for (const double y : {-0.5, 0.5}) input.sites.push_back(on_map(x, y));
+  }
 }
 
-Point difference(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-double product(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point cross_product(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double distance(const Point& a, const Point& b) {
-  return std::sqrt(product(difference(a, b), difference(a, b)));
-}
-
-// The distance of a point from an arc, by a chord.
-double distance(const Point& p, const Point& a, const Point& b) {
-  const Point normal = cross_product(a, difference(b, a));
-  const bool is_beside =
-      product(cross_product(normal, a), p) > 0 && product(cross_product(normal, b), p) < 0;
-  if (!is_beside) return std::min(distance(p, a), distance(p, b));
-  return std::abs(product(normal, difference(p, a))) / std::sqrt(product(normal, normal));
-}
-
-double at_random(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random.below(1U << 30U)) / (1U << 30U);
-}
-
-bool do_cross(const std::vector<Point>& sites, const Ends& e, const Ends& f) {
+bool do_cross(const Input& input, const Ends& e, const Ends& f) {
   const auto side = [&](const Ends& arc, Index v) {
-    return static_cast<int>(orientation(sites[arc[0]], sites[arc[1]], sites[v]));
+    return static_cast<int>(orientation(input.sites[arc[0]], input.sites[arc[1]], input.sites[v]));
   };
   const int c = side(e, f[0]);
   return c != 0 && side(e, f[1]) == -c && side(f, e[0]) == -c && side(f, e[1]) == c;
 }
 
-// Adds a square around everything.
-void add_frame(Scene& scene) {
-  for (const double x : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) scene.sites.push_back(at(x, y));
-  }
+void add_if_free(Input& input, const Ends& arc) {
+  const bool is_free = std::ranges::none_of(
+      input.constraints, [&](const Ends& other) { return do_cross(input, arc, other); });
+  if (is_free) input.constraints.push_back(arc);
 }
 
-// Sites within a distance of each other, and as many constraints as do not cross.
-Scene cloud(Random& random, double radius) {
-  Scene scene;
-  const std::size_t n = 4 + random.below(16);
+Input random_arcs(Random& random, double radius) {
+  Input input;
+  const std::size_t n = 4 + random.below(20);
   for (std::size_t i = 0; i < n; ++i) {
-    scene.sites.push_back(
-        at(at_random(random, -radius, radius), at_random(random, -radius, radius)));
+    input.sites.push_back(on_map(radius * random.signed_unit(), radius * random.signed_unit()));
   }
   for (std::size_t k = 0; k < 3 * n; ++k) {
-    const Ends ends = {static_cast<Index>(random.below(n)), static_cast<Index>(random.below(n))};
-    if (ends[0] == ends[1]) continue;
-    const bool is_free = std::ranges::none_of(
-        scene.constraints, [&](const Ends& other) { return do_cross(scene.sites, ends, other); });
-    if (is_free) scene.constraints.push_back(ends);
+    const auto a = static_cast<Index>(random.below(n));
+    const auto b = static_cast<Index>(random.below(n));
+    if (a != b) add_if_free(input, {a, b});
   }
-  return scene;
+  return input;
 }
 
-// Rivers that are nearly parallel.
-Scene rivers(Random& random) {
-  Scene scene;
-  const double gap = std::pow(10, at_random(random, -3, -2));
+Input wide_arcs(Random& random) { return random_arcs(random, 0.5); }
+Input small_arcs(Random& random) { return random_arcs(random, 1e-3); }
+Input tiny_arcs(Random& random) { return random_arcs(random, 1e-8); }
+
+Input nearly_parallel_arcs(Random& random) {
+  Input input;
+  const double apart = std::pow(10, -1.5 - 1.5 * random.unit());
   for (Index i = 0; i < 3; ++i) {
-    const double y = gap * i;
-    scene.sites.push_back(at(-0.3 + at_random(random, 0, 0.01), y));
-    scene.sites.push_back(at(0.3 + at_random(random, 0, 0.01), y * at_random(random, 1, 1.3)));
-    scene.constraints.push_back({2 * i, 2 * i + 1});
+    const double y = i * apart;
+    input.sites.push_back(on_map(-0.3 + 0.01 * random.unit(), y));
+    input.sites.push_back(on_map(0.3 + 0.01 * random.unit(), y * (1 + 0.3 * random.unit())));
+    input.constraints.push_back({2 * i, 2 * i + 1});
   }
-  add_frame(scene);
-  return scene;
+  add_corners(input);
+  return input;
 }
 
-// Rivers that meet at an angle of down to 1e-9.
-Scene confluence(Random& random) {
-  Scene scene;
-  const double angle = std::pow(10, at_random(random, -9, -1));
-  scene.sites.push_back(at(0, 0));
-  for (Index i = 0; i < 3; ++i) {
-    const double length = at_random(random, 0.1, 0.4);
-    scene.sites.push_back(at(length * std::cos(angle * i), length * std::sin(angle * i)));
-    scene.constraints.push_back({0, i + 1});
+// Arcs from one site.
+void add_arms(Input& input, const std::vector<double>& angles, Random& random) {
+  input.sites.push_back(on_map(0, 0));
+  for (const double angle : angles) {
+    const double length = 0.1 + 0.3 * random.unit();
+    input.constraints.push_back({0, static_cast<Index>(input.sites.size())});
+    input.sites.push_back(on_map(length * std::cos(angle), length * std::sin(angle)));
   }
-  add_frame(scene);
-  return scene;
 }
 
-// A site that is up to 1e-13 from a coast.
-Scene near_coast(Random& random) {
-  Scene scene{{at(-0.3, 0), at(0.3, 0)}, {{0, 1}}};
-  scene.sites.push_back(at(0.05, std::pow(10, at_random(random, -13, -6))));
-  add_frame(scene);
-  return scene;
+Input small_angles(Random& random) {
+  Input input;
+  const double angle = std::pow(10, -1 - 8 * random.unit());
+  add_arms(input, {0, angle, 2 * angle}, random);
+  add_corners(input);
+  return input;
 }
 
-// Many constraints from one site.
-Scene star(Random& random) {
-  Scene scene{{at(0, 0)}, {}};
-  const auto n = static_cast<Index>(3 + random.below(30));
-  for (Index i = 0; i < n; ++i) {
-    const double angle = at_random(random, 0, 2 * std::numbers::pi);
-    const double length = at_random(random, 0.05, 0.35);
-    scene.sites.push_back(at(length * std::cos(angle), length * std::sin(angle)));
-    scene.constraints.push_back({0, i + 1});
-  }
-  add_frame(scene);
-  return scene;
+Input star(Random& random) {
+  Input input;
+  std::vector<double> angles(3 + random.below(30));
+  for (double& angle : angles) angle = 2 * std::numbers::pi * random.unit();
+  add_arms(input, angles, random);
+  add_corners(input);
+  return input;
 }
 
-// Sites around the whole sphere.
-Scene everywhere(Random& random) {
-  Scene scene;
-  for (const double x : {-1.0, 1.0}) {
-    scene.sites.insert(scene.sites.end(), {{x, 0, 0}, {0, x, 0}, {0, 0, x}});
-  }
-  for (std::size_t i = 0; i < random.below(6); ++i) {
-    const double z = at_random(random, -1, 1);
-    const double angle = at_random(random, 0, 2 * std::numbers::pi);
-    const double r = std::sqrt(1 - z * z);
-    scene.sites.push_back({r * std::cos(angle), r * std::sin(angle), z});
-  }
-  return scene;
+Input site_beside_arc(Random& random) {
+  Input input;
+  const double apart = std::pow(10, -6 - 7 * random.unit());
+  input.sites = {on_map(-0.3, 0), on_map(0.3, 0), on_map(0.05, apart)};
+  input.constraints = {{0, 1}};
+  add_corners(input);
+  return input;
 }
 
-using Corners = std::array<std::tuple<double, double, double>, 3>;
-
-std::set<Corners> places_of(std::span<const Point> nodes, std::span<const Triple> triangles) {
-  std::set<Corners> places;
-  for (const Triple& triangle : triangles) {
-    Corners corners;
-    for (unsigned i = 0; i < 3; ++i) {
-      const Point& p = nodes[triangle[i]];
-      corners[i] = {p.x, p.y, p.z};
+Input whole_sphere(Random& random) {
+  Input input;
+  for (const double x : {1.0, -1.0}) {
+    for (const Point& p : {Point{x, 0, 0}, Point{0, x, 0}, Point{0, 0, x}}) {
+      input.sites.push_back(p);
     }
-    std::ranges::sort(corners);
-    places.insert(corners);
   }
-  return places;
+  const std::size_t n = random.below(5);
+  for (std::size_t i = 0; i < n; ++i) input.sites.push_back(random_direction(random));
+  return input;
 }
 
-// The smallest angle between chords, in degrees, and the shortest edge.
-struct Measures {
-  double angle_deg = 180;
-  double shortest = 9;
-  std::size_t num_narrow = 0;
+// Few sites on the whole sphere, two of them close, and their triangles are large.
+Input close_pair(Random& random) {
+  Input input;
+  for (int i = 0; i < 5; ++i) input.sites.push_back(random_direction(random));
+  input.sites.push_back({1, 0, 0});
+  input.sites.push_back(normalized({1, 0, std::pow(10, -2 - 6 * random.unit())}));
+  return input;
+}
+
+// Small angles at both ends of arcs.
+Input zigzag(Random& random) {
+  Input input;
+  const auto n = static_cast<Index>(5 + random.below(8));
+  for (Index i = 0; i < n; ++i) {
+    input.sites.push_back(on_map(0.3 * i / n, 0.003 * (i % 2) * random.unit()));
+  }
+  for (Index i = 1; i < n; ++i) {
+    add_if_free(input, {i - 1, i});
+    if (i > 1) add_if_free(input, {i - 2, i});
+  }
+  add_corners(input);
+  return input;
+}
+
+struct InputKind {
+  std::string_view name;
+  Input (*make)(Random& random);
+  std::size_t count;
 };
 
-Measures measures_of(const RefinedMesh& made, double smallest_angle_deg) {
-  Measures result;
-  for (const auto& [a, b, c] : made.triangles) {
-    const std::array<double, 3> sides = {distance(made.nodes[b], made.nodes[c]),
-                                         distance(made.nodes[c], made.nodes[a]),
-                                         distance(made.nodes[a], made.nodes[b])};
-    double least = 180;
-    for (unsigned i = 0; i < 3; ++i) {
-      const double p = sides[(i + 1) % 3];
-      const double q = sides[(i + 2) % 3];
-      const double cosine = (p * p + q * q - sides[i] * sides[i]) / (2 * p * q);
-      least = std::min(least, std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees_per_radian);
-      result.shortest = std::min(result.shortest, sides[i]);
-    }
-    result.angle_deg = std::min(result.angle_deg, least);
-    // Sides of 1e-13 have three digits.
-    const double tolerance = 1e-9 + 1e-13 / *std::ranges::min_element(sides);
-    if (least < smallest_angle_deg - tolerance) ++result.num_narrow;
-  }
-  return result;
+constexpr std::array<InputKind, 10> kinds = {{{"wide arcs", wide_arcs, 12},
+                                              {"small arcs", small_arcs, 12},
+                                              {"tiny arcs", tiny_arcs, 12},
+                                              {"nearly parallel arcs", nearly_parallel_arcs, 5},
+                                              {"small angles", small_angles, 12},
+                                              {"site beside an arc", site_beside_arc, 12},
+                                              {"star", star, 12},
+                                              {"whole sphere", whole_sphere, 12},
+                                              {"close pair", close_pair, 12},
+                                              {"zigzag", zigzag, 12}}};
+
+ConstrainedTriangulation triangulated(const Input& input) {
+  return constrained_delaunay(input.sites, input.constraints);
 }
 
-// The segments of a triangulation: constrained edges, and those of the hull.
+std::vector<Index> one_region(const ConstrainedTriangulation& given) {
+  return std::vector<Index>(given.triangulation.num_faces(), 0);
+}
+
+mesh::RefinedMesh expect_laws(const ConstrainedTriangulation& given,
+                              const std::vector<Index>& regions,
+                              const mesh::RefineOptions& options = {}) {
+  mesh::RefinedMesh mesh = refine(given, regions, options);
+  EXPECT_EQ(RefineLaws(given, regions, options, mesh).flaw(), "");
+  EXPECT_EQ(mesh.report.num_too_small, 0U);
+  return mesh;
+}
+
+// False if a region is so thin over so long a way that it takes too many triangles, which the border
+// of one beside an arc may be.
+bool has_room(const ConstrainedTriangulation& given, const std::vector<Index>& regions) {
+  try {
+    static_cast<void>(refine(given, regions, {.most_vertices = 20'000}));
+  } catch (const InvalidInput&) {
+    return false;
+  }
+  return true;
+}
+
+// Calls for each input of each kind.
+template <class Check>
+void for_each_input(const Check& check) {
+  for (const InputKind& kind : kinds) {
+    for (std::size_t seed = 0; seed < scaled(kind.count); ++seed) {
+      SCOPED_TRACE(std::string(kind.name) + " " + std::to_string(seed));
+      Random random(seed);
+      check(kind.make(random), random);
+    }
+  }
+}
+
+TEST(refine, laws_hold_for_hostile_input) {
+  for_each_input([](const Input& input, Random& random) {
+    const auto given = triangulated(input);
+    constexpr std::array<double, 4> angles = {20, 26.5, 30, 0};
+    expect_laws(given, one_region(given), {.smallest_angle_deg = angles.at(random.below(4))});
+  });
+}
+
+TEST(refine, laws_hold_for_regions) {
+  for_each_input([](const Input& input, Random& random) {
+    const auto given = triangulated(input);
+    const auto left_out = static_cast<Index>(random.below(4));
+    const auto regions = regions_by_sign(given.triangulation, &Point::y, left_out);
+    if (has_room(given, regions)) expect_laws(given, regions);
+  });
+}
+
+TEST(refine, laws_hold_for_spacings) {
+  for_each_input([](const Input& input, Random& random) {
+    const auto given = triangulated(input);
+    const double far = given.triangulation.num_ghost_faces() == 0 ? 0.3 : 0.05;
+    mesh::SizeFunction spacing = mesh::SizeFunction::constant(far, 64);
+    if (random.coin()) {
+      spacing = spacing.refined(std::vector<Point>{{1, 0, 0}}, far / 4, 0.2).limited(0.2);
+    }
+    expect_laws(given, one_region(given), {.spacing = spacing});
+  });
+}
+
+TEST(refine, order_and_threads_change_nothing_but_numbers) {
+  for_each_input([](const Input& input, Random& random) {
+    const auto given = triangulated(input);
+    const auto regions = regions_by_sign(given.triangulation, &Point::z, 2);
+    if (!has_room(given, regions)) return;
+    const RefinedPoints points = points_of(refine(given, regions, {}, {.threads = 1}));
+    std::vector<Index> old(input.sites.size());
+    for (Index i = 0; i < old.size(); ++i) old[i] = i;
+    random.shuffle(old);
+    Input other;
+    std::vector<Index> now(old.size());
+    for (Index i = 0; i < old.size(); ++i) {
+      other.sites.push_back(input.sites[old[i]]);
+      now[old[i]] = i;
+    }
+    for (const auto& [a, b] : input.constraints) other.constraints.push_back({now[b], now[a]});
+    random.shuffle(other.constraints);
+    const auto again = triangulated(other);
+    const auto mesh =
+        refine(again, regions_by_sign(again.triangulation, &Point::z, 2), {}, {.threads = 2});
+    EXPECT_TRUE(points_of(mesh) == points);
+  });
+}
+
+// The distance of a point from an arc, by the chord.
+double distance_from_arc(const Point& p, const Point& a, const Point& b) {
+  const Point normal = normalized(cross_product(a, b - a));
+  const bool is_beside =
+      dot_product(cross_product(normal, a), p) > 0 && dot_product(cross_product(normal, b), p) < 0;
+  return is_beside ? std::abs(dot_product(normal, p - a))
+                   : std::min(chord_length(p, a), chord_length(p, b));
+}
+
+// The constrained edges and those of the hull.
 std::vector<Ends> segments_of(const ConstrainedTriangulation& given) {
   std::vector<Ends> segments = given.edges;
   const Triangulation& t = given.triangulation;
   for (Index f = 0; f < t.num_faces(); ++f) {
-    for (unsigned i = 0; i < 3; ++i) {
-      if (t.is_ghost(f) || !t.is_ghost(t.neighbors()[f][i])) continue;
-      segments.push_back({t.faces()[f][(i + 1) % 3], t.faces()[f][(i + 2) % 3]});
+    for (std::size_t i = 0; i < 3 && !t.is_ghost(f); ++i) {
+      if (!t.is_ghost(t.neighbors()[f].at(i))) continue;
+      segments.push_back({t.faces()[f].at((i + 1) % 3), t.faces()[f].at((i + 2) % 3)});
     }
   }
   return segments;
 }
 
-// The smallest distance of two sites, or of a site and a segment that does not end there.
-double smallest_distance(const std::vector<Point>& sites, const std::vector<Ends>& segments) {
-  double least = 9;
-  for (Index i = 0; i < sites.size(); ++i) {
-    for (Index j = 0; j < i; ++j) least = std::min(least, distance(sites[i], sites[j]));
-    for (const auto& [a, b] : segments) {
-      if (i != a && i != b) least = std::min(least, distance(sites[i], sites[a], sites[b]));
-    }
-  }
-  return least;
-}
-
-// True if two segments meet at less than 60 degrees.
-bool has_small_angle(const std::vector<Point>& sites, const std::vector<Ends>& segments) {
-  const auto direction = [&](Index from, Index to) {
-    const Point d = difference(sites[to], sites[from]);
-    const double length = std::sqrt(product(d, d));
-    return Point{d.x / length, d.y / length, d.z / length};
-  };
-  for (std::size_t k = 0; k < segments.size(); ++k) {
-    for (std::size_t j = 0; j < k; ++j) {
-      for (const Index v : segments[k]) {
-        if (segments[j][0] != v && segments[j][1] != v) continue;
-        const Index p = segments[k][0] == v ? segments[k][1] : segments[k][0];
-        const Index q = segments[j][0] == v ? segments[j][1] : segments[j][0];
-        if (p != q && product(direction(v, p), direction(v, q)) > 0.5) return true;
+bool has_angle_below_60(const std::vector<Point>& sites, const std::vector<Ends>& segments) {
+  for (const Ends& e : segments) {
+    for (const Ends& f : segments) {
+      for (const std::size_t i : {0U, 1U}) {
+        for (const std::size_t j : {0U, 1U}) {
+          const Index b = e.at(1 - i);
+          const Index c = f.at(1 - j);
+          if (e.at(i) != f.at(j) || b == c) continue;
+          const Point& a = sites[e.at(i)];
+          const Point p = normalized(cross_product(a, sites[b]));
+          const Point q = normalized(cross_product(a, sites[c]));
+          if (dot_product(p, q) > 0.5) return true;
+        }
       }
     }
   }
   return false;
 }
 
-ConstrainedTriangulation triangulated(const Scene& scene) {
-  return constrained_delaunay(Sites(scene.sites), scene.constraints);
-}
-
-std::vector<Index> one_region(const ConstrainedTriangulation& given) {
-  std::vector<Index> regions(given.triangulation.num_faces(), 0);
-  for (const Index f : given.triangulation.ghost_faces()) regions[f] = no_index;
-  return regions;
-}
-
-// The triangles are faces of the constrained triangulation of all nodes, and cover as much.
-void expect_constrained_delaunay(const RefinedMesh& made) {
-  const auto again = constrained_delaunay(Sites(made.nodes), made.edges);
-  const std::set<Corners> all = places_of(made.nodes, again.triangulation.faces());
-  for (const Corners& triangle : places_of(made.nodes, made.triangles)) {
-    ASSERT_TRUE(all.contains(triangle));
-  }
-  for (const auto& [a, b, c] : made.triangles) {
-    ASSERT_EQ(orientation(made.nodes[a], made.nodes[b], made.nodes[c]), Sign::positive);
-  }
-}
-
-// Each edge that is said to be a part of a constrained edge is close to it.
-void expect_sources(const ConstrainedTriangulation& given, const RefinedMesh& made) {
-  ASSERT_EQ(made.sources.size(), made.edges.size());
-  const std::span<const Point> sites = given.triangulation.sites().points();
-  std::vector<double> lengths(given.edges.size());
-  for (std::size_t k = 0; k < made.edges.size(); ++k) {
-    if (made.sources[k] == no_index) continue;
-    const auto [a, b] = given.edges[made.sources[k]];
-    for (const Index node : made.edges[k]) {
-      EXPECT_LT(distance(made.nodes[node], sites[a], sites[b]), 0x1p-50);
-    }
-    lengths[made.sources[k]] +=
-        std::asin(distance(made.nodes[made.edges[k][0]], made.nodes[made.edges[k][1]]) / 2);
-  }
-  for (std::size_t e = 0; e < lengths.size(); ++e) {
-    const auto [a, b] = given.edges[e];
-    EXPECT_NEAR(lengths[e], std::asin(distance(sites[a], sites[b]) / 2), 1e-13);
-  }
-}
-
-void expect_laws(const Scene& scene, const RefineOptions& options, double spacing) {
-  const ConstrainedTriangulation given = triangulated(scene);
-  const RefinedMesh made = refine(given, one_region(given), options);
-  expect_constrained_delaunay(made);
-  expect_sources(given, made);
-  const Measures measures = measures_of(made, options.smallest_angle_deg);
-  const std::vector<Ends> segments = segments_of(given);
-  const bool is_sharp = has_small_angle(scene.sites, segments);
-  EXPECT_LE(measures.num_narrow, made.report.num_near_small_angles + made.report.num_too_small);
-  EXPECT_EQ(made.report.num_too_small, 0U);
-  if (!is_sharp) {
-    EXPECT_EQ(made.report.num_near_small_angles, 0U);
-    const double least = std::min(smallest_distance(scene.sites, segments), spacing);
-    EXPECT_GT(measures.shortest, least / 4);
-  }
-  const double longest = 1.5 * 2 * std::sin(std::min(spacing, 3.0) / 2) * (1 + 1e-12);
-  for (const auto& [a, b, c] : made.triangles) {
-    if (spacing > 3) break;
-    for (const auto& [p, q] : {Ends{a, b}, Ends{b, c}, Ends{c, a}}) {
-      EXPECT_LE(distance(made.nodes[p], made.nodes[q]), longest);
+double smallest_distance(const Input& input, const std::vector<Ends>& segments) {
+  double smallest = 2;
+  for (Index v = 0; v < input.sites.size(); ++v) {
+    const Point& p = input.sites[v];
+    for (Index w = 0; w < v; ++w) smallest = std::min(smallest, chord_length(p, input.sites[w]));
+    for (const auto& [a, b] : segments) {
+      if (v == a || v == b) continue;
+      smallest = std::min(smallest, distance_from_arc(p, input.sites[a], input.sites[b]));
     }
   }
+  return smallest;
 }
 
-void expect_laws_of(const std::function<Scene(Random&)>& make, int seeds) {
-  for (int seed = 1; seed <= seeds; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(static_cast<std::uint64_t>(seed));
-    const Scene scene = make(random);
-    expect_laws(scene, {}, 9);
-    RefineOptions options;
-    options.smallest_angle_deg = seed % 2 == 0 ? 28.6 : 20;
-    const double spacing = 0.05;
-    options.spacing = SizeFunction::constant(spacing, 16);
-    expect_laws(scene, options, spacing);
-  }
-}
-
-TEST(refine, clouds_with_many_constraints) {
-  for (const double radius : {0.5, 1e-3, 1e-8}) {
-    expect_laws_of([radius](Random& random) { return cloud(random, radius); }, 8);
-  }
-}
-TEST(refine, rivers_that_are_nearly_parallel) { expect_laws_of(rivers, 4); }
-TEST(refine, rivers_that_meet_at_a_small_angle) { expect_laws_of(confluence, 25); }
-TEST(refine, a_site_close_to_a_coast) { expect_laws_of(near_coast, 20); }
-TEST(refine, stars) { expect_laws_of(star, 15); }
-TEST(refine, the_whole_sphere) { expect_laws_of(everywhere, 10); }
-
-TEST(refine, order_and_threads_change_nothing) {
-  for (int seed = 1; seed <= 10; ++seed) {
-    Random random(static_cast<std::uint64_t>(seed));
-    Scene scene = cloud(random, 0.3);
-    const ConstrainedTriangulation given = triangulated(scene);
-    const RefinedMesh first = refine(given, one_region(given));
-    const auto last = static_cast<Index>(scene.sites.size() - 1);
-    std::ranges::reverse(scene.sites);
-    std::ranges::reverse(scene.constraints);
-    for (Ends& ends : scene.constraints) ends = {last - ends[1], last - ends[0]};
-    const ConstrainedTriangulation turned = triangulated(scene);
-    const RefinedMesh second = refine(turned, one_region(turned), {}, {.threads = 2});
-    EXPECT_TRUE(places_of(first.nodes, first.triangles) ==
-                places_of(second.nodes, second.triangles));
-  }
-}
-
-// The two sides of a square in two regions, and what is around them in none.
-TEST(refine, regions_are_kept) {
-  Scene scene;
-  scene.sites = {at(-0.1, -0.1), at(0.1, -0.1), at(0.1, 0.1), at(-0.1, 0.1)};
-  scene.constraints = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
-  add_frame(scene);
-  const ConstrainedTriangulation given = triangulated(scene);
-  const std::span<const Triple> faces = given.triangulation.faces();
-  std::vector<Index> regions(faces.size(), no_index);
-  for (Index f = 0; f < faces.size(); ++f) {
-    Triple corners = faces[f];
-    std::ranges::sort(corners);
-    if (corners == Triple{0, 1, 2}) regions[f] = 7;
-    if (corners == Triple{0, 2, 3}) regions[f] = 3;
-  }
-  const RefinedMesh made = refine(given, regions, {.spacing = SizeFunction::constant(0.03, 16)});
-  ASSERT_EQ(made.regions.size(), made.triangles.size());
-  EXPECT_GT(std::ranges::count(made.regions, 7U), 20);
-  for (std::size_t k = 0; k < made.triangles.size(); ++k) {
-    Point middle = {0, 0, 0};
-    for (const Index node : made.triangles[k]) {
-      middle = {middle.x + made.nodes[node].x, middle.y + made.nodes[node].y,
-                middle.z + made.nodes[node].z};
+TEST(refine, edges_are_not_shorter_than_distances_of_the_input) {
+  std::size_t count = 0;
+  for_each_input([&](const Input& input, Random&) {
+    const auto given = triangulated(input);
+    const std::vector<Ends> segments = segments_of(given);
+    if (has_angle_below_60(input.sites, segments)) return;
+    ++count;
+    const auto mesh = refine(given, one_region(given));
+    EXPECT_EQ(mesh.report.num_near_small_angles, 0U);
+    double shortest = 2;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      for (const auto& [v, w] : {Ends{a, b}, Ends{b, c}, Ends{c, a}}) {
+        shortest = std::min(shortest, chord_length(mesh.nodes[v], mesh.nodes[w]));
+      }
     }
-    const bool is_below = orientation(scene.sites[0], scene.sites[2], middle) == Sign::negative;
-    EXPECT_EQ(made.regions[k], is_below ? 7U : 3U);
-    EXPECT_LE(std::abs(middle.y / middle.x), 0.1);
-    EXPECT_LE(std::abs(middle.z / middle.x), 0.1);
-  }
-  EXPECT_EQ(std::ranges::count(made.sites, no_index),
-            static_cast<std::ptrdiff_t>(made.nodes.size()) - 4);
+    EXPECT_GE(shortest, 0.5 * smallest_distance(input, segments));
+  });
+  EXPECT_GE(count, scaled(20));
 }
 
-TEST(refine, errors) {
+TEST(refine, good_triangles_remain) {
   Random random(1);
-  const ConstrainedTriangulation given = triangulated(everywhere(random));
-  const std::vector<Index> regions = one_region(given);
-  const auto message = [&](std::span<const Index> of, const RefineOptions& options) {
-    return thrown_message<InvalidInput>([&] { return refine(given, of, options); });
+  Input octahedron = whole_sphere(random);
+  octahedron.sites.resize(6);
+  const auto given = triangulated(octahedron);
+  const auto mesh = expect_laws(given, one_region(given));
+  EXPECT_EQ(mesh.nodes.size(), 6U);
+  EXPECT_EQ(mesh.triangles.size(), 8U);
+  EXPECT_TRUE(mesh.edges.empty());
+  EXPECT_EQ(mesh.report.num_inserted, 0U);
+}
+
+// Two arcs at 1 degree: the triangle between them near their common end is left, and counted.
+TEST(refine, triangles_near_small_angles_are_counted) {
+  Input input;
+  input.sites = {on_map(0, 0), on_map(0.3, 0), on_map(0.3, 0.3 * std::numbers::pi / 180)};
+  input.constraints = {{0, 1}, {0, 2}};
+  add_corners(input);
+  const auto given = triangulated(input);
+  const auto mesh = expect_laws(given, one_region(given));
+  EXPECT_GE(mesh.report.num_near_small_angles, 1U);
+  EXPECT_LE(mesh.report.num_near_small_angles, 20U);
+}
+
+// Sites that are closer than the least distance between vertices leave triangles that are counted.
+TEST(refine, triangles_that_are_too_small_are_counted) {
+  Input input;
+  input.sites = {on_map(0, 0), on_map(1e-14, 0), on_map(0, 3e-13)};
+  add_corners(input);
+  const auto given = triangulated(input);
+  const auto regions = one_region(given);
+  const mesh::RefineOptions options;
+  const auto mesh = refine(given, regions, options);
+  EXPECT_EQ(RefineLaws(given, regions, options, mesh).flaw(), "");
+  EXPECT_GE(mesh.report.num_too_small, 1U);
+}
+
+TEST(refine, nothing_is_asked_for) {
+  Random random(2);
+  const auto given = triangulated(wide_arcs(random));
+  const std::vector<Index> none(given.triangulation.num_faces(), no_index);
+  EXPECT_TRUE(refine(given, none).nodes.empty());
+  const auto ring = constrained_delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}}, {});
+  EXPECT_TRUE(refine(ring, {}).triangles.empty());
+}
+
+TEST(refine, errors_say_what_is_wrong) {
+  Random random(3);
+  const auto given = triangulated(whole_sphere(random));
+  const auto regions = one_region(given);
+  const auto message = [&](const mesh::RefineOptions& options) {
+    return thrown_message<InvalidInput>([&] { return refine(given, regions, options); });
   };
   EXPECT_EQ(
-      message(std::span(regions).first(3), {}),
-      "there is one region for each face, not 3 for " + std::to_string(regions.size()) + " faces");
-  EXPECT_EQ(message(regions, {.smallest_angle_deg = 34}),
-            "the smallest angle is from 0 to 33 degrees, not 34");
-  EXPECT_EQ(message(regions, {.smallest_angle_deg = std::numeric_limits<double>::quiet_NaN()}),
-            "the smallest angle is from 0 to 33 degrees, not nan");
-  EXPECT_EQ(message(regions, {.spacing = SizeFunction::constant(0.01, 16), .most_vertices = 100}),
+      thrown_message<InvalidInput>([&] { return refine(given, {}); }),
+      "there is one region for each face, not 0 for " + std::to_string(regions.size()) + " faces");
+  for (const double angle : {-1.0, 33.5, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(message({.smallest_angle_deg = angle}).substr(0, 44),
+              "the smallest angle is from 0 to 33 degrees, ");
+  }
+  EXPECT_EQ(message({.spacing = mesh::SizeFunction::constant(0.1, 64), .most_vertices = 100}),
             "a mesh with these spacings and angles has more than 100 vertices");
-  const std::vector<Point> shifted = {{2, 0, 0}, {0, 0, 0}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}};
-  const auto elsewhere = constrained_delaunay(Sites(shifted), {}, {.sphere = {{1, 0, 0}, 1}});
-  EXPECT_EQ(thrown_message<InvalidInput>([&] {
-              return refine(elsewhere, std::vector<Index>(elsewhere.triangulation.num_faces(), 0));
-            }),
+  const auto moved =
+      constrained_delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}, {},
+                           {.sphere = {.center = {0.125, 0, 0}}});
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return refine(moved, one_region(moved)); }),
             "triangles are refined around the origin only");
 }
 
-TEST(refine, nothing_asked_for) {
-  Random random(1);
-  const ConstrainedTriangulation given = triangulated(everywhere(random));
-  const RefinedMesh made =
-      refine(given, std::vector<Index>(given.triangulation.num_faces(), no_index));
-  EXPECT_TRUE(made.nodes.empty());
-  EXPECT_TRUE(made.triangles.empty());
-}
-
 }  // namespace
-}  // namespace rondel::test::of_refine
+}  // namespace rondel::test::of_refinement
