@@ -21,13 +21,13 @@ namespace rondel::mesh {
 
 /// The settings of refine().
 struct RefineOptions {
-  /// The smallest angle of triangles, in degrees, from 0 to 33. Up to arcsin(1/sqrt(5)) = 26.56 the
+  /// The smallest angle of triangles, in degrees, from 0 to 33. Below arcsin(1/sqrt(5)) = 26.56 the
   /// refinement is proved to end; beyond that it ended in all our tests, with more triangles.
   double smallest_angle_deg = 26.5;
   /// The wanted length of edges. No edge of a triangle is longer than 1.5 times the smallest
   /// spacing at its corners, both as chords. It should change slowly (SizeFunction::limited()): it
   /// is looked at where vertices are. Without it triangles grow as fast as their angles allow.
-  std::optional<SizeFunction> spacing = std::nullopt;
+  std::optional<SizeFunction> spacing{};
   /// The most vertices that the mesh may have.
   std::size_t most_vertices = max_sites;
 };

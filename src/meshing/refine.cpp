@@ -123,7 +123,7 @@ class Refinement {
 
  private:
   // What is known of a triangle.
-  struct TriangleShape {
+  struct FaceShape {
     std::array<double, 3> squares;  // of its edges
     unsigned shortest;              // edge
     Vector normal;                  // to its plane, twice as long as its area
@@ -184,12 +184,12 @@ class Refinement {
     }
   }
 
-  [[nodiscard]] TriangleShape shape_of(Index f) const {
+  [[nodiscard]] FaceShape shape_of(Index f) const {
     const auto& [a, b, c] = faces_.face(f).vertex;
     const Vector& p = faces_.direction(a);
     const Vector& q = faces_.direction(b);
     const Vector& r = faces_.direction(c);
-    TriangleShape shape{};
+    FaceShape shape{};
     shape.squares = {square_of_distance(q, r), square_of_distance(r, p), square_of_distance(p, q)};
     for (unsigned i = 1; i < 3; ++i) {
       if (shape.squares[i] < shape.squares[shape.shortest]) shape.shortest = i;
@@ -201,16 +201,16 @@ class Refinement {
     return shape;
   }
 
-  [[nodiscard]] static bool is_large(const TriangleShape& shape) {
+  [[nodiscard]] static bool is_large(const FaceShape& shape) {
     return shape.square_of_radius > square(largest_radius * shape.wish);
   }
-  [[nodiscard]] bool is_narrow(const TriangleShape& shape) const {
+  [[nodiscard]] bool is_narrow(const FaceShape& shape) const {
     return shape.square_of_radius > largest_ratio_ * shape.squares[shape.shortest];
   }
 
   void improve_large(Index f) {
     if (!is_asked_for(f)) return;
-    const TriangleShape shape = shape_of(f);
+    const FaceShape shape = shape_of(f);
     if (is_large(shape)) {
       improve(f, shape);
     } else if (is_narrow(shape)) {
@@ -220,13 +220,13 @@ class Refinement {
 
   void improve_narrow(Index f) {
     if (!is_asked_for(f)) return;
-    const TriangleShape shape = shape_of(f);
+    const FaceShape shape = shape_of(f);
     if (is_narrow(shape) && !is_between_shells(f, shape)) improve(f, shape);
   }
 
   // Returns the place of a vertex that improves a triangle: on the way from the middle of the
   // shortest edge to the circumcenter, along the great circle, not farther than is of use.
-  [[nodiscard]] Vector better_vertex(Index f, const TriangleShape& shape) const {
+  [[nodiscard]] Vector better_vertex(Index f, const FaceShape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Vector& p = faces_.direction(corners[topology::next_corner[shape.shortest]]);
     const Vector& q = faces_.direction(corners[topology::previous_corner[shape.shortest]]);
@@ -246,7 +246,7 @@ class Refinement {
   }
 
   // Leaves the triangle as it is if doubles have no place for a vertex.
-  void improve(Index f, const TriangleShape& shape) {
+  void improve(Index f, const FaceShape& shape) {
     const Vector place = better_vertex(f, shape);
     const auto found = faces_.locate(f, place);
     if (!found) return;
@@ -324,11 +324,10 @@ class Refinement {
   // be divided.
   bool divide(Index h) {
     const Index segment = faces_.face(face_of(h)).segment[edge_of(h)];
-    const Index p = faces_.from(h);
-    const Index q = faces_.to(h);
-    if (square_of_distance(faces_.direction(p), faces_.direction(q)) < square(2 * closest)) {
-      return false;
-    }
+    if (segment < is_stuck_.size() && is_stuck_[segment]) return false;
+    const Vector& p = faces_.direction(faces_.from(h));
+    const Vector& q = faces_.direction(faces_.to(h));
+    if (square_of_distance(p, q) < square(2 * closest)) return false;
     while (const auto found = vertex_in_cap(h)) {
       const auto& [vertex, face] = *found;
       faces_.remove(vertex, face);
@@ -343,7 +342,12 @@ class Refinement {
     const Vector place =
         dividing_point(faces_.from(h), faces_.to(h), faces_.segment(segment).shell, shells);
     const auto added = faces_.divide(h, place, shells);
-    if (!added) return false;
+    if (!added) {
+      // It is not tried again, because free vertices would come and go for ever.
+      if (segment >= is_stuck_.size()) is_stuck_.resize(segment + std::size_t{1});
+      is_stuck_[segment] = true;
+      return false;
+    }
     ++report_.num_divisions;
     shell_of_vertex_.resize(faces_.num_vertices(), no_index);
     shell_of_vertex_[*added] = shells[0];
@@ -403,7 +407,7 @@ class Refinement {
 
   // True if the shortest edge joins two segments that meet at a small angle, at the same distance
   // from their common end.
-  [[nodiscard]] bool is_between_shells(Index f, const TriangleShape& shape) const {
+  [[nodiscard]] bool is_between_shells(Index f, const FaceShape& shape) const {
     const Triple& corners = faces_.face(f).vertex;
     const Index p = corners[topology::next_corner[shape.shortest]];
     const Index q = corners[topology::previous_corner[shape.shortest]];
@@ -421,7 +425,7 @@ class Refinement {
   void count_unwanted() {
     for (Index f = 0; f < faces_.faces().size(); ++f) {
       if (!is_asked_for(f)) continue;
-      const TriangleShape shape = shape_of(f);
+      const FaceShape shape = shape_of(f);
       if (!is_large(shape) && !is_narrow(shape)) continue;
       const bool is_known = !is_large(shape) && is_between_shells(f, shape);
       ++(is_known ? report_.num_near_small_angles : report_.num_too_small);
@@ -455,6 +459,7 @@ class Refinement {
   double height_of_angle_ = 0;  // of a triangle over its shortest edge, opposite to that angle
   std::vector<double> wishes_;  // by vertex: the spacing as a chord
   std::vector<bool> has_small_angle_;
+  std::vector<bool> is_stuck_;  // by segment: doubles have no place for a vertex that divides it
   std::vector<Index> shell_of_vertex_;
   std::vector<Index> long_segments_;
   std::vector<Index> way_;

@@ -96,17 +96,17 @@ bool RefinedFaces::is_in_circle(const Triple& face, Index v) const {
   return is_in_conflict(points_[face[0]], points_[face[1]], points_[face[2]], points_[v]);
 }
 
-std::optional<RefinedFaces::PointPlace> RefinedFaces::locate(
-    Index face, const predicates::Vector& point) const {
+std::optional<RefinedFaces::WalkEnd> RefinedFaces::locate(Index face,
+                                                          const predicates::Vector& point) const {
   unsigned i = 0;
   while (i < 3 && side(point, halfedge(face, i)) != Sign::negative) ++i;
-  if (i == 3) return PointPlace{face, no_index};
+  if (i == 3) return WalkEnd{face, no_index};
   // The straight way begins at the corner opposite to the edge beyond which the point is.
   const Index start = faces_[face].vertex[i];
   Index h = halfedge(face, i);
   for (std::size_t steps = 0; steps < faces_.size(); ++steps) {
     const RefinedFace& left = faces_[face_of(h)];
-    if (left.segment[edge_of(h)] != no_index) return PointPlace{face_of(h), h};
+    if (left.segment[edge_of(h)] != no_index) return WalkEnd{face_of(h), h};
     const Index entered = left.opposite[edge_of(h)];
     const Index next = face_of(entered);
     const Index middle = apex(entered);
@@ -117,7 +117,7 @@ std::optional<RefinedFaces::PointPlace> RefinedFaces::locate(
     // If the apex is on the left of the way, it leaves between it and the end on the right.
     h = halfedge(next, turn == Sign::positive ? topology::next_corner[edge_of(entered)]
                                               : topology::previous_corner[edge_of(entered)]);
-    if (side(point, h) != Sign::negative) return PointPlace{next, no_index};
+    if (side(point, h) != Sign::negative) return WalkEnd{next, no_index};
   }
   return {};
 }
@@ -299,50 +299,49 @@ void RefinedFaces::legalize(bool is_star) {
   }
 }
 
-unsigned RefinedFaces::corner_of(Index f, Index vertex) const {
-  const Triple& corners = faces_[f].vertex;
-  return corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
-}
-
-// Flips edges of a free vertex, a corner of the face, until it has three. Returns one of its faces.
-Index RefinedFaces::cut_ears(Index vertex, Index f) {
+void RefinedFaces::remove(Index vertex, Index face) {
+  changed_.clear();
+  const auto corner = [&](Index f) {
+    unsigned i = 0;
+    while (faces_[f].vertex[i] != vertex) ++i;
+    return i;
+  };
+  // Flips leave the vertex with three neighbors.
+  Index f = face;
   std::size_t degree = 0;
-  const Index first = f;
   do {
-    f = face_of(faces_[f].opposite[topology::next_corner[corner_of(f, vertex)]]);
+    f = face_of(faces_[f].opposite[topology::next_corner[corner(f)]]);
     ++degree;
-  } while (f != first);
+  } while (f != face);
   while (degree > 3) {
     // The edge from the vertex to y, between the faces vxy and vyz, may go if xyz is positive, and
-    // the vertex is not right of xz. Some edge may: the polygon around the vertex has two ears.
-    const unsigned i = corner_of(f, vertex);
+    // the vertex is not right of xz.
+    const unsigned i = corner(f);
     const Index edge = halfedge(f, topology::next_corner[i]);  // from y to the vertex
     const Index beyond = face_of(faces_[f].opposite[topology::next_corner[i]]);
     const Index x = faces_[f].vertex[topology::next_corner[i]];
     const Index y = faces_[f].vertex[topology::previous_corner[i]];
-    const Index z = faces_[beyond].vertex[topology::previous_corner[corner_of(beyond, vertex)]];
-    if (side(x, y, z) == Sign::positive && side(x, z, vertex) != Sign::negative) {
-      flip(edge);  // the face becomes xyz
-      --degree;
-      changed_.push_back(f);
-      for (unsigned j = 0; j < 3; ++j) to_test_.push_back(halfedge(f, j));
+    const Index z = faces_[beyond].vertex[topology::previous_corner[corner(beyond)]];
+    const bool is_ear = side(x, y, z) == Sign::positive && side(x, z, vertex) != Sign::negative;
+    if (!is_ear) {
+      f = beyond;
+      continue;
     }
-    f = beyond;
+    flip(edge);
+    --degree;
+    const bool is_inside = std::ranges::find(faces_[f].vertex, vertex) != faces_[f].vertex.end();
+    const Index outside = is_inside ? beyond : f;
+    changed_.push_back(outside);
+    for (unsigned j = 0; j < 3; ++j) to_test_.push_back(halfedge(outside, j));
+    if (outside == f) f = beyond;
   }
-  return f;
-}
-
-void RefinedFaces::remove(Index vertex, Index face) {
-  changed_.clear();
-  const Index f = cut_ears(vertex, face);
-  // The last three faces vxy, vyz and vzx become one.
-  const unsigned i = corner_of(f, vertex);
+  // The last three faces, vxy, g = vyz and k = vzx, become one.
+  const unsigned i = corner(f);
   const Index g = face_of(faces_[f].opposite[topology::next_corner[i]]);
   const Index k = face_of(faces_[f].opposite[topology::previous_corner[i]]);
   const RefinedFace of_g = faces_[g];
   const RefinedFace of_k = faces_[k];
-  const unsigned at_g = corner_of(g, vertex);
-  const unsigned at_k = corner_of(k, vertex);
+  const unsigned at_g = corner(g);
   faces_[f].vertex[i] = of_g.vertex[topology::previous_corner[at_g]];
   const auto take = [&](unsigned j, const RefinedFace& other, unsigned at) {
     faces_[f].segment[j] = other.segment[at];
@@ -350,7 +349,7 @@ void RefinedFaces::remove(Index vertex, Index face) {
     if (other.opposite[at] != no_index) link(halfedge(f, j), other.opposite[at]);
   };
   take(topology::next_corner[i], of_g, at_g);
-  take(topology::previous_corner[i], of_k, at_k);
+  take(topology::previous_corner[i], of_k, corner(k));
   for (const Index gone : {g, k}) {
     faces_[gone].vertex = {no_index, no_index, no_index};
     free_faces_.push_back(gone);

@@ -48,7 +48,7 @@ class RefinedFaces {
   enum class VertexKind : std::uint8_t { given, on_segment, free };
 
   // Where a point is: in a face, or beyond a segment, which is the first one on the way to it.
-  struct PointPlace {
+  struct WalkEnd {
     Index face;
     Index blocked;  // the halfedge; no_index: the point is in the face
   };
@@ -71,7 +71,7 @@ class RefinedFaces {
   [[nodiscard]] Index apex(Index h) const;
 
   // Goes from a face straight to a point. Nothing is returned if rounding leads astray.
-  [[nodiscard]] std::optional<PointPlace> locate(Index face, const predicates::Vector& point) const;
+  [[nodiscard]] std::optional<WalkEnd> locate(Index face, const predicates::Vector& point) const;
 
   // Inserts a free vertex in a face that locate() found. Returns nothing, and changes nothing, if
   // the point is not in the face or in the place of a corner; blocked() tells of a point on a
@@ -94,10 +94,9 @@ class RefinedFaces {
   Index add_vertex(const predicates::Vector& point, VertexKind kind);
   Index add_face();
   void link(Index h, Index g);
+  void take_edge(Index h, Index old);
   void flip(Index h);
   void legalize(bool is_star);
-  [[nodiscard]] unsigned corner_of(Index f, Index vertex) const;
-  Index cut_ears(Index vertex, Index f);
   void divide_faces(Index h, Index v);
 
   std::vector<Point> points_;

@@ -1,106 +1,67 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/mesh_refine.h and rondel/mesh_triangles.h: what they promise of any sites and constraints.
+// rondel/mesh_refine.h: what it promises of any sites, constraints, regions and settings.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <set>
+#include <utility>
 #include <vector>
 
 #include "fuzz/fuzz_input.h"
-#include "rondel/delaunay.h"
+#include "rondel/constrained.h"
 #include "rondel/mesh_refine.h"
-#include "rondel/mesh_triangles.h"
-#include "rondel/predicates.h"
+#include "support/refine_laws.h"
 
 namespace rondel::fuzz {
 namespace {
 
-using mesh::RefinedMesh;
-using mesh::RefineOptions;
-using mesh::SizeFunction;
 using Edge = std::array<Index, 2>;
 
-double square_of_distance(const Point& p, const Point& q) {
-  return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
-}
-
-// The spacing is a chord between unit vectors, or 0 if nodes are none.
-void test_mesh(const RefinedMesh& made, double spacing) {
-  std::set<Edge> sides;
-  for (const auto& [a, b, c] : made.triangles) {
-    require(orientation(made.nodes[a], made.nodes[b], made.nodes[c]) == Sign::positive,
-            "triangles are counterclockwise");
-    for (const Edge& side : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
-      require(sides.insert(side).second, "a side belongs to one triangle");
-    }
-  }
-  for (const Edge& side : sides) {
-    if (sides.contains({side[1], side[0]})) continue;
-    const auto [low, high] = std::minmax(side[0], side[1]);
-    require(std::ranges::binary_search(made.edges, Edge{low, high}), "the border is listed");
-  }
-  require(made.report.num_too_small > 0 || spacing == 0 ||
-              std::ranges::all_of(sides,
-                                  [&](const Edge& side) {
-                                    const double square = square_of_distance(made.nodes[side[0]],
-                                                                             made.nodes[side[1]]);
-                                    return square <= 2.2501 * spacing * spacing;
-                                  }),
-          "edges have the spacing");
-  const auto again = constrained_delaunay(Sites(made.nodes), made.edges);
-  std::set<std::array<Index, 3>> faces;
-  for (auto face : again.triangulation.faces()) {
-    std::ranges::sort(face);
-    faces.insert(face);
-  }
-  for (auto face : made.triangles) {
-    std::ranges::sort(face);
-    require(faces.contains(face), "triangles are constrained Delaunay");
-  }
-}
-
-void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
-               const RefineOptions& options) {
-  ConstrainedTriangulation given;
+// Removes constraints until none is refused, and returns the triangulation of the rest.
+ConstrainedTriangulation without_bad(const std::vector<Point>& sites,
+                                     std::vector<Edge>& constraints) {
   while (true) {
     try {
-      given = constrained_delaunay(sites, constraints);
-      break;
+      return constrained_delaunay(sites, constraints);
     } catch (const InvalidInput& error) {
-      if (error.index() >= constraints.size()) return;
+      require(error.index() < constraints.size(), "a constraint is named");
       constraints.erase(constraints.begin() + static_cast<std::ptrdiff_t>(error.index()));
     }
   }
-  std::vector<Index> regions(given.triangulation.num_faces());
-  for (std::size_t f = 0; f < regions.size(); ++f) regions[f] = f % 5 == 0 ? no_index : 0;
-  try {
-    test_mesh(refine(given, regions, options), 0);
-  } catch (const InvalidInput&) {  // too many vertices
-  }
 }
 
-// A triangle of land in the ocean, or of water.
-void test_domain(const std::vector<Point>& corners, const RefineOptions& options, bool is_land,
-                 double spacing) {
-  Geometries geometries;
-  geometries.polygons.points = corners;
-  geometries.polygons.append_ring(std::array<Index, 3>{0, 1, 2});
-  geometries.polygons.end_cell();
-  geometries.lines.end_group();
-  mesh::MeshDomain domain;
-  (is_land ? domain.coast : domain.area).push_back(geometries);
-  try {
-    const mesh::DomainTriangles made = mesh::triangles(domain, {.refine = options});
-    require(made.features.size() == made.mesh.edges.size(), "edges have features");
-    for (const mesh::FeatureOfEdge feature : made.features) {
-      require(!name_of(feature).empty(), "features have names");
+mesh::RefineOptions next_options(ByteSource& source) {
+  mesh::RefineOptions options;
+  options.smallest_angle_deg = static_cast<double>(source.below(34));
+  options.most_vertices = 2000;
+  if (source.below(4) == 0) {
+    const double spacing = 0.02 * static_cast<double>(1 + source.byte());
+    options.spacing = mesh::SizeFunction::constant(std::min(spacing, 3.0), 16);
+    if (source.below(2) == 0) {
+      options.spacing =
+          options.spacing->refined(std::vector<Point>{{1, 0, 0}}, spacing / 8, 0.3).limited(0.3);
     }
-    test_mesh(made.mesh, spacing);
-  } catch (const InvalidInput&) {
+  }
+  return options;
+}
+
+void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
+               const mesh::RefineOptions& options, Index left_out) {
+  const ConstrainedTriangulation given = without_bad(sites, constraints);
+  const auto regions = test::regions_by_sign(given.triangulation, &Point::z, left_out);
+  try {
+    const mesh::RefinedMesh mesh = refine(given, regions, options);
+    const std::string flaw = test::RefineLaws(given, regions, options, mesh).flaw();
+    require(flaw.empty(), flaw);
+    std::ranges::reverse(constraints);
+    for (Edge& edge : constraints) std::swap(edge[0], edge[1]);
+    const ConstrainedTriangulation reversed = constrained_delaunay(sites, constraints);
+    const mesh::RefinedMesh again = refine(reversed, regions, options, {.threads = 2});
+    require(test::points_of(again) == test::points_of(mesh),
+            "the order of constraints changes nothing");
+  } catch (const InvalidInput&) {  // too many vertices
   }
 }
 
@@ -111,26 +72,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   const fuzz::Scales scales = fuzz::next_scales(source);
-  const std::size_t limit = fuzz::next_limit(source, 24);
-  mesh::RefineOptions options;
-  options.smallest_angle_deg = source.byte() % 33;
-  options.most_vertices = 2000;
-  const bool is_spaced = source.byte() % 2 == 0;
-  const double angle = 0.2 + 0.01 * source.byte();
-  if (is_spaced) options.spacing = mesh::SizeFunction::constant(angle, 1);
-  const double spacing = is_spaced ? 2 * std::sin(angle / 2) : 0;
+  const mesh::RefineOptions options = fuzz::next_options(source);
+  const std::size_t left_out = source.below(5);
   std::vector<std::array<Index, 2>> constraints(source.below(16));
   for (auto& [a, b] : constraints) {
-    a = source.byte() % 16;
-    b = source.byte() % 16;
+    a = source.byte() % 12;
+    b = source.byte() % 12;
   }
-  const bool is_land = source.byte() % 2 == 0;
-  std::vector<LonLat> positions(3);
-  for (LonLat& position : positions) {
-    position = {1.4 * source.byte() - 180, 0.7 * source.byte() - 90};
-  }
-  fuzz::test_domain(unit_vectors(positions), options, is_land, spacing);
-  const std::vector<Point> sites = fuzz::all_sites(source, limit, scales, {Model::projected, {}});
-  fuzz::test_laws(sites, constraints, options);
+  const std::vector<Point> sites = fuzz::all_sites(source, 12, scales, {Model::projected, {}});
+  fuzz::test_laws(sites, constraints, options, static_cast<Index>(left_out));
   return 0;
 }

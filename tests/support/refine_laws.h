@@ -14,6 +14,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondel/constrained.h"
@@ -28,6 +29,13 @@ inline double dot_product(const Point& a, const Point& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 inline double length_of(const Point& a) { return std::sqrt(dot_product(a, a)); }
+// Returns a unit vector, whatever the size of the numbers.
+inline Point unit_of(const Point& p) {
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const int exponent = std::ilogb(largest);
+  return normalized(
+      {std::scalbn(p.x, -exponent), std::scalbn(p.y, -exponent), std::scalbn(p.z, -exponent)});
+}
 inline double chord_length(const Point& a, const Point& b) { return length_of(b - a); }
 
 class RefineLaws {
@@ -37,7 +45,7 @@ class RefineLaws {
   RefineLaws(const ConstrainedTriangulation& given, std::span<const Index> regions,
              const mesh::RefineOptions& options, const mesh::RefinedMesh& mesh)
       : given_(given), regions_(regions), options_(options), mesh_(mesh) {
-    for (const Point& p : mesh.nodes) nodes_.push_back(normalized(p));
+    for (const Point& p : mesh.nodes) nodes_.push_back(unit_of(p));
   }
 
   // Returns what is wrong first, or nothing.
@@ -52,7 +60,8 @@ class RefineLaws {
   }
 
  private:
-  // A chain leaves its constraint by the rounding of its points.
+  // A chain leaves its constraint by the rounding of its points, which the middle of nearly opposite
+  // points magnifies.
   static constexpr double farthest = 0x1p-50;
 
   [[nodiscard]] std::string flaw_of_arrays() const {
@@ -114,7 +123,7 @@ class RefineLaws {
 
   static Triple from_lowest(const Triple& t) {
     Triple turned = t;
-    std::ranges::rotate(turned, std::ranges::min_element(turned));
+    std::rotate(turned.begin(), std::ranges::min_element(turned), turned.end());
     return turned;
   }
 
@@ -169,7 +178,7 @@ class RefineLaws {
   }
 
   static double area_of(const Point& a, const Point& b, const Point& c) {
-    const double volume = dot_product(a, cross_product(b - a, c - a));
+    const double volume = std::abs(dot_product(a, cross_product(b - a, c - a)));
     return 2 * std::atan2(volume, 1 + dot_product(a, b) + dot_product(b, c) + dot_product(c, a));
   }
 
@@ -181,7 +190,11 @@ class RefineLaws {
                          double sign) {
       const double area = area_of(a, b, c);
       areas[region] += sign * area;
-      doubts[region] += 1e-12 * area + 0x1p-50 * (length_of(b - a) + length_of(c - b));
+      // A face may be close to a hemisphere, or two of its corners to being opposite.
+      const double sum = std::min({length_of(a + b), length_of(b + c), length_of(c + a)});
+      if (area > 3 || sum < 0x1p-20) doubts[region] = 12;
+      doubts[region] +=
+          1e-12 * area + 0x1p-48 * (length_of(b - a) + length_of(c - b)) / std::min(1.0, sum);
     };
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh_.triangles[t];
@@ -191,7 +204,7 @@ class RefineLaws {
     for (Index f = 0; f < regions_.size(); ++f) {
       if (given_.triangulation.is_ghost(f) || regions_[f] == no_index) continue;
       const auto& [a, b, c] = given_.triangulation.faces()[f];
-      add(normalized(sites[a]), normalized(sites[b]), normalized(sites[c]), regions_[f], -1);
+      add(unit_of(sites[a]), unit_of(sites[b]), unit_of(sites[c]), regions_[f], -1);
     }
     for (const auto& [region, area] : areas) {
       if (!(std::abs(area) <= doubts[region])) {
@@ -232,29 +245,29 @@ class RefineLaws {
   [[nodiscard]] std::string flaw_of_chain(const Ends& ends, const std::vector<Ends>& chain) const {
     if (chain.empty()) return {};
     const std::span<const Point> sites = given_.triangulation.sites().points();
-    const Point a = normalized(sites[ends[0]]);
-    const Point b = normalized(sites[ends[1]]);
+    const Point a = unit_of(sites[ends[0]]);
+    const Point b = unit_of(sites[ends[1]]);
     const Point normal = normalized(cross_product(a, b - a));
-    std::map<double, Index> along;  // distances from the first end
-    for (const Ends& piece : chain) {
-      for (const Index v : piece) {
-        const double beside = dot_product(nodes_[v] - a, normal);
-        if (std::abs(beside) > farthest) {
-          return " is left by " + std::to_string(beside * 0x1p52) + " times 2^-52";
-        }
-        along[chord_length(nodes_[v], a)] = v;
+    std::map<Index, std::vector<Index>> next;
+    for (const auto& [v, w] : chain) {
+      next[v].push_back(w);
+      next[w].push_back(v);
+    }
+    Index before = no_index;
+    Index at = no_index;
+    for (const auto& [v, ways] : next) {
+      const double beside = dot_product(nodes_[v] - a, normal);
+      if (std::abs(beside) * std::min(1.0, length_of(a + b)) > farthest) {
+        return " is left by " + std::to_string(beside * 0x1p52) + " times 2^-52";
       }
+      if (mesh_.sites[v] == ends[0]) at = v;
     }
-    if (along.size() != chain.size() + 1) return " is no chain";
-    if (mesh_.sites[along.begin()->second] != ends[0] ||
-        mesh_.sites[along.rbegin()->second] != ends[1]) {
-      return " does not end where it did";
+    for (std::size_t steps = 0; steps < chain.size(); ++steps) {
+      if (at == no_index || next[at].size() != (before == no_index ? 1U : 2U)) return " has a gap";
+      const Index after = next[at].front() != before ? next[at].front() : next[at].back();
+      before = std::exchange(at, after);
     }
-    for (auto v = along.begin(), w = std::next(v); w != along.end(); ++v, ++w) {
-      const auto [low, high] = std::minmax(v->second, w->second);
-      if (!std::ranges::binary_search(chain, Ends{low, high})) return " has a gap";
-    }
-    return {};
+    return mesh_.sites[at] == ends[1] && next[at].size() == 1 ? "" : " does not end where it did";
   }
 
   const ConstrainedTriangulation& given_;
@@ -281,7 +294,7 @@ inline RefinedPoints points_of(const mesh::RefinedMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     std::array<Coordinates, 3> corners = {at(a), at(b), at(c)};
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     const auto& [p, q, r] = corners;
     points.triangles.push_back({p[0], p[1], p[2], q[0], q[1], q[2], r[0], r[1], r[2],
                                 static_cast<double>(mesh.regions[t])});

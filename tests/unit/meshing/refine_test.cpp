@@ -175,7 +175,8 @@ ConstrainedTriangulation triangulated(const Input& input) {
 }
 
 std::vector<Index> one_region(const ConstrainedTriangulation& given) {
-  return std::vector<Index>(given.triangulation.num_faces(), 0);
+  std::vector<Index> regions(given.triangulation.num_faces(), 0);
+  return regions;
 }
 
 mesh::RefinedMesh expect_laws(const ConstrainedTriangulation& given,
