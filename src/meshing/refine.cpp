@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "exact/angles.h"
+#include "exact/unit_vector.h"
 #include "meshing/refined_faces.h"
 #include "rondel/error.h"
 #include "rondel/mesh_refine.h"
@@ -378,11 +379,14 @@ class Refinement {
     }
     const Vector& a = faces_.direction(p);
     const Vector& b = faces_.direction(q);
-    if (shell == no_index) return normalized(a + b);
-    const Vector& center = faces_.direction(shell);
-    const double to_a = norm(a - center);
-    const double to_b = norm(b - center);
-    return on_shell(center, to_a < to_b ? b : a,
+    if (shell == no_index) {
+      const double sum = norm(a + b);
+      if (sum > 0x1p-10) return normalized(a + b);
+      return normalized(sum / 2 * a + tangent(p, q));
+    }
+    const double to_a = norm(a - faces_.direction(shell));
+    const double to_b = norm(b - faces_.direction(shell));
+    return on_shell(shell, to_a < to_b ? q : p,
                     round_number(std::min(to_a, to_b), std::max(to_a, to_b)));
   }
 
@@ -395,14 +399,23 @@ class Refinement {
     return std::ceil(first / step) * step;
   }
 
-  // Returns the point at a distance, by the chord, from a center on the arc to another point.
-  [[nodiscard]] static Vector on_shell(const Vector& center, const Vector& towards,
-                                       double distance) {
-    const Vector away = towards - center;
-    const Vector tangent = normalized(away - dot(away, center) * center);
+  // Returns the direction of the arc from one vertex to another one, a unit vector. It is as exact
+  // for vertices that are nearly in one place, or nearly opposite to each other.
+  [[nodiscard]] Vector tangent(Index from, Index to) const {
+    const exact::SplitPoint u = exact::unit_vector(faces_.point(from), {});
+    const exact::SplitPoint w = exact::unit_vector(faces_.point(to), {});
+    const Vector start = exact::to_vector(u.hi);
+    const double sign = dot(start, exact::to_vector(w.hi)) < 0 ? 1 : -1;
+    const Vector way = exact::to_vector(w.hi) + sign * start +
+                       (exact::to_vector(w.lo) + sign * exact::to_vector(u.lo));
+    return normalized(way - dot(way, start) * start);
+  }
+
+  // Returns the point at a distance, by the chord, from a vertex on the arc to another one.
+  [[nodiscard]] Vector on_shell(Index from, Index to, double distance) const {
     const double cosine = 1 - square(distance) / 2;
     const double sine = distance * std::sqrt(1 - square(distance) / 4);
-    return normalized(cosine * center + sine * tangent);
+    return normalized(cosine * faces_.direction(from) + sine * tangent(from, to));
   }
 
   // True if the shortest edge joins two segments that meet at a small angle, at the same distance

@@ -384,6 +384,30 @@ TEST(refine, nothing_is_asked_for) {
   EXPECT_TRUE(refine(ring, {}).triangles.empty());
 }
 
+TEST(refine, segments_between_nearly_opposite_points_stay_in_their_plane) {
+  const Point p = {0.6, 0.48, 0.64};
+  for (const double away : {0x1p-20, 0x1p-40, 0x1p-51}) {
+    const Point q = {-0.6 - 0.8 * away, -0.48 + 0.36 * away, -0.64 + 0.48 * away};
+    const std::vector<Point> sites = {p,          q,         {0, 1, 0}, {0, -1, 0},
+                                      {0, 0, -1}, {0, 0, 1}, {1, 0, 0}};
+    const auto given =
+        constrained_delaunay(Sites(sites), std::vector<std::array<Index, 2>>{{0, 1}});
+    const std::vector<Index> regions(given.triangulation.num_faces(), 0);
+    const auto made = refine(given, regions, {.spacing = mesh::SizeFunction::constant(0.3, 16)});
+    const Point normal = cross_product(p, p + q);  // the sum is exact
+    std::size_t parts = 0;
+    for (std::size_t e = 0; e < made.edges.size(); ++e) {
+      if (made.sources[e] == no_index) continue;
+      ++parts;
+      for (const Index node : made.edges[e]) {
+        EXPECT_LE(std::abs(dot_product(normal, made.nodes[node])), 0x1p-51 * length_of(normal));
+        EXPECT_GE(dot_product(p + q, made.nodes[node]), -0x1p-51);
+      }
+    }
+    EXPECT_GE(parts, 8U);
+  }
+}
+
 TEST(refine, errors_say_what_is_wrong) {
   Random random(3);
   const auto given = triangulated(whole_sphere(random));
