@@ -45,12 +45,9 @@ class ConstrainedDelaunay(
     -----
     `ghost` tells the faces outside of points in one hemisphere, which constraints leave as
     they are; `simplices[~ghost]` are the triangles on the sphere. The algorithm inserts one
-    constraint after the other, after Anglada [1]_; docs/theory/constrained.md has the proof.
-
-    References
-    ----------
-    .. [1] M. V. Anglada, "An improved incremental algorithm for constructing restricted Delaunay
-       triangulations", Computers & Graphics 21, 1997.
+    constraint after the other (M. V. Anglada, "An improved incremental algorithm for constructing
+    restricted Delaunay triangulations", Computers & Graphics 21, 1997); docs/theory/constrained.md
+    has the proof.
 
     """
 

@@ -357,14 +357,10 @@ def triangles(
 
     Notes
     -----
-    Delaunay refinement after Chew [1]_, with the off-centers of Üngör [2]_;
+    Delaunay refinement (L. P. Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG
+    1993) with off-centers (A. Üngör, "Off-centers: a new type of Steiner points for computing
+    size-optimal quality-guaranteed Delaunay triangulations", Computational Geometry 42, 2009);
     docs/theory/refinement.md says what is guaranteed.
-
-    References
-    ----------
-    .. [1] L. P. Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993.
-    .. [2] A. Üngör, "Off-centers: a new type of Steiner points for computing size-optimal
-       quality-guaranteed Delaunay triangulations", Computational Geometry 42, 2009.
 
     Examples
     --------
