@@ -71,15 +71,6 @@ class GmshReader {
   }
 
  private:
-  template <class Read>
-  static void at_line(std::uint64_t line, const Read& read_it) {
-    try {
-      read_it();
-    } catch (const BadValue& bad) {
-      throw BadValue(bad.what(), line);
-    }
-  }
-
   void skip_to(const std::string& end) {
     while (lines_.words()[0] != end) {
       if (!lines_.next()) throw BadValue("the file ends before " + end);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the readers and writers of meshes of triangles share.
+// The lines, nodes and numbers that the readers and writers of meshes of triangles share.
 //
 // in    the lines of a text file; or nodes, triangles and segments
 // out   a mesh, each of whose parts has its line; or lines of text
@@ -56,6 +56,16 @@ class OceanLines {
   std::uint64_t before_;
 };
 
+// Calls read_it(); a BadValue that it throws gets the line.
+template <class Read>
+void at_line(std::uint64_t line, const Read& read_it) {
+  try {
+    read_it();
+  } catch (const io::BadValue& bad) {
+    throw io::BadValue(bad.what(), line);
+  }
+}
+
 // A mesh that is being read.
 struct MeshInFile {
   mesh::TriangleMesh mesh;
@@ -94,7 +104,7 @@ class NodeNames {
   std::vector<std::pair<std::uint64_t, Index>> names_;
 };
 
-// What is written: the mesh, and its nodes in degrees.
+// The mesh that is written, and its nodes in degrees.
 struct MeshOfFile {
   const mesh::TriangleMesh& mesh;
   std::vector<LonLat> positions;

@@ -49,15 +49,6 @@ class SmsReader {
   }
 
  private:
-  template <class Read>
-  static void at_line(std::uint64_t line, const Read& read_it) {
-    try {
-      read_it();
-    } catch (const BadValue& bad) {
-      throw BadValue(bad.what(), line);
-    }
-  }
-
   void read_card() {
     const std::string_view card = lines_.words()[0];
     if (card == "ND") {
