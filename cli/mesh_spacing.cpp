@@ -131,8 +131,8 @@ bool is_file_of_spacings(const std::string& spacing) {
   return !spacing.empty() && *end != '\0';
 }
 
-std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t count,
-                                          const Execution& execution) {
+std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options,
+                                              const Execution& execution) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
     std::vector<std::string> remarks;
@@ -168,7 +168,13 @@ std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t 
   if (options.slope || !options.refine.empty()) {
     size = size->limited(options.slope.value_or(usual_slope));
   }
-  if (count == 0 && options.start.empty()) {
+  return size;
+}
+
+std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t count,
+                                          const Execution& execution) {
+  std::optional<mesh::SizeFunction> size = spacings_of(options, execution);
+  if (count == 0 && options.start.empty() && options.density.empty() && size) {
     require_possible_count(
         (is_file_of_spacings(options.spacing) ? "" : "--spacing ") + options.spacing, *size);
   }

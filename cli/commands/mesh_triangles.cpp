@@ -96,19 +96,14 @@ std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<con
 // Returns the mesh with the border that its edges have, and its depths.
 mesh::TriangleMesh mesh_of(const mesh::DomainTriangles& made, const MeshTrianglesOptions& options,
                            const Execution& execution) {
-  std::vector<std::array<Index, 2>> coast;
-  for (std::size_t e = 0; e < made.features.size(); ++e) {
-    if (made.features[e] == mesh::FeatureOfEdge::coast) coast.push_back(made.mesh.edges[e]);
-  }
-  mesh::TriangleMesh result = mesh::triangle_mesh(made.mesh.nodes, {}, made.mesh.triangles,
-                                                  std::span(std::as_const(coast)));
+  mesh::TriangleMesh result = mesh::triangle_mesh(made);
   if (!options.depth.empty() || !options.elevation.empty()) {
     result.depths = depths_of(options, result.points, execution);
   }
   return result;
 }
 
-// What people want to know of the triangles.
+// The smallest angle and the extreme edges of all triangles, for the summary.
 struct TriangleQuality {
   double smallest_angle_deg = 180;
   double shortest_km = std::numeric_limits<double>::infinity();
@@ -183,9 +178,7 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   const Execution execution = job.execution();
   mesh::TrianglesOptions wanted;
   wanted.refine.smallest_angle_deg = options.angle;
-  // With a number of cells that is not 0 nothing asks whether a mesh of Voronoi cells could have
-  // them: here a coast of a few large triangles is a mesh.
-  wanted.refine.spacing = size_of(options.sizes, 1, execution);
+  wanted.refine.spacing = spacings_of(options.sizes, execution);
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
   const mesh::MeshDomain domain = read_domain(options, execution);
   mesh::DomainTriangles made;

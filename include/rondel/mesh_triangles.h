@@ -13,6 +13,7 @@
 #include "rondel/export.h"
 #include "rondel/geometries.h"
 #include "rondel/mesh_refine.h"
+#include "rondel/triangle_mesh.h"
 #include "rondel/types.h"
 
 namespace rondel::mesh {
@@ -27,7 +28,7 @@ struct MeshDomain {
   std::vector<Geometries> lines;
 };
 
-/// What an edge of RefinedMesh::edges follows.
+/// The kind of feature that an edge of RefinedMesh::edges follows.
 enum class FeatureOfEdge : std::uint8_t {
   none,   ///< nothing: it is on the border of the mesh
   coast,  ///< a coast, and perhaps others
@@ -64,5 +65,10 @@ struct DomainTriangles {
 ///         the area cross themselves such that nothing is on one side; and if nothing is left
 RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options = {},
                                      const Execution& execution = {});
+
+/// Makes a mesh for files of the triangles of a domain: edges that follow a coast are coast, the rest
+/// of the border is open.
+/// \throws InvalidInput as triangle_mesh() does for points and triangles
+RONDEL_API TriangleMesh triangle_mesh(const DomainTriangles& triangles);
 
 }  // namespace rondel::mesh

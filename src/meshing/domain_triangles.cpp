@@ -147,4 +147,13 @@ DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& opti
   return TrianglesOfDomain(domain, options, execution).run();
 }
 
+TriangleMesh triangle_mesh(const DomainTriangles& triangles) {
+  std::vector<std::array<Index, 2>> coast;
+  for (std::size_t e = 0; e < triangles.features.size(); ++e) {
+    if (triangles.features[e] == FeatureOfEdge::coast) coast.push_back(triangles.mesh.edges[e]);
+  }
+  return triangle_mesh(triangles.mesh.nodes, {}, triangles.mesh.triangles,
+                       std::span(std::as_const(coast)));
+}
+
 }  // namespace rondel::mesh

@@ -39,7 +39,6 @@ RefinedFaces::RefinedFaces(const ConstrainedTriangulation& given, std::span<cons
       const Index a = corners[f][topology::next_corner[i]];
       const Index b = corners[f][topology::previous_corner[i]];
       const Index g = neighbors[f][i];
-      const Index h = halfedge(number[f], i);
       if (number[g] != no_index) {
         unsigned j = 0;
         while (corners[g][topology::next_corner[j]] != b ||
@@ -60,7 +59,6 @@ RefinedFaces::RefinedFaces(const ConstrainedTriangulation& given, std::span<cons
       if (segment == no_index || number[g] == no_index) continue;
       const Index other = faces_[number[f]].opposite[i];
       faces_[face_of(other)].segment[edge_of(other)] = segment;
-      static_cast<void>(h);
     }
   }
 }

@@ -75,6 +75,7 @@ void test_domain(const std::vector<Point>& corners, const RefineOptions& options
   (is_land ? domain.coast : domain.area).push_back(geometries);
   try {
     const mesh::DomainTriangles made = mesh::triangles(domain, {.refine = options});
+    require(mesh::triangle_mesh(made).triangles == made.mesh.triangles, "files have the triangles");
     require(made.features.size() == made.mesh.edges.size(), "edges have features");
     for (const mesh::FeatureOfEdge feature : made.features) {
       require(!name_of(feature).empty(), "features have names");

@@ -104,13 +104,7 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
   if (lines.size() > 0) domain.lines.push_back(lines);
   return watched(many_sites, threads, listener, [&](const Execution& execution) {
     const mesh::DomainTriangles made = mesh::triangles(domain, options, execution);
-    std::vector<std::array<Index, 2>> edges;
-    for (std::size_t e = 0; e < made.features.size(); ++e) {
-      if (made.features[e] == mesh::FeatureOfEdge::coast) edges.push_back(made.mesh.edges[e]);
-    }
-    return std::tuple(mesh::triangle_mesh(made.mesh.nodes, {}, made.mesh.triangles,
-                                          std::span(std::as_const(edges))),
-                      made.mesh.report.num_too_small);
+    return std::tuple(mesh::triangle_mesh(made), made.mesh.report.num_too_small);
   });
 }
 
