@@ -17,7 +17,7 @@
 
 namespace rondel {
 
-/// What constrained_delaunay() and faces_inside() take.
+/// The arguments of constrained_delaunay() and faces_inside() that features give.
 struct FeatureConstraints {
   /// The places of features, each once, in the order in which they first occur: for each feature
   /// the points of its lines and then the corners of its polygons. Places are one if their three

@@ -19,7 +19,7 @@
 
 namespace rondel::mesh {
 
-/// What is beyond a segment of the border.
+/// The kind of place beyond a segment of the border.
 enum class BoundaryKind : std::uint8_t {
   open,    ///< water that is not in the mesh
   land,    ///< the coast of the mainland

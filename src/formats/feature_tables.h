@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What features of files and of memory have in common on their way to cells and lines.
+// The steps that features of files and of memory share on their way to cells and lines.
 //
 // in    features with rings and lines of longitudes and latitudes
 // out   tables

@@ -32,7 +32,7 @@ std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
 // The parts of a mesh that may be wrong.
 enum class MeshPart : std::uint8_t { mesh, node, triangle, segment };
 
-// What is wrong with a mesh.
+// The fault of a mesh.
 struct MeshFault {
   MeshPart part = MeshPart::mesh;
   std::size_t index = 0;  // of the node, triangle or segment
