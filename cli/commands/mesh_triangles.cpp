@@ -46,6 +46,8 @@ struct MeshTrianglesOptions {
   ScvtFiles sizes;  // --spacing --refine --gradient, and how polygons are read
   double angle = mesh::RefineOptions{}.smallest_angle_deg;
   std::optional<double> tolerance_km;
+  double fill_narrow = 0;
+  double smallest_part = 0;
   std::string depth;      // --depth: positive down
   std::string elevation;  // --elevation: positive up
   NetcdfOptions netcdf;
@@ -145,10 +147,13 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
   const mesh::RefineReport& refined = made.mesh.report;
   const TriangleQuality quality = quality_of(made.mesh);
   const double seconds = job.seconds().total;
+  const double filled_km2 = made.filled_area * kilometers_per_radian * kilometers_per_radian;
   nlohmann::ordered_json json = json_of_triangles(result);
   json["smallest_angle"] = quality.smallest_angle_deg;
   json["shortest_edge_km"] = quality.shortest_km;
   json["longest_edge_km"] = quality.longest_km;
+  json["filled_km2"] = filled_km2;
+  json["small_parts"] = made.num_small_parts;
   json["near_small_angles"] = refined.num_near_small_angles;
   json["too_small"] = refined.num_too_small;
   json["seconds"] = seconds;
@@ -157,6 +162,13 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
                 "edges from %.4g to %.4g km; the smallest angle is %.2f degrees\n",
                 quality.shortest_km, quality.longest_km, quality.smallest_angle_deg);
   std::string summary = text_of_triangles(result) + '\n' + text.data();
+  if (options.fill_narrow > 0) {
+    std::snprintf(text.data(), text.size(), "filled %.6g km2 of narrow water\n", filled_km2);
+    summary += text.data();
+  }
+  if (options.smallest_part > 0) {
+    summary += count(made.num_small_parts, "small part is", "small parts are") + " left out\n";
+  }
   const auto say = [&](std::size_t number, const std::string& why) {
     if (number == 0) return;
     summary += count(number, "triangle is", "triangles are") + " not as wanted " + why + '\n';
@@ -179,6 +191,8 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   mesh::TrianglesOptions wanted;
   wanted.refine.smallest_angle_deg = options.angle;
   wanted.refine.spacing = spacings_of(options.sizes, execution);
+  wanted.fill_narrow = options.fill_narrow;
+  wanted.smallest_part = options.smallest_part;
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
   const mesh::MeshDomain domain = read_domain(options, execution);
   mesh::DomainTriangles made;
@@ -267,6 +281,18 @@ void add_spacing(CLI::App& parser, MeshTrianglesOptions& options) {
                   "The smallest angle of triangles, up to 33 degrees (default: 26.5)")
       ->check([](const std::string& text) { return range_error(text, 0, 33); })
       ->type_name("DEG");
+  const auto add_share = [&parser](const char* name, double& share, const char* what) {
+    return parser.add_option(name, share, what)
+        ->check([](const std::string& text) { return range_error(text, 0, 1); })
+        ->type_name("SHARE");
+  };
+  add_share("--fill-narrow", options.fill_narrow,
+            "Make land of straits, coves and fjords that are narrower than this share of\n"
+            "the spacing, which would have as short edges (default: 0)")
+      ->needs(spacing);
+  add_share("--smallest-part", options.smallest_part,
+            "Leave out parts of the mesh that are smaller than this share of the largest\n"
+            "one; 1 keeps that one alone (default: 0)");
 }
 
 }  // namespace
@@ -299,6 +325,8 @@ Command add_mesh_triangles_command(CLI::App& group) {
       "6371.229 km.\n\n"
       "Examples:\n"
       "  rondel mesh triangles --coast land.geojson --spacing 200 -o ocean.msh\n"
+      "  rondel mesh triangles --coast land.geojson --spacing 200 --fill-narrow 0.5 "
+      "--smallest-part 0.01 -o ocean.14\n"
       "  rondel mesh triangles --coast land.geojson --spacing 400 --refine coast.geojson:100 -o "
       "fort.14\n"
       "  rondel mesh triangles --coast land.geojson --area basins.geojson --spacing 50 -o "

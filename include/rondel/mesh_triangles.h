@@ -46,23 +46,43 @@ struct TrianglesOptions {
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
   /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
   std::optional<double> tolerance = std::nullopt;
+  /// Water that is narrower than this share of the spacing, from 0 to 1, becomes land: straits,
+  /// coves and the ends of fjords, where edges would be as short as the water is narrow. 0 keeps
+  /// all water.
+  ///
+  /// The domain without its lines is refined by angles alone (26.5 degrees). Then triangles are
+  /// filled that have all corners on coasts or the border, if equilateral triangles in their
+  /// circles have edges shorter than this share of the least spacing at their corners. The new
+  /// coasts are simplified, with the tolerance and at least a quarter of that length, and all that
+  /// is repeated until nothing is narrow, at most ten times. At last triangles are filled at nodes
+  /// where the mesh touches itself. What is left of coasts, borders and lines stays where it is.
+  /// (Compare the closing of mathematical morphology by a disk: Serra, Image Analysis and
+  /// Mathematical Morphology, 1982.)
+  double fill_narrow = 0;
+  /// Parts of the mesh that are smaller than this share of the largest part's area vanish: from 0,
+  /// where all stay, to 1, where the largest one stays. Parts have no edge in common.
+  double smallest_part = 0;
 };
 
 /// The result of triangles().
 struct DomainTriangles {
   RefinedMesh mesh;                     ///< its `sites` and `sources` are empty
   std::vector<FeatureOfEdge> features;  ///< of each of `mesh.edges`
+  double filled_area = 0;           ///< by how much `fill_narrow` made it smaller, in steradians
+  std::size_t num_small_parts = 0;  ///< parts that were smaller than wanted
 };
 
 /// Fills a part of the sphere with triangles whose edges follow its border: simplifies coasts,
-/// borders and lines; triangulates them (rondel/constrained.h), with nodes where they cross; and
-/// refines (rondel/mesh_refine.h).
+/// borders and lines; triangulates them (rondel/constrained.h), with nodes where they cross; fills
+/// narrow water and leaves small parts out, if that is wanted; and refines (rondel/mesh_refine.h).
 ///
 /// Where the coasts leave an open hemisphere free and there is no area, corners of an icosahedron
 /// are nodes there.
 /// \throws InvalidInput as constraints_of_features() (the feature, counted over coast, area and
 ///         lines), simplified(), constrained_delaunay() and refine(); if polygons of the coast or
-///         the area cross themselves such that nothing is on one side; and if nothing is left
+///         the area cross themselves such that nothing is on one side; if `fill_narrow` or
+///         `smallest_part` is not from 0 to 1, or narrow water has no spacing to be compared with;
+///         and if nothing is left
 RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options = {},
                                      const Execution& execution = {});
 

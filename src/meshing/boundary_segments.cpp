@@ -208,11 +208,16 @@ void require_directions(std::span<const Point> points) {
 
 }  // namespace
 
+std::vector<std::vector<Index>> loops_of(std::span<const Point> points,
+                                         std::span<const BorderEdge> border) {
+  return BorderWalk(points, border).loops();
+}
+
 std::vector<BoundarySegment> segments_of(std::span<const Point> points,
                                          std::span<const BorderEdge> border,
                                          const std::optional<std::span<const BorderEdge>>& coast) {
   SegmentMaker segments(points, coast);
-  for (const std::vector<Index>& loop : BorderWalk(points, border).loops()) segments.add(loop);
+  for (const std::vector<Index>& loop : loops_of(points, border)) segments.add(loop);
   return segments.take();
 }
 

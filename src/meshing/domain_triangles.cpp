@@ -1,29 +1,34 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Steps: put all features into one set, simplify them, triangulate their arcs, find the faces of the
-// area and not of the land, refine these, and tell what the edges of the mesh follow.
+// Steps: put all features into one set, simplify them, triangulate their arcs, find the faces of
+// the area and not of the land, fill narrow water, refine what is left, and tell what the edges of
+// the mesh follow.
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
+#include <vector>
 
+#include "map/ring_area.h"
+#include "meshing/narrow_water.h"
+#include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
 #include "rondel/constrained_features.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
 #include "rondel/simplify.h"
+#include "system/disjoint_sets.h"
 #include "system/job.h"
 
 namespace rondel::mesh {
 namespace {
 
-// Appends geometries with the points of their polygons.
-void append(const Geometries& more, Geometries& all) {
-  const auto first = static_cast<Index>(all.polygons.points.size());
-  all.polygons.points.insert(all.polygons.points.end(), more.polygons.points.begin(),
-                             more.polygons.points.end());
+// Appends geometries from `begin` to before `end`, with the points of their polygons.
+void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
+  std::vector<Index> numbers(more.polygons.points.size(), no_index);
   std::vector<Index> ring;
-  for (std::size_t i = 0; i < more.size(); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     for (std::uint64_t k = more.lines.offsets[i]; k < more.lines.offsets[i + 1]; ++k) {
       all.lines.rows.append(more.lines.rows[k]);
     }
@@ -33,18 +38,48 @@ void append(const Geometries& more, Geometries& all) {
     }
     for (std::uint64_t r = more.polygons.cells[i]; r < more.polygons.cells[i + 1]; ++r) {
       ring.clear();
-      for (const Index corner : more.polygons.corners_of(r)) ring.push_back(first + corner);
+      for (const Index corner : more.polygons.corners_of(r)) {
+        if (numbers[corner] == no_index) {
+          numbers[corner] = static_cast<Index>(all.polygons.points.size());
+          all.polygons.points.push_back(more.polygons.points[corner]);
+        }
+        ring.push_back(numbers[corner]);
+      }
       all.polygons.append_ring(ring);
     }
     all.polygons.end_cell();
   }
 }
 
+void append(const Geometries& more, Geometries& all) { append(more, 0, more.size(), all); }
+
+bool is_before(const Point& p, const Point& q) {
+  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+}
+
 class TrianglesOfDomain {
  public:
-  TrianglesOfDomain(const MeshDomain& domain, const TrianglesOptions& options,
-                    const Execution& execution)
-      : options_(options), execution_(execution) {
+  TrianglesOfDomain(const TrianglesOptions& options, const Execution& execution)
+      : options_(options), execution_(execution) {}
+
+  DomainTriangles run(const MeshDomain& domain) {
+    take(domain);
+    simplify();
+    triangulate();
+    const double filled_area = options_.fill_narrow > 0 ? fill_narrow() : 0;
+    const std::size_t num_small_parts = options_.smallest_part > 0 ? leave_small_parts_out() : 0;
+    DomainTriangles made = refined(options_.refine);
+    made.filled_area = filled_area;
+    if (options_.fill_narrow > 0) made.filled_area += meshing::fill_pinches(made);
+    made.num_small_parts = num_small_parts;
+    made.mesh.sites.clear();
+    made.mesh.sources.clear();
+    return made;
+  }
+
+ private:
+  void take(const MeshDomain& domain) {
+    all_ = {};
     for (const Geometries& more : domain.coast) append(more, all_);
     end_of_coast_ = all_.size();
     for (const Geometries& more : domain.area) append(more, all_);
@@ -52,30 +87,6 @@ class TrianglesOfDomain {
     for (const Geometries& more : domain.lines) append(more, all_);
   }
 
-  DomainTriangles run() {
-    simplify();
-    features_ = constraints_of_features(all_.lines, all_.polygons);
-    triangulate();
-    const Triangulation& first = triangulation_.triangulation;
-    if (end_of_area_ == end_of_coast_ && (first.dimension() < 2 || first.num_ghost_faces() > 0)) {
-      for (const Point& point : icosahedron()) features_.sites.push_back(point);
-      triangulate();
-    }
-    const std::vector<Index> regions = find_regions();
-    if (std::ranges::count(regions, no_index) == static_cast<std::ptrdiff_t>(regions.size())) {
-      throw InvalidInput("nothing is left for triangles: the land covers the area");
-    }
-    DomainTriangles result;
-    result.mesh = refine(triangulation_, regions, options_.refine, execution_);
-    for (const Index source : result.mesh.sources) {
-      result.features.push_back(source == no_index ? FeatureOfEdge::none : feature_of(source));
-    }
-    result.mesh.sites.clear();
-    result.mesh.sources.clear();
-    return result;
-  }
-
- private:
   void simplify() {
     SimplifyOptions simplify{.tolerance = options_.tolerance.value_or(0), .drop_small = true};
     const auto& spacing = options_.refine.spacing;
@@ -88,8 +99,38 @@ class TrianglesOfDomain {
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
   }
 
-  // Makes sites of crossings only if there are any, which takes longer.
+  // Simplifies where coasts are new.
+  void simplify_at(std::span<const Point> new_corners) {
+    const auto is_new = [&](const Point& place) {
+      return std::ranges::binary_search(new_corners, place, is_before);
+    };
+    SimplifyOptions simplify;
+    simplify.tolerance_at = [&](const Point& place) {
+      if (!is_new(place)) return 0.0;
+      const double quarter = options_.refine.spacing->spacing(place) / 4;
+      return std::max(options_.fill_narrow * quarter, options_.tolerance.value_or(quarter));
+    };
+    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
+    all_ = {std::move(simple.lines), std::move(simple.polygons)};
+  }
+
+  // Triangulates all features, and finds the faces of the mesh.
   void triangulate() {
+    features_ = constraints_of_features(all_.lines, all_.polygons);
+    triangulate_sites();
+    const Triangulation& first = triangulation_.triangulation;
+    if (end_of_area_ == end_of_coast_ && (first.dimension() < 2 || first.num_ghost_faces() > 0)) {
+      for (const Point& point : icosahedron()) features_.sites.push_back(point);
+      triangulate_sites();
+    }
+    regions_ = find_regions();
+    if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
+      throw InvalidInput("nothing is left for triangles: the land covers the area");
+    }
+  }
+
+  // Makes sites of crossings only if there are any, which takes longer.
+  void triangulate_sites() {
     const Sites sites(features_.sites);
     try {
       triangulation_ = constrained_delaunay(sites, features_.constraints, {}, execution_);
@@ -97,6 +138,84 @@ class TrianglesOfDomain {
       triangulation_ = constrained_delaunay(sites, features_.constraints,
                                             {.crossings = ConstraintCrossings::split}, execution_);
     }
+  }
+
+  // Refines the faces of the mesh, and tells what edges follow.
+  [[nodiscard]] DomainTriangles refined(const RefineOptions& options) const {
+    DomainTriangles result;
+    result.mesh = refine(triangulation_, regions_, options, execution_);
+    for (const Index source : result.mesh.sources) {
+      result.features.push_back(source == no_index ? FeatureOfEdge::none : feature_of(source));
+    }
+    return result;
+  }
+
+  // Makes land of narrow water, and returns its area. Lines do not make water narrow; so they wait,
+  // and what of them is then on land is no edge of the mesh.
+  double fill_narrow() {
+    constexpr int most_times = 10;
+    const RefineOptions by_angles{.most_vertices = options_.refine.most_vertices};
+    Geometries lines;
+    append(all_, end_of_area_, all_.size(), lines);
+    Geometries borders;
+    append(all_, 0, end_of_area_, borders);
+    all_ = std::move(borders);
+    if (lines.size() > 0) triangulate();
+    const double area = area_of_mesh();
+    std::vector<Point> new_corners;
+    for (int k = 0; k < most_times; ++k) {
+      const auto wider = meshing::without_narrow_water(refined(by_angles), *options_.refine.spacing,
+                                                       options_.fill_narrow);
+      if (!wider) break;
+      take(wider->domain);
+      new_corners.insert(new_corners.end(), wider->new_corners.begin(), wider->new_corners.end());
+      std::ranges::sort(new_corners, is_before);
+      simplify_at(new_corners);
+      triangulate();
+    }
+    if (lines.size() > 0) {
+      append(lines, all_);
+      triangulate();
+    }
+    return area - area_of_mesh();
+  }
+
+  [[nodiscard]] double area_of(Index face) const {
+    const std::span<const Point> points = triangulation_.triangulation.sites().points();
+    const auto& [a, b, c] = triangulation_.triangulation.faces()[face];
+    return map::area_on_left(std::array<Point, 3>{points[a], points[b], points[c]});
+  }
+  [[nodiscard]] double area_of_mesh() const {
+    double area = 0;
+    for (Index f = 0; f < regions_.size(); ++f) {
+      if (regions_[f] != no_index) area += area_of(f);
+    }
+    return area;
+  }
+
+  // Leaves parts of the mesh out that are too small, and returns their number.
+  std::size_t leave_small_parts_out() {
+    const Triangulation& all = triangulation_.triangulation;
+    system::DisjointSets parts(all.num_faces());
+    std::vector<double> areas(all.num_faces());
+    for (Index f = 0; f < all.num_faces(); ++f) {
+      if (regions_[f] == no_index) continue;
+      for (const Index neighbor : all.neighbors()[f]) {
+        if (regions_[neighbor] != no_index) parts.join(f, neighbor);
+      }
+    }
+    for (Index f = 0; f < all.num_faces(); ++f) {
+      if (regions_[f] != no_index) areas[parts[f]] += area_of(f);
+    }
+    const double least = options_.smallest_part * *std::ranges::max_element(areas);
+    const auto is_small = [&](Index f) { return areas[parts[f]] < least; };
+    std::size_t number = 0;
+    for (Index f = 0; f < all.num_faces(); ++f) {
+      if (regions_[f] == no_index || !is_small(f)) continue;
+      number += parts[f] == f ? 1U : 0U;
+      regions_[f] = no_index;
+    }
+    return number;
   }
 
   // Returns 0 for the faces of the mesh, and no_index for others.
@@ -131,7 +250,21 @@ class TrianglesOfDomain {
   std::size_t end_of_area_ = 0;
   FeatureConstraints features_;
   ConstrainedTriangulation triangulation_;
+  std::vector<Index> regions_;  // of each face: 0 in the mesh, else no_index
 };
+
+void require_shares(const TrianglesOptions& options) {
+  const auto is_share = [](double value) { return value >= 0 && value <= 1; };
+  if (!is_share(options.fill_narrow)) {
+    throw InvalidInput("the share of the spacing below which water is narrow is not from 0 to 1");
+  }
+  if (!is_share(options.smallest_part)) {
+    throw InvalidInput("the share of the largest part below which parts vanish is not from 0 to 1");
+  }
+  if (options.fill_narrow > 0 && !options.refine.spacing) {
+    throw InvalidInput("narrow water can be filled only where there is a spacing");
+  }
+}
 
 }  // namespace
 
@@ -144,7 +277,8 @@ std::string_view name_of(FeatureOfEdge feature) noexcept {
 DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options,
                           const Execution& execution) {
   const system::Call call(execution);
-  return TrianglesOfDomain(domain, options, execution).run();
+  require_shares(options);
+  return TrianglesOfDomain(options, execution).run(domain);
 }
 
 TriangleMesh triangle_mesh(const DomainTriangles& triangles) {

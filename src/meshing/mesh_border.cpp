@@ -234,6 +234,19 @@ std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
   return border;
 }
 
+std::vector<std::array<Index, 2>> sides_of(std::span<const Triple> triangles) {
+  std::vector<std::array<Index, 2>> sides;
+  sides.reserve(3 * triangles.size());
+  for (const Triple& triangle : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({triangle[k], triangle[(k + 1) % 3]});
+      sides.push_back({low, high});
+    }
+  }
+  std::ranges::sort(sides);
+  return sides;
+}
+
 Found fault_of(const mesh::TriangleMesh& mesh, Index base) {
   if (Found fault = fault_of_numbers(mesh, base)) return fault;
   std::vector<std::array<Index, 2>> border;

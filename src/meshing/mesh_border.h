@@ -29,6 +29,14 @@ void require_corners(std::size_t num_nodes, std::span<const Triple> triangles, I
 std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
                                             std::span<const Triple> triangles, Index base = 0);
 
+// Returns the sides of triangles, each as often as triangles have it, the lower node first, sorted.
+std::vector<std::array<Index, 2>> sides_of(std::span<const Triple> triangles);
+
+// Returns the loops of a border, without repeated nodes, each from its lowest node and in the order
+// of these. Loops that touch are apart.
+std::vector<std::vector<Index>> loops_of(std::span<const Point> points,
+                                         std::span<const std::array<Index, 2>> border);
+
 // The parts of a mesh that may be wrong.
 enum class MeshPart : std::uint8_t { mesh, node, triangle, segment };
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/mesh_triangles.h: what it promises of a triangle of land or of water.
+// rondel/mesh_triangles.h: what it promises of polygons of land and of water.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/mesh_triangles.h"
 #include "rondel/predicates.h"
+#include "rondel/triangle_mesh.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -63,19 +65,24 @@ void test_mesh(const RefinedMesh& made, double spacing) {
   }
 }
 
-// A triangle of land in the ocean, or of water.
-void test_domain(const std::vector<Point>& corners, const RefineOptions& options, bool is_land,
-                 double spacing) {
+Geometries polygon(const std::vector<Point>& corners) {
   Geometries geometries;
   geometries.polygons.points = corners;
-  geometries.polygons.append_ring(std::array<Index, 3>{0, 1, 2});
+  std::vector<Index> ring(corners.size());
+  std::iota(ring.begin(), ring.end(), Index{0});
+  geometries.polygons.append_ring(ring);
   geometries.polygons.end_cell();
   geometries.lines.end_group();
-  mesh::MeshDomain domain;
-  (is_land ? domain.coast : domain.area).push_back(geometries);
+  return geometries;
+}
+
+void test_domain(const mesh::MeshDomain& domain, const mesh::TrianglesOptions& options,
+                 double spacing) {
   try {
-    const mesh::DomainTriangles made = mesh::triangles(domain, {.refine = options});
-    require(mesh::triangle_mesh(made).triangles == made.mesh.triangles, "files have the triangles");
+    const mesh::DomainTriangles made = mesh::triangles(domain, options);
+    const mesh::TriangleMesh in_files = mesh::triangle_mesh(made);
+    require(in_files.triangles == made.mesh.triangles, "files have the triangles");
+    require(options.fill_narrow == 0 || pinched_nodes(in_files).empty(), "no gap is narrow");
     require(made.features.size() == made.mesh.edges.size(), "edges have features");
     for (const mesh::FeatureOfEdge feature : made.features) {
       require(!name_of(feature).empty(), "features have names");
@@ -91,18 +98,25 @@ void test_domain(const std::vector<Point>& corners, const RefineOptions& options
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rondel;
   fuzz::ByteSource source(data, size);
-  mesh::RefineOptions options;
-  options.smallest_angle_deg = source.byte() % 33;
-  options.most_vertices = 2000;
+  mesh::TrianglesOptions options;
+  options.refine.smallest_angle_deg = source.byte() % 33;
+  options.refine.most_vertices = 2000;
   const bool is_spaced = source.byte() % 2 == 0;
   const double angle = 0.2 + 0.01 * source.byte();
-  if (is_spaced) options.spacing = mesh::SizeFunction::constant(angle, 1);
+  if (is_spaced) options.refine.spacing = mesh::SizeFunction::constant(angle, 1);
   const double spacing = is_spaced ? 2 * std::sin(angle / 2) : 0;
-  const bool is_land = source.byte() % 2 == 0;
-  std::vector<LonLat> positions(3);
-  for (LonLat& position : positions) {
-    position = {1.4 * source.byte() - 180, 0.7 * source.byte() - 90};
+  const std::uint8_t kind = source.byte();
+  if (is_spaced) options.fill_narrow = (kind / 4) % 4 / 3.0;
+  options.smallest_part = kind / 16 % 4 / 3.0;
+  mesh::MeshDomain domain;
+  for (auto* part : {&domain.coast, &domain.area}) {
+    std::vector<LonLat> positions(3U + source.byte() % 6U);
+    for (LonLat& position : positions) {
+      position = {1.4 * source.byte() - 180, 0.7 * source.byte() - 90};
+    }
+    const bool is_coast = part == &domain.coast;
+    if ((kind & (is_coast ? 1U : 2U)) != 0) part->push_back(fuzz::polygon(unit_vectors(positions)));
   }
-  fuzz::test_domain(unit_vectors(positions), options, is_land, spacing);
+  fuzz::test_domain(domain, options, spacing);
   return 0;
 }

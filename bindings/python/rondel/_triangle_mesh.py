@@ -294,6 +294,8 @@ def triangles(
     gradient: float | None = None,
     tolerance: float | None = None,
     smallest_angle: float = 26.5,
+    fill_narrow: float = 0.0,
+    smallest_part: float = 0.0,
     depths: Callable[[FloatArray], FloatArray] | None = None,
     raster_steps: int = 1024,
     edges: Edges = "lonlat",
@@ -325,6 +327,12 @@ def triangles(
     smallest_angle : float, optional
         The smallest angle of triangles in degrees, up to 33; by default 26.5. Triangles near
         places where coasts, borders or lines meet at less than 60 degrees may have smaller ones.
+    fill_narrow : float, optional
+        Straits, coves and fjords that are narrower than this share of the spacing become land, as
+        they would have edges as short; from 0 (default) to 1.
+    smallest_part : float, optional
+        Parts of the mesh that are smaller than this share of the largest part are left out; from
+        0 (default) to 1, which keeps the largest part alone.
     depths : callable, optional
         A function of the nodes, float64 of shape (n, 3), that returns the depths there in metres,
         positive down.
@@ -389,6 +397,8 @@ def triangles(
         gradient=0.0 if gradient is None else float(gradient),
         tolerance=None if tolerance is None else float(tolerance),
         smallest_angle=float(smallest_angle),
+        fill_narrow=float(fill_narrow),
+        smallest_part=float(smallest_part),
         threads=as_threads(threads),
         progress=progress,
     )

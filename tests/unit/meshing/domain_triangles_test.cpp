@@ -179,6 +179,97 @@ TEST(domain_triangles, order_and_threads_change_nothing) {
   EXPECT_TRUE(first == places_of(triangles({{west, east}, {sea}, {}}, spaced(1), {.threads = 2})));
 }
 
+// Returns the length of the shortest edge in degrees.
+double shortest_edge(const DomainTriangles& made) {
+  double least = 4;
+  for (const auto& [a, b, c] : made.mesh.triangles) {
+    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const Point& from = made.mesh.nodes[p];
+      const Point& to = made.mesh.nodes[q];
+      least = std::min(least, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
+    }
+  }
+  return 2 * std::asin(least / 2) * 180 / std::numbers::pi;
+}
+
+// Two seas of 10 and 4 degrees, a strait of 0.1 degrees between them, and a fjord of the large one.
+MeshDomain seas_with_strait() {
+  const Geometries around = polygon({box(-10, -10, 20, 20)});
+  Ring shores = {{0, 0},   {10, 0},   {10, 4.95}, {12, 4.95}, {12, 3},
+                 {16, 3},  {16, 7},   {12, 7},    {12, 5.05}, {10, 5.05},
+                 {10, 10}, {5.1, 10}, {5, 14},    {4.9, 10},  {0, 10}};
+  std::ranges::reverse(shores);
+  return {{polygon({box(-20, -20, 30, 25), shores})}, {around}, {}};
+}
+
+TEST(domain_triangles, narrow_water_is_filled) {
+  TrianglesOptions options = spaced(1);
+  const MeshDomain domain = seas_with_strait();
+  const DomainTriangles open = triangles(domain, options);
+  EXPECT_LT(shortest_edge(open), 0.11);
+  EXPECT_EQ(open.filled_area, 0);
+  options.fill_narrow = 0.5;
+  const DomainTriangles made = triangles(domain, options);
+  EXPECT_GT(shortest_edge(made), 0.25);
+  EXPECT_GT(made.filled_area, 0);
+  EXPECT_NEAR(area_of(made) + made.filled_area, area_of(open), 1e-13);
+  EXPECT_GT(number_of(made, FeatureOfEdge::coast), 0U);
+  options.smallest_part = 0.5;
+  const DomainTriangles large = triangles(domain, options);
+  EXPECT_EQ(large.num_small_parts, 1U);
+  EXPECT_NEAR(area_of(large), area_of(polygon({box(0, 0, 10, 10)})), 3e-5);
+  options.smallest_part = 0.1;
+  EXPECT_EQ(places_of(triangles(domain, options)), places_of(made));
+}
+
+TEST(domain_triangles, lines_and_points_stay_where_narrow_water_is_filled) {
+  const Geometries along = line({{2, 2}, {8, 2}});
+  const Geometries through = line({{8, 5}, {14, 5}});
+  const Geometries buoy = line({{4, 4}});
+  TrianglesOptions options = spaced(1);
+  options.fill_narrow = 0.5;
+  MeshDomain domain = seas_with_strait();
+  domain.lines = {along, through, buoy};
+  const DomainTriangles made = triangles(domain, options);
+  const auto has = [&](const LonLat& position) {
+    const Point at = unit_vectors(Ring{position}).front();
+    return std::ranges::count(made.mesh.nodes, at) == 1;
+  };
+  EXPECT_TRUE(has({2, 2}) && has({8, 2}) && has({8, 5}) && has({14, 5}) && has({4, 4}));
+  double length = 0;
+  for (std::size_t e = 0; e < made.features.size(); ++e) {
+    if (made.features[e] != FeatureOfEdge::line) continue;
+    const Point& p = made.mesh.nodes[made.mesh.edges[e][0]];
+    const Point& q = made.mesh.nodes[made.mesh.edges[e][1]];
+    length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) * 180 / std::numbers::pi;
+  }
+  // Of the line through the strait two degrees are land.
+  EXPECT_GT(length, 9);
+  EXPECT_LT(length, 11);
+}
+
+TEST(domain_triangles, shares_out_of_range) {
+  const Geometries sea = polygon({box(-5, -4, 6, 5)});
+  TrianglesOptions options = spaced(1);
+  options.fill_narrow = 1.5;
+  EXPECT_THROW(triangles({{}, {sea}, {}}, options), InvalidInput);
+  options.fill_narrow = 0.5;
+  options.smallest_part = -1;
+  EXPECT_THROW(triangles({{}, {sea}, {}}, options), InvalidInput);
+  options.smallest_part = 0;
+  options.refine.spacing.reset();
+  EXPECT_THROW(triangles({{}, {sea}, {}}, options), InvalidInput);
+}
+
+TEST(domain_triangles, all_water_is_narrow) {
+  TrianglesOptions options = spaced(3);
+  options.fill_narrow = 1;
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              return triangles({{}, {polygon({box(0, 0, 20, 0.1)})}, {}}, options);
+            }),
+            "nothing is left for triangles: all water is narrower than wanted");
+}
+
 TEST(domain_triangles, nothing_is_left) {
   const Geometries sea = polygon({box(-5, -4, 6, 5)});
   EXPECT_EQ(thrown_message<InvalidInput>([&] {

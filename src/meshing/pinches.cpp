@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "meshing/pinches.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "map/ring_area.h"
+#include "meshing/mesh_border.h"
+#include "system/row_assembly.h"
+
+namespace rondel::meshing {
+namespace {
+
+using Ends = std::array<Index, 2>;
+
+// Triangles around a node, each with an edge at the node in common with the next one.
+struct Fan {
+  std::vector<Index> triangles;
+  double area = 0;
+  Point first;  // the other end of the edge with which it begins
+};
+
+// Finds the fans around the nodes of triangles.
+class Fans {
+ public:
+  Fans(std::span<const Point> nodes, std::span<const Triple> triangles)
+      : nodes_(nodes), triangles_(triangles), places_(nodes.size()) {
+    for (const Triple& triangle : triangles) {
+      for (const Index corner : triangle) places_.count(corner);
+    }
+    at_node_.resize(places_.sum());
+    for (Index t = 0; t < triangles.size(); ++t) {
+      for (const Index corner : triangles[t]) at_node_[places_.place(corner)] = t;
+    }
+    offsets_ = std::move(places_).offsets();
+  }
+
+  // Returns the fans around a node of the border.
+  [[nodiscard]] std::vector<Fan> around(Index node) const {
+    struct Spoke {
+      Index from, to, triangle;
+    };
+    std::vector<Spoke> spokes;
+    for (std::uint64_t k = offsets_[node]; k < offsets_[node + 1]; ++k) {
+      const Triple& corners = triangles_[at_node_[k]];
+      const auto i = static_cast<std::size_t>(std::ranges::find(corners, node) - corners.begin());
+      spokes.push_back({corners[(i + 1) % 3], corners[(i + 2) % 3], at_node_[k]});
+    }
+    std::vector<Fan> fans;
+    for (const Spoke& first : spokes) {
+      if (std::ranges::find(spokes, first.from, &Spoke::to) != spokes.end()) continue;
+      Fan fan;
+      fan.first = nodes_[first.from];
+      for (auto spoke = std::ranges::find(spokes, first.from, &Spoke::from); spoke != spokes.end();
+           spoke = std::ranges::find(spokes, spoke->to, &Spoke::from)) {
+        const auto& [a, b, c] = triangles_[spoke->triangle];
+        const std::array<Point, 3> ring = {nodes_[a], nodes_[b], nodes_[c]};
+        fan.triangles.push_back(spoke->triangle);
+        fan.area += map::area_on_left(ring);
+      }
+      fans.push_back(std::move(fan));
+    }
+    return fans;
+  }
+
+ private:
+  std::span<const Point> nodes_;
+  std::span<const Triple> triangles_;
+  system::RowPlaces<> places_;
+  std::vector<std::uint64_t> offsets_;
+  std::vector<Index> at_node_;
+};
+
+bool is_larger(const Fan& fan, const Fan& other) {
+  const auto key = [](const Fan& f) { return std::tuple(f.area, f.first.x, f.first.y, f.first.z); };
+  return key(fan) > key(other);
+}
+
+// Marks the triangles that are to be filled, and returns their area.
+double mark_pinched(const mesh::RefinedMesh& mesh, std::vector<bool>& is_filled) {
+  std::vector<Index> starts;
+  for (const Ends& edge : border_of(mesh.nodes.size(), mesh.triangles)) starts.push_back(edge[0]);
+  std::ranges::sort(starts);
+  const Fans all(mesh.nodes, mesh.triangles);
+  double area = 0;
+  for (auto node = std::ranges::adjacent_find(starts); node != starts.end();
+       node = std::adjacent_find(std::upper_bound(node, starts.end(), *node), starts.end())) {
+    const std::vector<Fan> fans = all.around(*node);
+    const auto largest = std::ranges::max_element(
+        fans, [](const Fan& fan, const Fan& other) { return is_larger(other, fan); });
+    for (auto fan = fans.begin(); fan != fans.end(); ++fan) {
+      if (fan == largest) continue;
+      for (const Index t : fan->triangles) {
+        if (is_filled[t]) continue;
+        is_filled[t] = true;
+        const auto& [a, b, c] = mesh.triangles[t];
+        area +=
+            map::area_on_left(std::array<Point, 3>{mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]});
+      }
+    }
+  }
+  return area;
+}
+
+// Takes triangles away, and nodes that are corners of none. What was beside them is coast.
+void remove_triangles(const std::vector<bool>& is_filled, mesh::DomainTriangles& made) {
+  mesh::RefinedMesh& mesh = made.mesh;
+  std::vector<Triple> kept;
+  std::vector<Index> regions;
+  std::vector<Index> numbers(mesh.nodes.size(), no_index);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (is_filled[t]) continue;
+    kept.push_back(mesh.triangles[t]);
+    regions.push_back(mesh.regions[t]);
+    for (const Index corner : kept.back()) numbers[corner] = 0;
+  }
+  std::vector<Ends> coast = border_of(mesh.nodes.size(), kept);
+  for (Ends& edge : coast) std::ranges::sort(edge);
+  std::vector<std::tuple<Ends, Index, mesh::FeatureOfEdge>> edges;
+  const std::vector<Ends> sides = sides_of(kept);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (!std::ranges::binary_search(sides, mesh.edges[e])) continue;
+    edges.emplace_back(mesh.edges[e], mesh.sources[e], made.features[e]);
+  }
+  for (const Ends& edge : coast) {
+    if (std::ranges::binary_search(mesh.edges, edge)) continue;
+    edges.emplace_back(edge, no_index, mesh::FeatureOfEdge::coast);
+  }
+  std::ranges::sort(edges);
+
+  std::size_t number = 0;
+  for (std::size_t v = 0; v < numbers.size(); ++v) {
+    if (numbers[v] == no_index) continue;
+    mesh.nodes[number] = mesh.nodes[v];
+    mesh.sites[number] = mesh.sites[v];
+    numbers[v] = static_cast<Index>(number++);
+  }
+  mesh.nodes.resize(number);
+  mesh.sites.resize(number);
+  mesh.regions = std::move(regions);
+  mesh.triangles = std::move(kept);
+  for (Triple& triangle : mesh.triangles) {
+    for (Index& corner : triangle) corner = numbers[corner];
+  }
+  mesh.edges.clear();
+  mesh.sources.clear();
+  made.features.clear();
+  for (const auto& [ends, source, feature] : edges) {
+    mesh.edges.push_back({numbers[ends[0]], numbers[ends[1]]});
+    mesh.sources.push_back(source);
+    made.features.push_back(feature);
+  }
+}
+
+}  // namespace
+
+double fill_pinches(mesh::DomainTriangles& made) {
+  double area = 0;
+  while (true) {
+    std::vector<bool> is_filled(made.mesh.triangles.size());
+    area += mark_pinched(made.mesh, is_filled);
+    if (std::ranges::find(is_filled, true) == is_filled.end()) return area;
+    remove_triangles(is_filled, made);
+  }
+}
+
+}  // namespace rondel::meshing
