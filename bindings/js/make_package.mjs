@@ -23,13 +23,15 @@ const { devDependencies, ...description } = JSON.parse(readFileSync(join(javascr
 description.version = readFileSync(join(source, "VERSION"), "utf8").trim();
 writeFileSync(join(folder, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
 
-// The package has the module twice: as a file, and as text that needs no request.
-const module = readFileSync(join(source, "build", "wasm", "bin", "rondel.wasm"));
-writeFileSync(join(folder, "rondel.wasm"), module);
-writeFileSync(
-  join(folder, "src", "module.js"),
-  `${banner}\n/** rondel.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
-);
+// The package has each module twice: as a file, and as text that needs no request.
+for (const [name, place] of [["rondel", "."], ["polygons", "polygons"]]) {
+  const module = readFileSync(join(source, "build", "wasm", "bin", `${name}.wasm`));
+  writeFileSync(join(folder, `${name}.wasm`), module);
+  writeFileSync(
+    join(folder, "src", place, "module.js"),
+    `${banner}\n/** ${name}.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
+  );
+}
 
 // Lists the libraries that the module contains besides Rondel.
 const parts = execFileSync(join(source, "scripts", "tools", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);

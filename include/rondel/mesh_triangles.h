@@ -66,7 +66,9 @@ struct TrianglesOptions {
 
 /// The result of triangles().
 struct DomainTriangles {
-  RefinedMesh mesh;                     ///< its `sites` and `sources` are empty
+  /// Nodes are along the spatial order. Triangles begin with their lowest node and are sorted. So
+  /// features in another order give the same arrays. `sites` and `sources` are empty.
+  RefinedMesh mesh;
   std::vector<FeatureOfEdge> features;  ///< of each of `mesh.edges`
   double filled_area = 0;           ///< by how much `fill_narrow` made it smaller, in steradians
   std::size_t num_small_parts = 0;  ///< parts that were smaller than wanted

@@ -19,7 +19,7 @@ const namesIn = (list) => read("viewer", list).trim().split("\n");
 const shared = namesIn("modules.txt");
 const own = ["groups", "live", "presets", "table", "files", "history", "remote", "play", "start"];
 const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["site", "play", "src", `${name}.js`])];
-const library = ["errors", "arguments", "engine", "located", "triangulation", "build", "dynamic"];
+const library = ["errors", "arguments", "instance", "engine", "located", "triangulation", "build", "dynamic"];
 const workerModules = [...library.map((name) => ["bindings", "js", "src", `${name}.js`]), ["site", "play", "src", "worker.js"]];
 
 // Comments that begin a line go, as does the indentation. `given`: names that no module has.

@@ -14,6 +14,7 @@
 #include "meshing/narrow_water.h"
 #include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
+#include "order/spatial_order.h"
 #include "rondel/constrained_features.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
@@ -57,6 +58,46 @@ bool is_before(const Point& p, const Point& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
+// Numbers nodes along the spatial order, and triangles and edges by their nodes. Drops the sites and
+// the sources, which have numbers of the domain.
+void sort(DomainTriangles& made, unsigned threads) {
+  RefinedMesh& mesh = made.mesh;
+  const order::SpatialOrder spatial =
+      order::spatial_order(mesh.nodes, Model::projected, {}, threads);
+  std::vector<Index> numbers(mesh.nodes.size());
+  std::vector<Point> nodes;
+  nodes.reserve(mesh.nodes.size());
+  for (const Index node : spatial.order) {
+    numbers[node] = static_cast<Index>(nodes.size());
+    nodes.push_back(mesh.nodes[node]);
+  }
+  mesh.nodes = std::move(nodes);
+
+  std::vector<std::pair<Triple, Index>> triangles;  // with their regions
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Triple corners = mesh.triangles[t];
+    for (Index& corner : corners) corner = numbers[corner];
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
+    triangles.emplace_back(corners, mesh.regions[t]);
+  }
+  std::ranges::sort(triangles);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    std::tie(mesh.triangles[t], mesh.regions[t]) = triangles[t];
+  }
+
+  std::vector<std::pair<std::array<Index, 2>, FeatureOfEdge>> edges;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [low, high] = std::minmax({numbers[mesh.edges[e][0]], numbers[mesh.edges[e][1]]});
+    edges.push_back({{low, high}, made.features[e]});
+  }
+  std::ranges::sort(edges);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    std::tie(mesh.edges[e], made.features[e]) = edges[e];
+  }
+  mesh.sites.clear();
+  mesh.sources.clear();
+}
+
 class TrianglesOfDomain {
  public:
   TrianglesOfDomain(const TrianglesOptions& options, const Execution& execution)
@@ -72,8 +113,7 @@ class TrianglesOfDomain {
     made.filled_area = filled_area;
     if (options_.fill_narrow > 0) made.filled_area += meshing::fill_pinches(made);
     made.num_small_parts = num_small_parts;
-    made.mesh.sites.clear();
-    made.mesh.sources.clear();
+    sort(made, execution_.threads);
     return made;
   }
 

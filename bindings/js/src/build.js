@@ -5,6 +5,7 @@
 
 import { numbers, placeOptions } from "./arguments.js";
 import { engine } from "./engine.js";
+import { unitVectorsBy } from "./instance.js";
 import { Triangulation, VoronoiDiagram } from "./triangulation.js";
 
 /** @typedef {import("./arguments.js").Numbers} Numbers */
@@ -33,14 +34,7 @@ export function build(Type, owner, sites, options) {
  * @throws {import("./errors.js").RondelError} for the first angle that is not finite, or latitude outside [-90, 90]
  */
 export function unitVectors(lonLat) {
-  const owner = engine();
-  const angles = numbers(lonLat, 2, "longitudes and latitudes");
-  const n = angles.length / 2;
-  return owner.scoped((scope) => {
-    const place = scope.room(3 * n, 8);
-    owner.call("rondel_unit_vectors", scope.copy(angles), n, place);
-    return owner.doubles(place, 3 * n);
-  });
+  return unitVectorsBy(engine(), numbers(lonLat, 2, "longitudes and latitudes"));
 }
 
 /**

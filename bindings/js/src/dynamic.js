@@ -4,7 +4,8 @@
 // A triangulation whose sites can be inserted, removed and moved.
 
 import { indices, numbers, placeOptions } from "./arguments.js";
-import { dispose, engine, Handle } from "./engine.js";
+import { engine } from "./engine.js";
+import { dispose, Handle } from "./instance.js";
 import { RondelError } from "./errors.js";
 import { Located } from "./located.js";
 import { VoronoiDiagram } from "./triangulation.js";

@@ -14,5 +14,4 @@ export { noIndex } from "./located.js";
 export { Triangulation, VoronoiDiagram } from "./triangulation.js";
 export { delaunay, polarPoints, unitVectors, voronoi } from "./build.js";
 export { DynamicTriangulation } from "./dynamic.js";
-export { triangulate } from "./triangulate.js";
-export { geoContour, geoDelaunay, geoTriangulate, geoVoronoi } from "./d3/index.js";
+export { geoContour, geoDelaunay, geoVoronoi } from "./d3/index.js";

@@ -7,7 +7,7 @@ import { count, numbers } from "./arguments.js";
 
 /** @typedef {import("./arguments.js").Numbers} Numbers */
 /** @typedef {import("./engine.js").Engine} Engine */
-/** @typedef {import("./engine.js").Handle} Handle */
+/** @typedef {import("./instance.js").Handle} Handle */
 
 /** The index that means "none" in arrays of indices. */
 export const noIndex = 0xffffffff;

@@ -3,7 +3,7 @@
 
 // Triangulations and their duals.
 
-import { dispose, Handle } from "./engine.js";
+import { dispose, Handle } from "./instance.js";
 import { Located } from "./located.js";
 
 /** @typedef {import("./engine.js").Engine} Engine */

@@ -17,7 +17,7 @@ test("the package needs no other, and has a licence, types and a version", () =>
   assert.equal(description.dependencies, undefined);
   assert.equal(description.devDependencies, undefined);
   assert.equal(description.version, readFileSync(join(process.env.RONDEL_SOURCE_DIR, "VERSION"), "utf8").trim());
-  for (const file of ["LICENSE", "THIRD_PARTY.md", "README.md", "rondel.wasm", "src/module.js"]) {
+  for (const file of ["LICENSE", "THIRD_PARTY.md", "README.md", "rondel.wasm", "src/module.js", "polygons.wasm", "src/polygons/module.js"]) {
     assert.ok(statSync(join(folder, file)).size > 100, file);
   }
   for (const { types, default: code } of Object.values(description.exports).filter((e) => e.types)) {

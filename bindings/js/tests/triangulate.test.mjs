@@ -9,8 +9,8 @@ import { join } from "node:path";
 import { test } from "node:test";
 
 import { geoArea } from "d3-geo";
-import { RondelError, triangulate, unitVectors } from "rondel";
-import { geoTriangulate } from "rondel/d3";
+import { RondelError, unitVectors } from "rondel";
+import { geoTriangulate, triangulate } from "rondel/polygons";
 import { cross, difference, dot, point, sum } from "./support.mjs";
 
 const data = (name) => JSON.parse(readFileSync(join(process.env.RONDEL_SOURCE_DIR, "data", name), "utf8"));

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { delaunay, DynamicTriangulation, RondelError, triangulate, voronoi, type VoronoiDiagram } from "rondel";
-import { geoDelaunay, geoTriangulate, geoVoronoi } from "rondel/d3";
+import { delaunay, DynamicTriangulation, RondelError, voronoi, type VoronoiDiagram } from "rondel";
+import { geoDelaunay, geoVoronoi } from "rondel/d3";
+import { geoTriangulate, triangulate } from "rondel/polygons";
 import { startWorker } from "rondel/worker";
 
 const diagram: VoronoiDiagram = voronoi.lonLat([0, 0, 90, 0], { radii: [1, 2] });

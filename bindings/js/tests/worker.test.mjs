@@ -5,7 +5,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { delaunay, RondelError, triangulate, voronoi } from "rondel";
+import { delaunay, RondelError, voronoi } from "rondel";
+import { triangulate } from "rondel/polygons";
 import { startWorker } from "rondel/worker";
 import { randomSites } from "./support.mjs";
 

@@ -175,8 +175,16 @@ TEST(domain_triangles, order_and_threads_change_nothing) {
   const Geometries sea = polygon({box(-5, -4, 6, 5)});
   const Geometries east = polygon({box(1, 1, 2, 3)});
   const Geometries west = polygon({box(-3, -2, 0, 1)});
-  const auto first = places_of(triangles({{east, west}, {sea}, {}}, spaced(1)));
-  EXPECT_TRUE(first == places_of(triangles({{west, east}, {sea}, {}}, spaced(1), {.threads = 2})));
+  TrianglesOptions options = spaced(1);
+  for (const double share : {0.0, 1.0}) {
+    options.fill_narrow = share;
+    const DomainTriangles one = triangles({{east, west}, {sea}, {}}, options);
+    const DomainTriangles other = triangles({{west, east}, {sea}, {}}, options, {.threads = 2});
+    EXPECT_TRUE(std::ranges::equal(one.mesh.nodes, other.mesh.nodes));
+    EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+    EXPECT_EQ(one.mesh.edges, other.mesh.edges);
+    EXPECT_EQ(one.features, other.features);
+  }
 }
 
 // Returns the length of the shortest edge in degrees.

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /**
- * geoDelaunay, geoVoronoi and geoContour as d3-geo-voronoi 2.1 has them, exact for close, cocircular and equal points;
- * and geoTriangulate, the triangles of polygons.
+ * geoDelaunay, geoVoronoi and geoContour as d3-geo-voronoi 2.1 has them, exact for close, cocircular and equal points.
  * @module
  */
 
 export { geoContour } from "./contour.js";
 export { geoDelaunay } from "./delaunay.js";
-export { geoTriangulate } from "./triangulate.js";
 export { geoVoronoi } from "./voronoi.js";

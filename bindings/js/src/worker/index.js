@@ -21,8 +21,8 @@ import { RondelError } from "../errors.js";
 /** @typedef {import("../triangulation.js").Cells} Cells */
 /** @typedef {import("../located.js").SiteLists} SiteLists */
 /** @typedef {import("../located.js").Locations} Locations */
-/** @typedef {import("../triangulate.js").Triangles} Triangles */
-/** @typedef {import("../triangulate.js").TriangulateOptions} TriangulateOptions */
+/** @typedef {import("../polygons/triangulate.js").Triangles} Triangles */
+/** @typedef {import("../polygons/triangulate.js").TriangulateOptions} TriangulateOptions */
 
 /**
  * @typedef {object} RemoteQuestions see Located

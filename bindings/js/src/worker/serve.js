@@ -6,7 +6,6 @@
 
 import { DynamicTriangulation } from "../dynamic.js";
 import { delaunay, voronoi } from "../build.js";
-import { triangulate } from "../triangulate.js";
 
 const properties = ["dimension", "numSites", "numVertices", "numFaces"];
 const arrays = ["triangles", "neighbors", "ghostFaces", "ring", "duplicates", "hidden"];
@@ -34,7 +33,10 @@ const makers = {
   /** @param {any[]} args */
   voronoi: (...args) => described(voronoi(.../** @type {[any]} */ (args)), [...properties, ...arrays, ...dualArrays]),
   /** @param {any[]} args */
-  triangulate: (...args) => triangulate(.../** @type {[any]} */ (args)),
+  triangulate: async (...args) => {
+    const { triangulate } = await import("../polygons/triangulate.js"); // most workers do not load it
+    return triangulate(.../** @type {[any]} */ (args));
+  },
   /** @param {any[]} args */
   dynamic: (...args) => ({ object: keep(new DynamicTriangulation(...args)) }),
 };
@@ -61,9 +63,9 @@ function buffersOf(value) {
 }
 
 /** @param {any} message @param {(reply: any, transfer: ArrayBuffer[]) => void} post */
-export function serve(message, post) {
+export async function serve(message, post) {
   try {
-    const value = answer(message);
+    const value = await answer(message);
     post({ id: message.id, value }, [...new Set(buffersOf(value))]);
   } catch (error) {
     const { name, message: text, index } = /** @type {any} */ (error);

@@ -4,10 +4,10 @@
 // Triangles that fill polygons of GeoJSON.
 
 import { engine } from "./engine.js";
-import { RondelError } from "./errors.js";
+import { RondelError } from "../errors.js";
 import { flatPolygons } from "./geojson.js";
 
-/** @typedef {import("./engine.js").Engine} Engine */
+/** @typedef {import("../instance.js").Engine} Engine */
 
 /**
  * Triangles that fill polygons: `points` are x, y, z of unit vectors; `triangles` three positions in points each,

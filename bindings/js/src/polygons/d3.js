@@ -3,13 +3,13 @@
 
 // Triangles of polygons as d3-geo has them: sides are great circles, and what is inside is to the right of rings.
 
-import { unitVectors } from "../build.js";
-import { engine } from "../engine.js";
-import { flatPolygons } from "../geojson.js";
-import { trianglesOf, wideOffsets, withMade } from "../triangulate.js";
-import { toLonLat } from "./sphere.js";
+import { toLonLat } from "../d3/sphere.js";
+import { unitVectorsBy } from "../instance.js";
+import { engine } from "./engine.js";
+import { flatPolygons } from "./geojson.js";
+import { trianglesOf, wideOffsets, withMade } from "./triangulate.js";
 
-/** @typedef {import("./sphere.js").LonLat} LonLat */
+/** @typedef {import("../d3/sphere.js").LonLat} LonLat */
 
 /**
  * `triangles` are three positions in points each, counterclockwise seen from outside. `features` has those of each
@@ -19,7 +19,7 @@ import { toLonLat } from "./sphere.js";
 
 /**
  * The rings of features with the interior to their left, each corner once: a polygon of arcs for each feature.
- * @param {import("../geojson.js").FlatPolygons} flat
+ * @param {import("./geojson.js").FlatPolygons} flat
  */
 function turnedRings({ features, polygons, rings, lonLat }) {
   /** @type {{cells: number[], rings: number[], lonLat: number[]}} */
@@ -48,7 +48,7 @@ export function geoTriangulate(object, { spacing = 0 } = {}) {
   const owner = engine();
   const flat = flatPolygons(object);
   const { cells, rings, lonLat } = turnedRings(flat);
-  const corners = unitVectors(lonLat);
+  const corners = unitVectorsBy(owner, Float64Array.from(lonLat));
   const n = cells.length - 1;
   const whole = Uint32Array.from(flat.isSphere.flatMap((is, f) => (is ? [f] : [])));
   const made = withMade(

@@ -3,7 +3,7 @@
 
 // The polygons of GeoJSON as flat arrays.
 
-import { RondelError } from "./errors.js";
+import { RondelError } from "../errors.js";
 
 /**
  * Polygon p of all has the rings polygons[p] ... polygons[p + 1] - 1, ring r the positions rings[r] ... rings[r + 1] - 1,

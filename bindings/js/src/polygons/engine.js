@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The engine of polygons.wasm.
+
+import { loader } from "../instance.js";
+import { encodedModule } from "./module.js";
+
+const shared = loader(encodedModule);
+export const engine = shared.engine;
+
+/**
+ * Compiles the module polygons.wasm without blocking, for pages whose browser refuses to compile large modules at once on its main
+ * thread, or that do not want to wait. Everywhere else the first call of any function does that by itself.
+ * @param {BufferSource | WebAssembly.Module} [source] the module, of this version, where it comes from elsewhere than
+ *   from this package's text
+ * @returns {Promise<void>}
+ */
+export function init(source) {
+  return shared.init(source);
+}
