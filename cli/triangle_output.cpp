@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
+#include "mesh_spacing.h"
 #include "report.h"
 
 namespace rondel::cli {
@@ -61,8 +63,13 @@ nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh) {
   for (const mesh::BoundaryKind kind : all_kinds) {
     segments[std::string(name_of(kind))] = number_of(kind, mesh);
   }
-  return {
-      {"nodes", mesh.points.size()}, {"triangles", mesh.triangles.size()}, {"segments", segments}};
+  const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
+  return {{"nodes", mesh.points.size()},
+          {"triangles", mesh.triangles.size()},
+          {"segments", segments},
+          {"smallest_angle", quality.smallest_angle_deg},
+          {"shortest_edge_km", quality.shortest_edge * kilometers_per_radian},
+          {"longest_edge_km", quality.longest_edge * kilometers_per_radian}};
 }
 
 std::string text_of_triangles(const mesh::TriangleMesh& mesh) {
@@ -72,7 +79,13 @@ std::string text_of_triangles(const mesh::TriangleMesh& mesh) {
     text += (kind == all_kinds.front() ? " " : ", ") + std::to_string(number_of(kind, mesh)) + ' ' +
             std::string(name_of(kind));
   }
-  return text;
+  const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
+  std::array<char, 120> line{};
+  std::snprintf(line.data(), line.size(),
+                "\nedges from %.4g to %.4g km; the smallest angle is %.2f degrees",
+                quality.shortest_edge * kilometers_per_radian,
+                quality.longest_edge * kilometers_per_radian, quality.smallest_angle_deg);
+  return text + line.data();
 }
 
 }  // namespace rondel::cli

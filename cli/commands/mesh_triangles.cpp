@@ -12,10 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -105,63 +103,19 @@ mesh::TriangleMesh mesh_of(const mesh::DomainTriangles& made, const MeshTriangle
   return result;
 }
 
-// The smallest angle and the extreme edges of all triangles, for the summary.
-struct TriangleQuality {
-  double smallest_angle_deg = 180;
-  double shortest_km = std::numeric_limits<double>::infinity();
-  double longest_km = 0;
-};
-
-TriangleQuality quality_of(const mesh::RefinedMesh& made) {
-  TriangleQuality quality;
-  const auto square_of_chord = [&](Index a, Index b) {
-    const Point& p = made.nodes[a];
-    const Point& q = made.nodes[b];
-    return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z);
-  };
-  double least = 4;
-  double most = 0;
-  double largest_cosine = -1;
-  for (const auto& [a, b, c] : made.triangles) {
-    const std::array<double, 3> squares = {square_of_chord(b, c), square_of_chord(c, a),
-                                           square_of_chord(a, b)};
-    for (unsigned i = 0; i < 3; ++i) {
-      const double p = squares[(i + 1) % 3];
-      const double q = squares[(i + 2) % 3];
-      largest_cosine = std::max(largest_cosine, (p + q - squares[i]) / (2 * std::sqrt(p * q)));
-      least = std::min(least, squares[i]);
-      most = std::max(most, squares[i]);
-    }
-  }
-  quality.smallest_angle_deg = std::acos(std::min(largest_cosine, 1.0)) * 180 / std::numbers::pi;
-  const auto kilometers = [](double square) {
-    return 2 * std::asin(std::sqrt(square) / 2) * kilometers_per_radian;
-  };
-  quality.shortest_km = kilometers(least);
-  quality.longest_km = kilometers(most);
-  return quality;
-}
-
 void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTriangles& made,
                       const mesh::TriangleMesh& result, Job& job) {
   const mesh::RefineReport& refined = made.mesh.report;
-  const TriangleQuality quality = quality_of(made.mesh);
   const double seconds = job.seconds().total;
   const double filled_km2 = made.filled_area * kilometers_per_radian * kilometers_per_radian;
   nlohmann::ordered_json json = json_of_triangles(result);
-  json["smallest_angle"] = quality.smallest_angle_deg;
-  json["shortest_edge_km"] = quality.shortest_km;
-  json["longest_edge_km"] = quality.longest_km;
   json["filled_km2"] = filled_km2;
   json["small_parts"] = made.num_small_parts;
   json["near_small_angles"] = refined.num_near_small_angles;
   json["too_small"] = refined.num_too_small;
   json["seconds"] = seconds;
   std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(),
-                "edges from %.4g to %.4g km; the smallest angle is %.2f degrees\n",
-                quality.shortest_km, quality.longest_km, quality.smallest_angle_deg);
-  std::string summary = text_of_triangles(result) + '\n' + text.data();
+  std::string summary = text_of_triangles(result) + '\n';
   if (options.fill_narrow > 0) {
     std::snprintf(text.data(), text.size(), "filled %.6g km2 of narrow water\n", filled_km2);
     summary += text.data();

@@ -112,6 +112,16 @@ triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
 ///         and latitudes beyond a pole; and for what breaks 1 or 2
 RONDEL_API void require_valid(const TriangleMesh& mesh);
 
+/// What the time step and the errors of a model depend on.
+struct TriangleQuality {
+  double smallest_angle_deg = 0;  ///< of all triangles, between chords
+  double shortest_edge = 0;       ///< of all edges, in radians
+  double longest_edge = 0;
+};
+
+/// Returns the extreme edges and the smallest angle of a mesh; zeros if it has no triangles.
+RONDEL_API TriangleQuality triangle_quality(const TriangleMesh& mesh);
+
 /// Returns the nodes with several gaps between their triangles, ascending: SCHISM, ADCIRC and FESOM
 /// refuse them.
 /// \throws InvalidInput as boundary_segments() does

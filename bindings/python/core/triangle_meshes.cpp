@@ -123,6 +123,10 @@ void add_triangle_meshes(nb::module_& module) {
   type.def_prop_rw("boundary", &segments_out, &set_segments, nb::for_getter(nb::rv_policy::move));
   type.def("pinched_nodes",
            [](const TriangleMesh& mesh) { return indices_out(mesh::pinched_nodes(mesh)); });
+  type.def("quality", [](const TriangleMesh& mesh) {
+    const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
+    return std::tuple(quality.smallest_angle_deg, quality.shortest_edge, quality.longest_edge);
+  });
   type.def("write", &write_triangle_file, nb::arg("path"), nb::arg("format"), nb::arg("threads"));
   module.def("mesh_of_triangles", &mesh_of_triangles, nb::arg("points").noconvert(),
              nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),

@@ -43,6 +43,23 @@ class Boundary(NamedTuple):
     type: int | None = None
 
 
+class TriangleQuality(NamedTuple):
+    """What the time step and the errors of a model depend on.
+
+    Attributes
+    ----------
+    smallest_angle : float
+        The smallest angle of all triangles, in degrees.
+    shortest_edge, longest_edge : float
+        Lengths in radians.
+
+    """
+
+    smallest_angle: float
+    shortest_edge: float
+    longest_edge: float
+
+
 class TriangleMesh:
     """Triangles on the sphere for models of the ocean, with depths and a border, all immutable.
 
@@ -164,6 +181,11 @@ class TriangleMesh:
     def pinched_nodes(self) -> IntArray:
         """The nodes with several gaps between triangles, which models refuse, int32."""
         return self._arrays.pinched_nodes()
+
+    @property
+    def quality(self) -> TriangleQuality:
+        """TriangleQuality: the smallest angle and the extreme edges."""
+        return TriangleQuality(*self._arrays.quality())
 
     def write(self, path: Path, *, format: str | None = None, threads: int | None = None) -> None:
         """Writes a file, complete or not at all.

@@ -22,7 +22,13 @@ from ._mesh_making import (
     scvt_points,
 )
 from ._mesh_parts import Lines
-from ._triangle_mesh import Boundary, TriangleMesh, read_triangles, triangles
+from ._triangle_mesh import (
+    Boundary,
+    TriangleMesh,
+    TriangleQuality,
+    read_triangles,
+    triangles,
+)
 from ._types import ArrayLike, Path, Progress
 from ._voronoi_mesh import Culled, EdgeWeights, Mesh
 
@@ -35,6 +41,7 @@ __all__ = [
     "Mesh",
     "ScvtReport",
     "TriangleMesh",
+    "TriangleQuality",
     "equal_area",
     "from_points",
     "read",
