@@ -5,12 +5,8 @@
 // canonical order, and list which constraint each edge comes from.
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstddef>
-#include <memory>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "api/build.h"
@@ -18,10 +14,9 @@
 #include "api/validation.h"
 #include "constrained/constrained_faces.h"
 #include "constrained/constrained_order.h"
+#include "constrained/constrained_result.h"
 #include "constrained/constraints.h"
 #include "constrained/split_constraints.h"
-#include "exact/vector.h"
-#include "order/sorts.h"
 #include "rondel/constrained.h"
 #include "rondel/delaunay.h"
 #include "system/job.h"
@@ -38,48 +33,6 @@ std::string text_of(const Ends& constraints, const LonLat& place) {
          std::to_string(constraints[1]) + " cross at longitude " +
          system::shortest_text(place.lon_deg) + ", latitude " +
          system::shortest_text(place.lat_deg);
-}
-
-// Returns where two arcs cross, up to rounding.
-LonLat place_of_crossing(const NamedSites& sites, const Ends& e, const Ends& f,
-                         const Sphere& sphere) {
-  const auto direction = [&](Index v) {
-    const exact::Vector3<double> point = exact::to_vector(sites.point(v));
-    const exact::Vector3<double> center = exact::to_vector(sphere.center);
-    const exact::Vector3<double> ray = point - center;
-    const bool is_finite = std::isfinite(largest_coordinate(ray));
-    return normalized(scaled(is_finite ? ray : 0.5 * point - 0.5 * center));
-  };
-  const auto a = direction(e[0]);
-  const auto b = direction(e[1]);
-  const auto c = direction(f[0]);
-  const auto d = direction(f[1]);
-  auto place = cross(cross(a, b - a), cross(c, d - c));
-  if (dot(place, a + b) < 0) place = -1.0 * place;
-  // What rounding leaves nothing of has another place of the arcs.
-  for (const auto& other : {a + b, c + d, a}) {
-    if (!(dot(place, place) > 0)) place = other;
-  }
-  const Point point = exact::to_point(place);
-  return lonlats(std::span(&point, 1))[0];
-}
-
-// Sorts pieces by their ends, which are less than `bound`.
-void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
-  const auto width = static_cast<int>(std::bit_width(bound));
-  order::KeyedIndices keyed;
-  keyed.keys.reserve(pieces.size());
-  keyed.indices.reserve(pieces.size());
-  for (const ConstrainedPiece& piece : pieces) {
-    keyed.keys.push_back(std::uint64_t{piece.low} << width | piece.high);
-    keyed.indices.push_back(piece.constraint);
-  }
-  order::radix_sort(keyed, 2 * width);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto low = static_cast<Index>(keyed.keys[i] >> width);
-    const auto high = static_cast<Index>(keyed.keys[i] ^ std::uint64_t{low} << width);
-    pieces[i] = {low, high, keyed.indices[i]};
-  }
 }
 
 // Inserts all constraints, and returns their pieces, sorted by their ends.
@@ -109,43 +62,13 @@ std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSit
       return piece.low == edge.low && piece.high == edge.high;
     });
     const auto [low, high] = std::minmax(i, other->constraint);
-    throw CrossingConstraints(low, high,
-                              place_of_crossing(sites, ends[low], ends[high], job.sphere));
+    throw CrossingConstraints(
+        low, high,
+        place_of_crossing({sites.point(ends[low][0]), sites.point(ends[low][1])},
+                          {sites.point(ends[high][0]), sites.point(ends[high][1])}, job.sphere));
   }
   sort_by_ends(pieces, sites.size());
   return pieces;
-}
-
-// Lists edges with their constraints, or with the sources of these.
-void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
-                ConstrainedTriangulation& result) {
-  std::vector<Index>& values = result.sources.values;
-  for (std::size_t begin = 0; begin < pieces.size();) {
-    const Ends edge = {pieces[begin].low, pieces[begin].high};
-    const auto first = static_cast<std::ptrdiff_t>(values.size());
-    std::size_t end = begin;
-    for (; end < pieces.size() && Ends{pieces[end].low, pieces[end].high} == edge; ++end) {
-      const Index constraint = pieces[end].constraint;
-      if (sources == nullptr) {
-        values.push_back(constraint);
-      } else {
-        values.insert(values.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
-      }
-    }
-    std::sort(values.begin() + first, values.end());
-    values.erase(std::unique(values.begin() + first, values.end()), values.end());
-    result.edges.push_back(edge);
-    result.sources.end_row();
-    begin = end;
-  }
-}
-
-// Returns a triangulation of faces that are not all Delaunay: what relies on that proves it first.
-Triangulation with_faces(const Sites& sites, api::Parts& built, const system::Job& job) {
-  const auto impl =
-      std::make_shared<Triangulation::Impl>(sites, std::move(built.arrays), job, built.report);
-  impl->proof = &api::prove_delaunay;
-  return Triangulation(impl);
 }
 
 ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> constraints,
@@ -163,8 +86,8 @@ ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> con
     ConstrainedFaces faces(sites.points(), built, job.sphere, job.threads);
     list_edges(insert_all(faces, named, ends, job), sources, result);
     if (faces.has_changes()) {
-      write_in_order(faces, job.threads, built.arrays, result.sides);
-      result.triangulation = with_faces(sites, built, job);
+      write_in_order(faces.to_order(), job.threads, built.arrays, result.sides);
+      result.triangulation = with_faces(sites, std::move(built.arrays), job, built.report);
       system::announce(job, "constrain", 1);
       return result;
     }

@@ -8,9 +8,9 @@
 #include "constrained/constrained_order.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
+#include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "topology/mesh.h"
 
@@ -22,18 +22,18 @@ using topology::next_corner;
 // Faces that start with their owners.
 class FaceOrder {
  public:
-  explicit FaceOrder(const ConstrainedFaces& all)
-      : all_(all), order_(all.faces().size() + 1), place_(all.faces().size()) {}
+  explicit FaceOrder(const FacesToOrder& all)
+      : all_(all), order_(all.faces.size() + 1), place_(all.faces.size()) {}
 
   void run() {
     list_changed();
-    const LargeVector<Triple>& faces = all_.faces();
+    const std::span<const Triple> faces = all_.faces;
     std::size_t end = 0;
     std::size_t f = 0;
-    for (Index v = 0; v < all_.num_vertices(); ++v) {
+    for (Index v = 0; v < all_.names.size(); ++v) {
       const std::size_t begin = end;
       for (; f < faces.size(); ++f) {
-        const bool is_old = !all_.is_changed(static_cast<Index>(f));
+        const bool is_old = !all_.is_changed(f);
         if (is_old && faces[f][0] != v) break;
         // What is left out is overwritten: nothing predicts a branch here.
         order_[end] = static_cast<Index>(f);
@@ -41,7 +41,7 @@ class FaceOrder {
       }
       for (Index g = changed_[v]; g != no_index; g = place_[g]) order_[end++] = g;
       const std::span<Index> own = std::span(order_).subspan(begin, end - begin);
-      if (own.size() > 1 && all_.is_touched(v)) sort_around(own);
+      if (own.size() > 1 && all_.is_touched[v] != 0) sort_around(own);
       for (std::size_t i = begin; i < end; ++i) place_[order_[i]] = static_cast<Index>(i);
     }
     order_.pop_back();
@@ -54,16 +54,16 @@ class FaceOrder {
  private:
   // Makes the lists of faces that changed; places that are not known yet have the next of a list.
   void list_changed() {
-    changed_.assign(all_.num_vertices(), no_index);
-    for (Index f = 0; f < all_.faces().size(); ++f) {
-      if (all_.is_changed(f)) place_[f] = std::exchange(changed_[all_.faces()[f][0]], f);
+    changed_.assign(all_.names.size(), no_index);
+    for (Index f = 0; f < all_.faces.size(); ++f) {
+      if (all_.is_changed(f)) place_[f] = std::exchange(changed_[all_.faces[f][0]], f);
     }
   }
 
   // The face with the earlier second corner comes first, or the solid one if they have the same.
   [[nodiscard]] bool starts_before(Index g, Index h) const {
-    const Index v = all_.faces()[g][1];
-    const Index w = all_.faces()[h][1];
+    const Index v = all_.faces[g][1];
+    const Index w = all_.faces[h][1];
     if (v != w) return v < w;
     return all_.is_solid(g) && !all_.is_solid(h);
   }
@@ -75,17 +75,17 @@ class FaceOrder {
     std::ranges::iter_swap(own.begin(), first);
     if (own.size() == 2) return;
     Index f = own[0];
-    const Index v = all_.faces()[f][0];
+    const Index v = all_.faces[f][0];
     unsigned corner = 0;
     for (std::size_t found = 1; found < own.size();) {
-      f = all_.neighbors()[f][next_corner[corner]];
-      const Triple& face = all_.faces()[f];
+      f = all_.neighbors[f][next_corner[corner]];
+      const Triple& face = all_.faces[f];
       corner = face[0] == v ? 0 : face[1] == v ? 1 : 2;
       if (corner == 0) own[found++] = f;
     }
   }
 
-  const ConstrainedFaces& all_;
+  const FacesToOrder& all_;
   LargeVector<Index> order_;
   LargeVector<Index> place_;
   std::vector<Index> changed_;  // by owner: the first face of its list
@@ -93,9 +93,8 @@ class FaceOrder {
 
 }  // namespace
 
-void write_in_order(ConstrainedFaces& all, unsigned threads, TriangulationArrays& arrays,
+void write_in_order(const FacesToOrder& all, unsigned threads, TriangulationArrays& arrays,
                     std::vector<std::uint8_t>& sides) {
-  all.start_with_owners();
   FaceOrder faces(all);
   faces.run();
   const LargeVector<Index>& order = faces.order();
@@ -108,10 +107,10 @@ void write_in_order(ConstrainedFaces& all, unsigned threads, TriangulationArrays
     for (std::size_t i = begin; i < end; ++i) {
       const Index f = order[i];
       for (unsigned j = 0; j < 3; ++j) {
-        arrays.faces[i][j] = all.name_of(all.faces()[f][j]);
-        arrays.neighbors[i][j] = place[all.neighbors()[f][j]];
+        arrays.faces[i][j] = all.names[all.faces[f][j]];
+        arrays.neighbors[i][j] = place[all.neighbors[f][j]];
       }
-      sides[i] = all.sides()[f];
+      sides[i] = all.sides[f];
     }
   });
   for (Index& f : arrays.ghost_faces) f = place[f];

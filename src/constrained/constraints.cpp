@@ -116,6 +116,21 @@ NamedSites::NamedSites(std::span<const Point> sites, std::span<const Duplicate> 
   }
 }
 
+void require_arc(std::span<const Point> sites, const std::array<Index, 2>& ends,
+                 const Sphere& sphere, const std::string& what, std::size_t position) {
+  const auto [a, b] = ends;
+  if (a == b) throw InvalidInput(what + " begins and ends at site " + text_of(a), position);
+  const auto both = [&, first = a, second = b] {
+    return what + " joins sites " + text_of(first) + " and " + text_of(second);
+  };
+  if (is_same_site(sites[a], sites[b], Model::projected, sphere)) {
+    throw InvalidInput(both() + ", which are in one place", position);
+  }
+  if (are_dependent(sites[a], sites[b], sphere)) {
+    throw InvalidInput(both() + ", which are opposite to each other", position);
+  }
+}
+
 void require_arcs(std::span<const Point> sites, std::span<const std::array<Index, 2>> constraints,
                   const Sphere& sphere) {
   if (constraints.size() >= no_index) throw InvalidInput("there are too many constraints");
@@ -133,16 +148,8 @@ void require_arcs(std::span<const Point> sites, std::span<const std::array<Index
                              text_of(sites.size()) + " sites",
                          i);
     }
-    if (a == b) throw InvalidInput(what() + " begins and ends at site " + text_of(a), i);
-    if (are_surely_independent(sites[a], sites[b], sphere)) continue;
-    const auto both = [&, first = a, second = b] {
-      return what() + " joins sites " + text_of(first) + " and " + text_of(second);
-    };
-    if (is_same_site(sites[a], sites[b], Model::projected, sphere)) {
-      throw InvalidInput(both() + ", which are in one place", i);
-    }
-    if (are_dependent(sites[a], sites[b], sphere)) {
-      throw InvalidInput(both() + ", which are opposite to each other", i);
+    if (a == b || !are_surely_independent(sites[a], sites[b], sphere)) {
+      require_arc(sites, constraints[i], sphere, what(), i);
     }
   }
 }

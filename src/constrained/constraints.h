@@ -12,6 +12,7 @@
 #include <compare>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "rondel/triangulation.h"
@@ -48,6 +49,10 @@ class NamedSites {
   std::vector<Index> names_;     // by site; empty: there are no duplicates
   std::vector<Index> speakers_;  // by name; empty: there are no duplicates
 };
+
+// Throws InvalidInput with this position if two sites have no arc. `what` begins the message.
+void require_arc(std::span<const Point> sites, const std::array<Index, 2>& ends,
+                 const Sphere& sphere, const std::string& what, std::size_t position);
 
 // Throws InvalidInput with the position of the first constraint that has no arc. The sites are
 // valid.

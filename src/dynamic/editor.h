@@ -32,7 +32,8 @@
 
 namespace rondel::dynamic {
 
-template <models::SphereModel T>
+// Hull is PlaceHull, or what has its functions: constrained::ConstrainedHull.
+template <models::SphereModel T, class Hull = PlaceHull<T>>
 class Editor {
  public:
   Editor(Model model, const Point& center)
@@ -43,7 +44,11 @@ class Editor {
   [[nodiscard]] const Places& places() const { return places_; }
   [[nodiscard]] const T& sites() const { return sites_; }
   // The hull of the places, whose vertices are their numbers; none below dimension 2.
-  [[nodiscard]] const std::optional<PlaceHull<T>>& hull() const { return hull_; }
+  [[nodiscard]] const std::optional<Hull>& hull() const { return hull_; }
+  // For changes that leave the places alone. If one fails after a site has come or gone, roll_back()
+  // says whether it is there.
+  [[nodiscard]] std::optional<Hull>& hull() { return hull_; }
+  void roll_back(Index site, bool is_there) noexcept { places_.roll_back({&site, 1}, is_there); }
 
   // For queries, as long as nothing changes. Precondition: there is a hull.
   [[nodiscard]] query::SurfaceGraph<T> graph() const {
@@ -180,7 +185,9 @@ class Editor {
   }
   void adopt(topology::Mesh mesh, std::span<const std::array<Index, 2>> hidden) {
     hull_.emplace(sites_, std::move(mesh));
-    for (const auto& [place, close] : hidden) hull_->attach_hidden(place, close);
+    if constexpr (T::hides_sites) {
+      for (const auto& [place, close] : hidden) hull_->attach_hidden(place, close);
+    }
   }
   void adopt_flat() { rebuild(no_index); }
 
@@ -289,9 +296,15 @@ class Editor {
   void take_out(Index place) {
     if (!hull_) {
       leave_span(place);
-    } else if (!hull_->is_vertex(place)) {
-      hull_->remove_hidden(place);
-    } else if (!leaves_flat(hull_->collect_star(place))) {
+      return;
+    }
+    if constexpr (T::hides_sites) {
+      if (!hull_->is_vertex(place)) {
+        hull_->remove_hidden(place);
+        return;
+      }
+    }
+    if (!leaves_flat(hull_->collect_star(place))) {
       hull_->remove_vertex(place);
     } else {
       hull_.reset();
@@ -336,7 +349,7 @@ class Editor {
   Point center_;
   Places places_;
   T sites_;
-  std::optional<PlaceHull<T>> hull_;
+  std::optional<Hull> hull_;
   std::vector<Index> span_;  // without a hull
   RenumberingSchedule schedule_;
 };

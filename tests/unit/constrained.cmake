@@ -8,6 +8,7 @@ rondel_add_test(constrained_test
   constrained/constrained_laws_test.cpp
   constrained/constrained_oracle_test.cpp
   constrained/constrained_proof_test.cpp
+  constrained/dynamic_constrained_test.cpp
   constrained/faces_inside_test.cpp
   constrained/polygon_triangles_test.cpp
   LIBS rondel_geo rondel_test_support)

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The parts that insertion and removal of places share, and constraints.
+
+#include "constrained/constrained_hull.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "predicates/orientation.h"
+#include "system/large_arrays.h"
+
+namespace rondel::constrained {
+
+using topology::edge_of;
+using topology::face_of;
+using topology::Halfedge;
+using topology::halfedge;
+using topology::next_corner;
+using topology::previous_corner;
+
+ConstrainedHull::ConstrainedHull(models::ProjectedPoints& sites, const std::array<Index, 3>& first)
+    : test_(sites) {
+  const auto& [a, b, c] = first;
+  const bool is_positive = side(a, b, c) == Sign::positive;
+  const auto [top, bottom] =
+      topology::flat_pair(mesh_, is_positive ? first : std::array<Index, 3>{a, c, b});
+  adopt(top);
+  adopt(bottom);
+}
+
+ConstrainedHull::ConstrainedHull(models::ProjectedPoints& sites, topology::Mesh mesh)
+    : test_(sites), mesh_(std::move(mesh)) {
+  mesh_.for_each_face([this](Index f) { adopt(f); });
+}
+
+Sign ConstrainedHull::side(Index a, Index b, Index v) const {
+  return predicates::orientation(test_.sites(), a, b, v).sign;
+}
+
+ConstrainedHull::Edge ConstrainedHull::ends_of(Halfedge h) const {
+  const Triple& v = mesh_[face_of(h)].vertex;
+  return {v[next_corner[edge_of(h)]], v[previous_corner[edge_of(h)]]};
+}
+
+void ConstrainedHull::set_side(Halfedge h, bool is_constrained) {
+  const unsigned bit = 1U << edge_of(h);
+  const auto bits = static_cast<unsigned>(sides_[face_of(h)]);
+  sides_[face_of(h)] = static_cast<std::uint8_t>(is_constrained ? bits | bit : bits & ~bit);
+}
+
+void ConstrainedHull::set_sides(Halfedge h, bool is_constrained) {
+  set_side(h, is_constrained);
+  set_side(opposite(h), is_constrained);
+}
+
+void ConstrainedHull::set_corners(Index f) {
+  const Triple& v = mesh_[f].vertex;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (v[i] >= corner_of_.size()) corner_of_.resize(v[i] + std::size_t{1}, no_index);
+    corner_of_[v[i]] = halfedge(f, i);
+  }
+}
+
+void ConstrainedHull::adopt(Index f) {
+  if (f >= sides_.size()) sides_.resize(f + std::size_t{1});
+  sides_[f] = 0;
+  const Triple& v = mesh_[f].vertex;
+  const kernel::FaceKind kind = kernel::kind_of(side(v[0], v[1], v[2]));
+  kinds_.add(f, kind);
+  if (kind != kernel::FaceKind::solid) return;
+  set_corners(f);
+  solid_face_ = f;
+}
+
+void ConstrainedHull::replace(Index f, const Triple& corners) {
+  mesh_[f].vertex = corners;
+  sides_[f] = 0;
+  set_corners(f);
+  solid_face_ = f;
+}
+
+void ConstrainedHull::renumber(const dynamic::Renumbering& places) {
+  dynamic::RenumberedMesh renumbered = dynamic::renumber(mesh_, places);
+  const std::vector<Index>& new_face = renumbered.new_face;
+  const kernel::FaceKinds kinds = std::exchange(kinds_, {});
+  const std::vector<std::uint8_t> sides = std::exchange(sides_, {});
+  mesh_ = std::move(renumbered.mesh);
+  sides_.resize(mesh_.num_slots());
+  corner_of_ = {};
+  system::reserve_large(corner_of_, places.room());
+  corner_of_.assign(places.old_place.size(), no_index);
+  for (Index f = 0; f < new_face.size(); ++f) {
+    if (new_face[f] == no_index) continue;
+    sides_[new_face[f]] = sides[f];
+    kinds_.add(new_face[f], kinds[f]);
+    if (kinds[f] == kernel::FaceKind::solid) set_corners(new_face[f]);
+  }
+  solid_face_ = new_face[solid_face_];
+  Sources sources;
+  for (auto& [edge, constraints] : sources_) {
+    sources.emplace(edge_between(places.new_place[edge[0]], places.new_place[edge[1]]),
+                    std::move(constraints));
+  }
+  sources_ = std::move(sources);
+}
+
+void ConstrainedHull::adopt_constraints(std::span<const std::uint8_t> sides, Sources sources) {
+  sides_.assign(sides.begin(), sides.end());
+  sources_ = std::move(sources);
+  has_constraints_ = true;
+}
+
+void ConstrainedHull::insert_constraint(Index a, Index b, Index constraint) {
+  insertion_.insert(*this, a, b,
+                    [&](Index v, Index w) { sources_[edge_between(v, w)].push_back(constraint); });
+}
+
+void ConstrainedHull::remove_constraint(Index a, Index b, Index constraint) {
+  while (a != b) {
+    const Departure step = ArcInsertion<ConstrainedHull>::departure(*this, a, b);
+    const Index end = ArcInsertion<ConstrainedHull>::end_along(*this, a, step.halfedge);
+    const auto piece = sources_.find(edge_between(a, end));
+    std::vector<Index>& constraints = piece->second;
+    constraints.erase(std::ranges::find(constraints, constraint));
+    if (constraints.empty()) {
+      sources_.erase(piece);
+      release(step.halfedge);
+    }
+    a = end;
+  }
+}
+
+std::vector<Index> ConstrainedHull::chain(Index a, Index b) const {
+  std::vector<Index> from_first = {a};
+  std::vector<Index> from_last = {b};
+  while (a != b) {
+    // Whichever end has the smaller degree goes on.
+    const Departure step = ArcInsertion<ConstrainedHull>::departure(*this, a, b);
+    const Index end = ArcInsertion<ConstrainedHull>::end_along(*this, a, step.halfedge);
+    (from_first.back() == a ? from_first : from_last).push_back(end);
+    a = end;
+  }
+  from_first.pop_back();
+  from_first.insert(from_first.end(), from_last.rbegin(), from_last.rend());
+  return from_first;
+}
+
+// Lets an edge be free, and makes edges locally Delaunay by flips (Lawson), each of which raises the
+// surface.
+void ConstrainedHull::release(Halfedge h) {
+  set_sides(h, false);
+  to_flip_.assign(1, h);
+  while (!to_flip_.empty()) {
+    const Halfedge edge = to_flip_.back();
+    to_flip_.pop_back();
+    const Halfedge beyond = opposite(edge);
+    if (is_constrained(edge) || !is_solid(face_of(edge)) || !is_solid(face_of(beyond))) continue;
+    const Index apex = mesh_[face_of(beyond)].vertex[edge_of(beyond)];
+    if (is_in_conflict(face_of(edge), apex)) flip(edge);
+  }
+}
+
+//            c                   c
+//          / | \               /   \         The edge of h and its opposite goes from b to c; after
+//         a f|g d     ->      a-----d        the flip from a to d.
+//          \ | /               \   /
+//            b                   b
+void ConstrainedHull::flip(Halfedge h) {
+  const Halfedge o = opposite(h);
+  const Index f = face_of(h);
+  const Index g = face_of(o);
+  const topology::Face& left = mesh_[f];
+  const topology::Face& right = mesh_[g];
+  const Index a = left.vertex[edge_of(h)];
+  const Index d = right.vertex[edge_of(o)];
+  const auto [b, c] = ends_of(h);
+  struct Outer {
+    Halfedge inside;
+    Halfedge outside;
+    bool is_constrained;
+  };
+  const auto outer = [this](Halfedge inside, Halfedge old) {
+    return Outer{inside, opposite(old), is_constrained(old)};
+  };
+  const std::array<Outer, 4> around = {
+      outer(halfedge(f, 0), halfedge(g, next_corner[edge_of(o)])),
+      outer(halfedge(f, 2), halfedge(f, previous_corner[edge_of(h)])),
+      outer(halfedge(g, 0), halfedge(g, previous_corner[edge_of(o)])),
+      outer(halfedge(g, 1), halfedge(f, next_corner[edge_of(h)]))};
+  replace(f, {a, b, d});
+  replace(g, {a, d, c});
+  mesh_.link(halfedge(f, 1), halfedge(g, 2));
+  for (const Outer& edge : around) {
+    mesh_.link(edge.inside, edge.outside);
+    if (edge.is_constrained) set_side(edge.inside, true);
+    to_flip_.push_back(edge.inside);
+  }
+}
+
+}  // namespace rondel::constrained
