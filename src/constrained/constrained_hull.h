@@ -134,7 +134,7 @@ class ConstrainedHull {
   static constexpr std::uint8_t in_cavity = 8;
 
   // A face at a vertex, with the edge that leads from the vertex to the face's next corner.
-  struct Spoke {
+  struct StarSpoke {
     Index face;
     Index neighbor;            // the next corner
     topology::Halfedge outer;  // beyond the edge opposite to the vertex
@@ -211,9 +211,9 @@ class ConstrainedHull {
   std::vector<topology::HorizonEdge> stack_;
   std::vector<topology::Halfedge> border_;
   dynamic::LinkTriangulation<models::ProjectedPoints> triangulation_;
-  std::vector<Spoke> spokes_;  // those of solid faces first
-  std::size_t num_solid_ = 0;  // of the spokes
-  std::vector<Index> link_;    // what collect_star() has returned
+  std::vector<StarSpoke> spokes_;  // those of solid faces first
+  std::size_t num_solid_ = 0;      // of the spokes
+  std::vector<Index> link_;        // what collect_star() has returned
   std::vector<Index> free_faces_;
   std::vector<HoleEdge> hole_;
   std::vector<std::size_t> chain_;

@@ -26,9 +26,9 @@ using topology::next_corner;
 using topology::previous_corner;
 
 void ConstrainedHull::insert(Index p, Index close) {
-  const ConstrainedWalk walk(test_.sites(), mesh_, kinds_, sides_, p);
+  ConstrainedWalk walk(test_.sites(), mesh_, kinds_, sides_, p);
   const bool is_close = close != no_index && is_vertex(close);
-  const WalkEnd end = walk.locate(is_close ? solid_face_at(close) : solid_face_);
+  const ConstrainedWalkEnd end = walk.locate(is_close ? solid_face_at(close) : solid_face_);
   assert(end.where != Where::vertex);
   region_.clear();
   horizon_.clear();

@@ -157,7 +157,7 @@ void ConstrainedHull::remove_vertex(Index v) {
 
 void ConstrainedHull::empty_star(Index v) {
   free_faces_.clear();
-  for (const Spoke& spoke : spokes_) {
+  for (const StarSpoke& spoke : spokes_) {
     kinds_.remove(spoke.face);
     free_faces_.push_back(spoke.face);
   }
@@ -174,13 +174,13 @@ void ConstrainedHull::empty_star(Index v) {
 void ConstrainedHull::fill_around(const std::vector<Index>& passing) {
   if (passing.empty()) {
     hole_.clear();
-    for (const Spoke& spoke : spokes_) hole_.push_back({spoke.neighbor, spoke.outer});
+    for (const StarSpoke& spoke : spokes_) hole_.push_back({spoke.neighbor, spoke.outer});
     fill(true);
     return;
   }
-  const auto begin = std::ranges::find(spokes_, passing[0], &Spoke::neighbor);
+  const auto begin = std::ranges::find(spokes_, passing[0], &StarSpoke::neighbor);
   std::rotate(spokes_.begin(), begin, spokes_.end());
-  const auto end = std::ranges::find(spokes_, passing[1], &Spoke::neighbor);
+  const auto end = std::ranges::find(spokes_, passing[1], &StarSpoke::neighbor);
   hole_.clear();
   for (auto spoke = spokes_.begin(); spoke != end; ++spoke) {
     hole_.push_back({spoke->neighbor, spoke->outer});
@@ -195,7 +195,7 @@ void ConstrainedHull::fill_around(const std::vector<Index>& passing) {
   mesh_.link(one, fill(false));
 }
 
-// Lists the spokes of solid faces that lead to the new border, clockwise around v: from u to w. Spoke
+// Lists the spokes of solid faces that lead to the new border, clockwise around v: from u to w. StarSpoke
 // num_solid_ leads to u.
 void ConstrainedHull::list_new_border() {
   chain_.clear();

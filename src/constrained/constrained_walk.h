@@ -17,12 +17,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "kernel/walk.h"
 #include "predicates/orientation.h"
+#include "query/locate.h"
 #include "rondel/query.h"
 #include "topology/mesh.h"
 
@@ -30,7 +32,7 @@ namespace rondel::constrained {
 
 // `halfedge` is in a solid face: any one of it, the edge that has p, the one opposite to the vertex
 // that has p, or, if p is outside, one of the border with p strictly beyond it.
-struct WalkEnd {
+struct ConstrainedWalkEnd {
   Where where;
   topology::Halfedge halfedge;
 };
@@ -42,12 +44,19 @@ class ConstrainedWalk {
   // `sides` are bits by face, as in ConstrainedTriangulation.
   ConstrainedWalk(const Source& source, const topology::Mesh& mesh, const kernel::FaceKinds& kinds,
                   std::span<const std::uint8_t> sides, Index p)
-      : source_(source), mesh_(mesh), kinds_(kinds), sides_(sides), p_(p) {}
+      : source_(source),
+        mesh_(mesh),
+        kinds_(kinds),
+        sides_(sides),
+        p_(p),
+        steps_left_(16 * (std::size_t{mesh.num_slots()} + 1)) {}
 
-  // Finds p from a solid face on.
-  [[nodiscard]] WalkEnd locate(Index f) const {
+  // Finds p from a solid face on. Throws InvalidInput at last if the sites are not those that were
+  // triangulated.
+  [[nodiscard]] ConstrainedWalkEnd locate(Index f) {
     unsigned entered = 3;
     for (;;) {
+      count_step();
       std::array<Sign, 3> side = {Sign::positive, Sign::positive, Sign::positive};
       unsigned i = 0;
       bool is_beyond_constraint = false;
@@ -80,6 +89,11 @@ class ConstrainedWalk {
     ArcStep step;
   };
 
+  // A face is visited at most once by each part of the walk, and its corners once each by the turns
+  // around vertices.
+  void count_step() {
+    if (steps_left_-- == 0) query::refuse_sites();
+  }
   [[nodiscard]] bool is_solid(Index f) const { return kinds_[f] == kernel::FaceKind::solid; }
   [[nodiscard]] bool is_constrained(Index f, unsigned edge) const {
     return (static_cast<unsigned>(sides_[f]) >> edge & 1U) != 0;
@@ -98,7 +112,7 @@ class ConstrainedWalk {
   }
 
   // p is beyond no edge of the face.
-  [[nodiscard]] static WalkEnd inside(Index f, const std::array<Sign, 3>& side) {
+  [[nodiscard]] static ConstrainedWalkEnd inside(Index f, const std::array<Sign, 3>& side) {
     unsigned num_zeros = 0;
     unsigned zero = 0;
     unsigned other = 0;
@@ -112,21 +126,21 @@ class ConstrainedWalk {
   }
 
   // p is not in the face.
-  [[nodiscard]] WalkEnd follow_arc(Index f) const {
+  [[nodiscard]] ConstrainedWalkEnd follow_arc(Index f) {
     // p may be opposite to one corner.
     const auto& v = mesh_[f].vertex;
     const bool is_opposite =
         oriented(v[0], v[1], p_) == Sign::zero && oriented(v[0], v[2], p_) == Sign::zero;
     FaceCorner at = {f, is_opposite ? 1U : 0U};
     for (;;) {
-      const std::optional<WalkEnd> end = follow_arc_from(at);
+      const std::optional<ConstrainedWalkEnd> end = follow_arc_from(at);
       if (end) return *end;
     }
   }
 
   // Follows the arc from a vertex to p, up to the next vertex on it: then `at` is that, in the face
   // before, and nothing is returned.
-  [[nodiscard]] std::optional<WalkEnd> follow_arc_from(FaceCorner& at) const {
+  [[nodiscard]] std::optional<ConstrainedWalkEnd> follow_arc_from(FaceCorner& at) {
     const Index q = vertex(at);
     FaceCorner first = at;
     FaceCorner last = at;
@@ -135,9 +149,9 @@ class ConstrainedWalk {
       // The arc leaves what solid faces cover at q. Then p is beyond an edge of the border there.
       const topology::Halfedge h =
           topology::halfedge(first.face, topology::previous_corner[first.corner]);
-      if (side_of_edge(h) == Sign::negative) return WalkEnd{Where::outside, h};
-      return WalkEnd{Where::outside,
-                     topology::halfedge(last.face, topology::next_corner[last.corner])};
+      if (side_of_edge(h) == Sign::negative) return ConstrainedWalkEnd{Where::outside, h};
+      return ConstrainedWalkEnd{Where::outside,
+                                topology::halfedge(last.face, topology::next_corner[last.corner])};
     }
     const auto [f, corner] = departure->at;
     const topology::Halfedge ahead = topology::halfedge(f, corner);
@@ -148,18 +162,20 @@ class ConstrainedWalk {
         is_next ? topology::next_corner[corner] : topology::previous_corner[corner];
     at = {f, end};
     if (side == Sign::negative) return {};
-    if (side == Sign::zero) return WalkEnd{Where::vertex, topology::halfedge(f, end)};
-    return WalkEnd{Where::edge, topology::halfedge(f, is_next ? topology::previous_corner[corner]
-                                                              : topology::next_corner[corner])};
+    if (side == Sign::zero) return ConstrainedWalkEnd{Where::vertex, topology::halfedge(f, end)};
+    return ConstrainedWalkEnd{Where::edge,
+                              topology::halfedge(f, is_next ? topology::previous_corner[corner]
+                                                            : topology::next_corner[corner])};
   }
 
   // Crosses edges from `h` on, to which the arc from q comes; p is at this side of it.
-  [[nodiscard]] std::optional<WalkEnd> cross_from(Index q, topology::Halfedge h, Sign side,
-                                                  FaceCorner& at) const {
+  [[nodiscard]] std::optional<ConstrainedWalkEnd> cross_from(Index q, topology::Halfedge h,
+                                                             Sign side, FaceCorner& at) {
     while (side == Sign::negative) {
+      count_step();
       const topology::Halfedge entered = mesh_[topology::face_of(h)].opposite[topology::edge_of(h)];
       const Index f = topology::face_of(entered);
-      if (!is_solid(f)) return WalkEnd{Where::outside, h};
+      if (!is_solid(f)) return ConstrainedWalkEnd{Where::outside, h};
       const unsigned apex = topology::edge_of(entered);
       const Sign of_apex = oriented(q, p_, mesh_[f].vertex[apex]);
       // The edges of the face: from its apex to the left, and from the right to its apex.
@@ -169,23 +185,25 @@ class ConstrainedWalk {
       if (of_apex == Sign::zero && side != Sign::positive) {
         at = {f, apex};
         if (side == Sign::negative) return {};
-        return WalkEnd{Where::vertex, topology::halfedge(f, apex)};
+        return ConstrainedWalkEnd{Where::vertex, topology::halfedge(f, apex)};
       }
     }
-    return WalkEnd{side == Sign::zero ? Where::edge : Where::face, h};
+    return ConstrainedWalkEnd{side == Sign::zero ? Where::edge : Where::face, h};
   }
 
   // Finds the face by which the arc from q to p leaves q: counterclockwise from `first`, and then
   // clockwise. Without one there are ghost faces at q, and `first` and `last` are beside them.
   [[nodiscard]] std::optional<ArcDeparture> find_departure(Index q, FaceCorner& first,
-                                                           FaceCorner& last) const {
+                                                           FaceCorner& last) {
     for (;;) {
+      count_step();
       if (const auto found = departure_by(q, last)) return found;
       const Index next = mesh_.next_around(last.face, last.corner);
       if (!is_solid(topology::face_of(next))) break;
       last = {topology::face_of(next), topology::edge_of(next)};
     }
     for (;;) {
+      count_step();
       const Index previous = mesh_.previous_around(first.face, first.corner);
       if (!is_solid(topology::face_of(previous))) return {};
       first = {topology::face_of(previous), topology::edge_of(previous)};
@@ -210,6 +228,7 @@ class ConstrainedWalk {
   const kernel::FaceKinds& kinds_;
   std::span<const std::uint8_t> sides_;
   Index p_;
+  std::size_t steps_left_;
 };
 
 }  // namespace rondel::constrained

@@ -14,6 +14,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/constrained.h"
 #include "rondel/constrained_features.h"
+#include "rondel/constrained_locator.h"
 #include "rondel/delaunay.h"
 #include "rondel/polygon_triangles.h"
 #include "rondel/predicates.h"
@@ -47,6 +48,29 @@ ConstrainedTriangulation without_refused(const std::vector<Point>& sites,
   }
 }
 
+// A query is in the face where it is found, and otherwise in none.
+void test_location(const ConstrainedTriangulation& result, const std::vector<Point>& queries) {
+  const Triangulation& t = result.triangulation;
+  if (t.dimension() < 2) return;
+  const std::vector<Location> found = ConstrainedLocator(result).locate(queries);
+  const auto has = [&](Index f, const Point& query) {
+    const Triple& face = t.faces()[f];
+    for (unsigned i = 0; i < 3; ++i) {
+      if (orientation(t.sites()[face[i]], t.sites()[face[(i + 1) % 3]], query, t.sphere()) ==
+          Sign::negative) {
+        return false;
+      }
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    Index first = 0;
+    while (first < t.num_faces() && (t.is_ghost(first) || !has(first, queries[k]))) ++first;
+    require(found[k].face == (first < t.num_faces() ? first : no_index),
+            "a query is in the first face that has it");
+  }
+}
+
 void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
                const Sphere& sphere) {
   const ConstrainedTriangulation result = without_refused(sites, constraints, sphere);
@@ -56,6 +80,10 @@ void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
   require(result.sides.size() == t.num_faces(), "sides belong to faces");
   require(result.sources.size() == result.edges.size(), "edges come from constraints");
   require(std::ranges::is_sorted(result.edges), "edges are in order");
+  std::vector<Point> queries = sites;
+  for (const Point& p : sites) queries.push_back({p.y, p.z, p.x});
+  std::erase(queries, sphere.center);
+  test_location(result, queries);
   const auto again = constrained_delaunay(sites, result.edges, {.sphere = sphere});
   require(std::ranges::equal(again.triangulation.faces(), t.faces()), "edges are constraints");
   std::ranges::reverse(constraints);

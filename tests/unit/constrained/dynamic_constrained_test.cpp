@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "rondel/constrained.h"
-#include "rondel/predicates.h"
 #include "support/generators.h"
+#include "support/thrown.h"
 
 namespace rondel::test::of_dynamic_constrained {
 namespace {
@@ -275,6 +275,142 @@ TEST(dynamic_constrained, equals_a_build_after_every_step_on_grids) {
     num_refused += script.num_refused();
   }
   EXPECT_GT(num_refused, 100U);
+}
+
+// A square around the north pole, its middle and the south pole.
+const std::vector<Point> square = {{1, 0, 1},  {0, 1, 1}, {-1, 0, 1},
+                                   {0, -1, 1}, {0, 0, 1}, {0, 0, -1}};
+
+TEST(dynamic_constrained, names_what_it_refuses_and_changes_nothing) {
+  DynamicConstrainedTriangulation changing(square, std::vector<Ends>{{0, 2}, {1, 4}});
+  const auto expect_refusal = [&](const std::string& message, const auto& call) {
+    EXPECT_EQ(thrown_message<InvalidInput>(call), message);
+    ASSERT_NO_FATAL_FAILURE(
+        expect_equal(changing.snapshot().result,
+                     constrained_delaunay(square, std::vector<Ends>{{0, 2}, {1, 4}})));
+  };
+  expect_refusal("site 9 does not exist", [&] { changing.remove(9); });
+  expect_refusal("site 4 is an end of constraint 1", [&] { changing.remove(4); });
+  expect_refusal("site 9 does not exist", [&] { changing.insert({1, 1, 1}, 9); });
+  expect_refusal("constraint 2 does not exist", [&] { changing.remove_constraint(2); });
+  expect_refusal("constraint 2 does not exist", [&] { static_cast<void>(changing.chain(2)); });
+  expect_refusal("the constraint begins and ends at site 3",
+                 [&] { changing.insert_constraint(3, 3); });
+  expect_refusal("the constraint joins sites 4 and 5, which are opposite to each other",
+                 [&] { changing.insert_constraint(4, 5); });
+  EXPECT_EQ(thrown_index([&] { changing.insert_constraint(9, 0); }), 0U);
+  EXPECT_EQ(thrown_index([&] { changing.insert_constraint(0, 9); }), 1U);
+}
+
+TEST(dynamic_constrained, names_constraints_that_cross) {
+  std::vector<Point> sites = square;
+  sites[4] = {0.2, 0.1, 1};
+  DynamicConstrainedTriangulation changing(sites, std::vector<Ends>{{0, 2}});
+  try {
+    changing.insert_constraint(3, 1);
+    FAIL() << "nothing was thrown";
+  } catch (const CrossingConstraints& error) {
+    EXPECT_EQ(error.constraints(), (Ends{0, 1}));
+    EXPECT_NEAR(error.place().lat_deg, 90, 1e-12);
+  }
+  EXPECT_EQ(changing.num_constraints(), 1U);
+  EXPECT_EQ(changing.insert_constraint(0, 4), 1U);
+}
+
+TEST(dynamic_constrained, a_site_divides_constraints_and_lets_them_unite) {
+  std::vector<Point> sites = square;
+  sites.erase(sites.begin() + 4);
+  DynamicConstrainedTriangulation changing(sites, std::vector<Ends>{{2, 0}});
+  const Index middle = changing.insert({0, 0, 3});
+  EXPECT_EQ(changing.chain(0), (std::vector<Index>{2, middle, 0}));
+  // A second one passes the site along another arc.
+  const Index other = changing.insert_constraint(1, 3);
+  EXPECT_EQ(changing.chain(other), (std::vector<Index>{1, middle, 3}));
+  EXPECT_THROW(changing.remove(middle), CrossingConstraints);
+  changing.remove_constraint(other);
+  changing.remove(middle);
+  EXPECT_EQ(changing.chain(0), (std::vector<Index>{2, 0}));
+  EXPECT_EQ(changing.neighbors(0).size(), 4U);
+}
+
+TEST(dynamic_constrained, the_order_of_changes_does_not_matter) {
+  for (std::uint64_t seed = 1; seed <= scaled(10); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    SiteSet pool = grid(1, seed % 2 == 0, random);
+    const DynamicConstrainedTriangulation first(pool.sites, {});
+    // Constraints that do not cross, from an object that tells which ones do.
+    DynamicConstrainedTriangulation all(pool.sites, {});
+    std::vector<Ends> constraints;
+    for (int k = 0; k < 40; ++k) {
+      const Ends ends = {static_cast<Index>(random.below(pool.sites.size())),
+                         static_cast<Index>(random.below(pool.sites.size()))};
+      try {
+        all.insert_constraint(ends[0], ends[1]);
+        constraints.push_back(ends);
+      } catch (const InvalidInput&) {
+        continue;
+      }
+    }
+    // The constraints in another order, between sites that come in between, and others that go.
+    DynamicConstrainedTriangulation changing(pool.sites, {});
+    std::vector<Index> order(constraints.size());
+    for (Index i = 0; i < order.size(); ++i) order[i] = i;
+    random.shuffle(order);
+    std::vector<Index> more;
+    for (const Index i : order) {
+      more.push_back(changing.insert(random_direction(random)));
+      changing.insert_constraint(constraints[i][0], constraints[i][1]);
+    }
+    random.shuffle(more);
+    for (const Index id : more) changing.remove(id);
+    EXPECT_EQ(changing.snapshot().result.edges, all.snapshot().result.edges);
+    EXPECT_TRUE(std::ranges::equal(changing.snapshot().result.triangulation.faces(),
+                                   all.snapshot().result.triangulation.faces()));
+    for (const Index id : changing.constraint_ids()) changing.remove_constraint(id);
+    EXPECT_TRUE(std::ranges::equal(changing.snapshot().result.triangulation.faces(),
+                                   first.snapshot().result.triangulation.faces()));
+  }
+}
+
+TEST(dynamic_constrained, equals_a_build_with_thousands_of_sites) {
+  const SiteSet set = generator("uniform").make(4'000, 3);
+  Random random(3);
+  Kept kept;
+  std::vector<Ends> none;
+  DynamicConstrainedTriangulation changing(set.sites, none);
+  for (Index i = 0; i < set.sites.size(); ++i) kept.sites[i] = set.sites[i];
+  for (int k = 0; k < 300; ++k) {
+    const Ends ends = {some_key(kept.sites, random), some_key(kept.sites, random)};
+    try {
+      kept.constraints[changing.insert_constraint(ends[0], ends[1])] = ends;
+    } catch (const InvalidInput&) {
+      continue;
+    }
+  }
+  EXPECT_GT(kept.constraints.size(), 10U);
+  for (int k = 0; k < 2'500; ++k) {
+    const Index id = some_key(kept.sites, random);
+    try {
+      changing.remove(id);
+      kept.sites.erase(id);
+    } catch (const InvalidInput&) {
+      const Point p = random_direction(random);
+      kept.sites[changing.insert(p)] = p;
+    }
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_equal_to_a_build(changing, kept, {}));
+  while (kept.constraints.size() > 5) {
+    const Index id = some_key(kept.constraints, random);
+    changing.remove_constraint(id);
+    kept.constraints.erase(id);
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_equal_to_a_build(changing, kept, {}));
+  const Input input(kept);
+  EXPECT_EQ(check_constrained(input.sites, input.constraints,
+                              changing.snapshot().result.triangulation.faces())
+                .reason,
+            "");
 }
 
 }  // namespace
