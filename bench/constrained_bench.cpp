@@ -5,20 +5,29 @@
 // uniform sites beside delaunay() of the same sites. Each constraint joins two random sites in a
 // square of the cube around the sphere, up to four in each square, so that none cross. Prints medians, and
 // nanoseconds for each edge that the constraints cross, as one JSON object.
+//
+// constrained_bench --changes N CONSTRAINTS [--seed S]: measures single changes of a
+// DynamicConstrainedTriangulation of the same sites and constraints: new sites, which then go again,
+// beside those of a DynamicTriangulation; and all constraints, which go and come again, both in
+// random order. Prints microseconds for each change as one JSON object.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iterator>
 #include <utility>
 #include <vector>
 
 #include "inputs.h"
+#include "inputs/random.h"
 #include "measure.h"
 #include "rondel/constrained.h"
 #include "rondel/delaunay.h"
+#include "rondel/dynamic.h"
+#include "rondel/dynamic_constrained.h"
 #include "rondel/predicates.h"
 
 namespace {
@@ -126,15 +135,69 @@ void run(std::size_t n, std::size_t wanted, unsigned threads, std::uint64_t seed
               more / static_cast<double>(std::max<std::size_t>(crossed, 1)) * 1e9);
 }
 
+// Returns the microseconds of each of `size` changes, make(0), make(1) ...
+template <class Make>
+double microseconds_of(std::size_t size, const Make& make) {
+  const double seconds = seconds_of([&] {
+    for (std::size_t i = 0; i < size; ++i) make(i);
+  });
+  return seconds / static_cast<double>(size) * 1e6;
+}
+
+void run_changes(std::size_t n, std::size_t wanted, std::uint64_t seed) {
+  const auto sites = rondel::bench::make_input("uniform", n, seed);
+  std::vector<Edge> constraints = random_constraints(sites, wanted);
+  const auto more = rondel::bench::make_input("uniform", n / 8, ~seed);
+  rondel::inputs::Random random(seed);
+  rondel::DynamicConstrainedTriangulation changing(sites, constraints);
+  rondel::DynamicTriangulation plain(sites);
+  std::vector<Index> ids(more.size());
+  std::vector<Index> plain_ids(more.size());
+  const double plain_insert =
+      microseconds_of(more.size(), [&](std::size_t i) { plain_ids[i] = plain.insert(more[i]); });
+  const double insert =
+      microseconds_of(more.size(), [&](std::size_t i) { ids[i] = changing.insert(more[i]); });
+  random.shuffle(ids);
+  random.shuffle(plain_ids);
+  const double plain_remove =
+      microseconds_of(more.size(), [&](std::size_t i) { plain.remove(plain_ids[i]); });
+  const double remove =
+      microseconds_of(more.size(), [&](std::size_t i) { changing.remove(ids[i]); });
+  std::vector<Index> order(constraints.size());
+  for (Index i = 0; i < order.size(); ++i) order[i] = i;
+  random.shuffle(order);
+  const double remove_constraint =
+      microseconds_of(order.size(), [&](std::size_t i) { changing.remove_constraint(order[i]); });
+  random.shuffle(constraints);
+  const double insert_constraint = microseconds_of(constraints.size(), [&](std::size_t i) {
+    changing.insert_constraint(constraints[i][0], constraints[i][1]);
+  });
+  std::printf(R"({"sites": %zu, "constraints": %zu, "insert_us": %.3f, "remove_us": %.3f, )",
+              sites.size(), constraints.size(), insert, remove);
+  std::printf(R"("insert_constraint_us": %.3f, "remove_constraint_us": %.3f, )", insert_constraint,
+              remove_constraint);
+  std::printf(R"("plain_insert_us": %.3f, "plain_remove_us": %.3f})"
+              "\n",
+              plain_insert, plain_remove);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
-  if (argc < 3) {
-    std::fprintf(stderr, "usage: constrained_bench N CONSTRAINTS [THREADS] [--seed S]\n");
+  const bool has_changes = argc > 1 && std::strcmp(argv[1], "--changes") == 0;
+  if (argc < (has_changes ? 4 : 3)) {
+    std::fprintf(stderr,
+                 "usage: constrained_bench N CONSTRAINTS [THREADS] [--seed S]\n"
+                 "       constrained_bench --changes N CONSTRAINTS [--seed S]\n");
     return 2;
   }
   rondel::bench::keep_freed_memory();
+  if (has_changes) {
+    run_changes(static_cast<std::size_t>(std::atoll(argv[2])),
+                static_cast<std::size_t>(std::atoll(argv[3])), seed);
+    return 0;
+  }
   run(static_cast<std::size_t>(std::atoll(argv[1])), static_cast<std::size_t>(std::atoll(argv[2])),
       argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1, seed);
   return 0;

@@ -14,7 +14,9 @@
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "query_answers.h"
 #include "rondel/constrained_features.h"
+#include "rondel/constrained_locator.h"
 #include "rondel/geometries.h"
 
 namespace rondel::python {
@@ -76,6 +78,21 @@ void add_constrained(nb::module_& module) {
   add_array<std::int64_t, &Result::sources, &Rows::offsets>(made, "source_offsets");
   add_array<std::int32_t, &Result::sources, &Rows::values>(made, "sources");
   add_array<std::uint8_t, &Result::sides>(made, "sides");
+  nb::class_<ConstrainedLocator>(module, "ConstrainedLocator")
+      .def(
+          "__init__",
+          [](ConstrainedLocator* self, const Result& result) {
+            new (self) ConstrainedLocator(unlocked([&] { return ConstrainedLocator(result); }));
+          },
+          nb::arg("result"))
+      .def(
+          "locate",
+          [](const ConstrainedLocator& self, const PointsIn& queries, unsigned threads) {
+            return watched_quietly(queries.shape(0), threads, [&](const Execution& execution) {
+              return locations_out(self.locate(points_of(queries), execution));
+            });
+          },
+          nb::arg("queries").noconvert(), nb::arg("threads"));
   module.def("constrained_delaunay", &build_constrained, nb::arg("points").noconvert(),
              nb::arg("constraints").noconvert(), nb::arg("center"), nb::arg("is_split"),
              nb::arg("threads"), nb::arg("progress").none());

@@ -9,8 +9,8 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <shared_mutex>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -18,42 +18,28 @@
 #include "module.h"
 #include "query_answers.h"
 #include "rondel/query.h"
+#include "shared.h"
 
 namespace rondel::python {
 namespace {
 
-// A triangulation that threads of Python share: one changes it, or several query it.
-class SharedDynamic {
+class SharedDynamic : public Shared<DynamicTriangulation> {
  public:
-  explicit SharedDynamic(const Options& options) : triangulation_(options) {}
+  explicit SharedDynamic(const Options& options) : Shared(std::in_place, options) {}
   explicit SharedDynamic(const Triangulation& triangulation)
-      : triangulation_(triangulation), threads_(threads_of(triangulation)) {}
+      : Shared(std::in_place, triangulation), threads_(threads_of(triangulation)) {}
 
-  template <class Change>
-  auto change(const Change& change) {
-    const nb::gil_scoped_release released;
-    const std::unique_lock lock(mutex_);
-    return change(triangulation_);
-  }
   // Changes `size` sites; Ctrl-C ends it.
   void change_many(
       std::size_t size,
       const std::function<void(DynamicTriangulation&, const Execution& execution)>& change) {
     run_watched(size, threads_, nb::none(), [&](const Execution& execution) {
       const std::unique_lock lock(mutex_);
-      change(triangulation_, execution);
+      change(value_, execution);
     });
-  }
-  template <class Question>
-  auto ask(const Question& question) const {
-    const nb::gil_scoped_release released;
-    const std::shared_lock lock(mutex_);
-    return question(triangulation_);
   }
 
  private:
-  mutable std::shared_mutex mutex_;
-  DynamicTriangulation triangulation_;
   unsigned threads_ = 0;  // for builds that changes cause; 0: one for each core
 };
 

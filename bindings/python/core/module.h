@@ -23,6 +23,7 @@ void add_constrained(nanobind::module_& module);
 void add_contours(nanobind::module_& module);
 void add_conventions(nanobind::module_& module);
 void add_dynamic(nanobind::module_& module);
+void add_dynamic_constrained(nanobind::module_& module);
 void add_files(nanobind::module_& module);
 void add_geometries(nanobind::module_& module);
 void add_globe(nanobind::module_& module);

@@ -18,15 +18,13 @@
 
 namespace rondel::python {
 
-LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
-                        const Execution& execution) {
+LocationsOut locations_out(const std::vector<Location>& found) {
   struct Columns {
     std::vector<Index> where;
     std::vector<Index> faces;
     std::vector<Triple> sites;
   };
   Columns columns;
-  const std::vector<Location> found = locator.locate(queries, execution);
   columns.where.reserve(found.size());
   columns.faces.reserve(found.size());
   columns.sites.reserve(found.size());
@@ -38,6 +36,11 @@ LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
   const nb::gil_scoped_acquire acquired;
   return {indices_out(std::move(columns.where)), indices_out(std::move(columns.faces)),
           to_array<std::int32_t>(std::move(columns.sites))};
+}
+
+LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
+                        const Execution& execution) {
+  return locations_out(locator.locate(queries, execution));
 }
 
 // Returns one distance for each query: to its own site, or to the only one.

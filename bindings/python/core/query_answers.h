@@ -19,7 +19,8 @@ using LocationsOut =
     std::tuple<ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>>;
 using SiteListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
-// Call this without the lock of the interpreter.
+// Call these two without the lock of the interpreter.
+LocationsOut locations_out(const std::vector<Location>& found);
 LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
                         const Execution& execution);
 

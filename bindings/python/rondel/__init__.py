@@ -54,8 +54,8 @@ SphericalVoronoi
     In place of `scipy.spatial.SphericalVoronoi`.
 SphericalDelaunay, ConstrainedDelaunay, PowerDiagram, ConvexHull
     Results.
-DynamicTriangulation
-    Sites that come, go and move.
+DynamicTriangulation, DynamicConstrainedTriangulation
+    Sites that come, go and move; sites and given edges that come and go.
 SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
 CellSet
@@ -87,9 +87,10 @@ from ._cell_set import CellSet
 from ._cells import lonlat_grid, polygons
 from ._constrained import ConstrainedDelaunay, check_constrained, constrained_delaunay
 from ._contours import Bands, Isolines
-from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
+from ._delaunay import CheckReport, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
+from ._dynamic_constrained import ConstrainedSnapshot, DynamicConstrainedTriangulation
 from ._errors import CrossingConstraints, FileError, InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
@@ -107,7 +108,7 @@ from ._polygons import (
     union_all,
 )
 from ._power import PowerDiagram, power_diagram
-from ._queries import Where
+from ._queries import Location, Where
 from ._regions import Regions, feature_cells
 from ._regridder import Regridder
 from ._relations import (
@@ -145,8 +146,10 @@ __all__ = [
     "Cells",
     "CheckReport",
     "ConstrainedDelaunay",
+    "ConstrainedSnapshot",
     "ConvexHull",
     "CrossingConstraints",
+    "DynamicConstrainedTriangulation",
     "DynamicTriangulation",
     "FileError",
     "InvalidInput",

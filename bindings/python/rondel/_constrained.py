@@ -22,6 +22,7 @@ from ._mesh import Lists, Mesh
 from ._operands import Operand, operands
 from ._pickled import arrays_of, with_arrays
 from ._plot import TrianglePictures
+from ._queries import FaceLocations
 from ._regions import Regions
 from ._repr import count
 from ._tables import TriangleTables
@@ -32,6 +33,7 @@ Crossings: TypeAlias = Literal["refuse", "split"]
 
 class ConstrainedDelaunay(
     Mesh,  # faces and who is next to whom
+    FaceLocations,  # locate, find_simplex
     TriangleShapes,  # to_geojson, to_geopandas, to_xarray
     TriangleTables,  # to_netcdf, to_parquet
     TrianglePictures,  # lonlat_triangles, plot
@@ -166,6 +168,13 @@ class ConstrainedDelaunay(
         """
         bits = np.unpackbits(self._built.sides[:, None], axis=1, count=3, bitorder="little")
         return frozen(bits.astype(bool).reshape(-1, 3))
+
+    @cached_property
+    def _lazy_locator(self) -> _core.ConstrainedLocator:
+        return _core.ConstrainedLocator(self._built)
+
+    def _locator(self) -> _core.ConstrainedLocator:
+        return self._lazy_locator
 
     def faces_inside(self, polygons: Lists | Iterable[ArrayLike] | None = None) -> Lists:
         """Finds the faces in polygons whose sides are constraints, exactly.
@@ -344,7 +353,7 @@ def constrained_delaunay(
         if invalid != "error":
             raise ValueError("invalid is about geometries, and points are given")
         kept = as_kept(points, copy=True)
-        constraints = _as_constraints(edges, len(kept))
+        constraints = as_constraints(edges, len(kept))
         built = _core.constrained_delaunay(kept, constraints, origin, is_split, number, progress)
         one = Lists(
             np.array([0, len(constraints)], np.int64), np.arange(len(constraints), dtype=np.int32)
@@ -426,7 +435,7 @@ def check_constrained(
         raise InvalidInput(f"simplex {outside[0]} has a corner that is no point", int(outside[0]))
     found = _core.check_constrained(
         given,
-        _as_constraints(edges, len(given)),
+        as_constraints(edges, len(given)),
         np.require(triangles, np.int32, ["C", "A"]),
         as_center(center),
         as_threads(threads),
@@ -443,7 +452,7 @@ def _are_geometries(given: Any, edges: Any) -> bool:
     return isinstance(given, Mapping) or hasattr(given, "__geo_interface__")
 
 
-def _as_constraints(edges: Any, num_points: int) -> IntArray:
+def as_constraints(edges: Any, num_points: int) -> IntArray:
     """Pairs of positions of points."""
     array = np.asarray([] if edges is None else edges)
     if array.size == 0:

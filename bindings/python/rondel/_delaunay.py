@@ -15,7 +15,6 @@ from ._arrays import (
     as_floats,
     as_kept,
     as_lonlat,
-    as_queries,
     as_radius,
     as_threads,
     degrees_of,
@@ -29,30 +28,11 @@ from ._globe import Globes
 from ._graphs import Graphs
 from ._mesh import Mesh
 from ._plot import TrianglePictures
-from ._queries import Queries
+from ._queries import FaceLocations, Queries
 from ._tables import TriangleTables
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
 from ._winds import VectorInterpolation
 from ._zarr import ZarrGroups
-
-
-class Location(NamedTuple):
-    """The answer of `SphericalDelaunay.locate` for query points.
-
-    Attributes
-    ----------
-    where : ndarray of int32, shape (...)
-        What each point lies on, as a value of `Where`: a vertex, an edge, a face or nothing.
-    face : ndarray of int32, shape (...)
-        A face that contains the point; of several the first; -1 outside.
-    sites : ndarray of int32, shape (..., 3)
-        The one, two or three sites of that vertex, edge or face, filled up with -1.
-
-    """
-
-    where: IntArray
-    face: IntArray
-    sites: IntArray
 
 
 class CheckReport(NamedTuple):
@@ -82,6 +62,7 @@ class CheckReport(NamedTuple):
 
 class SphericalDelaunay(
     Mesh,  # faces and who is next to whom
+    FaceLocations,  # locate, find_simplex
     Queries,  # nearest, k_nearest, within, distance
     VectorInterpolation,  # weights, interpolate, gradient, interpolate_vectors, interpolate_winds
     Graphs,  # graph, edge_index, hull_polygon, alpha_shape, largest_empty_circles
@@ -233,66 +214,6 @@ class SphericalDelaunay(
 
     def _interpolator(self) -> _core.Interpolator:
         return self._lazy_interpolator
-
-    def locate(self, xi: ArrayLike, *, threads: int | None = None) -> Location:
-        """Finds what each query point lies on: a vertex, an edge, a face or nothing.
-
-        Parameters
-        ----------
-        xi : array_like, shape (..., 3)
-            Query points; only their directions from the center of the sphere are used.
-        threads : int, optional
-            The largest number of threads; by default one for each core.
-
-        Returns
-        -------
-        Location
-            `where` (a `Where`), `face` (of several the first; -1 outside) and `sites`, one for a
-            vertex, two for an edge, three for a face, filled up with -1. Their shapes are (...),
-            (...) and (..., 3).
-
-        Raises
-        ------
-        InvalidInput
-            If a query is not finite or is the center.
-
-        Examples
-        --------
-        >>> import rondel
-        >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
-        >>> found = tri.locate([[0, 2, 0], [1, 1, 0]])
-        >>> found.sites.tolist()
-        [[1, -1, -1], [0, 1, -1]]
-
-        """
-        queries, shape = as_queries(xi)
-        where, face, sites = self._locator().locate(queries, as_threads(threads))
-        return Location(where.reshape(shape)[()], face.reshape(shape)[()], sites.reshape(*shape, 3))
-
-    def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
-        """Finds the face that contains each point, like `scipy.spatial.Delaunay.find_simplex`.
-
-        Parameters
-        ----------
-        xi : array_like, shape (..., 3)
-            Query points; only their directions from the center of the sphere are used.
-        threads : int, optional
-            The largest number of threads; by default one for each core.
-
-        Returns
-        -------
-        ndarray of int32, shape (...)
-            Rows of `simplices`. For points on edges and vertices, the first of the faces there; -1
-            where there is no face: outside of sites that do not surround the center, and below
-            dimension 2.
-
-        Raises
-        ------
-        InvalidInput
-            If a query is not finite or is the center.
-
-        """
-        return self.locate(xi, threads=threads).face
 
     def conflict_region(self, point: ArrayLike) -> IntArray:
         """Finds the faces that inserting a point would remove.

@@ -7,7 +7,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, NoReturn, overload
+from typing import Any, NamedTuple, NoReturn, overload
 
 import numpy as np
 
@@ -23,6 +23,93 @@ class Where(IntEnum):
     EDGE = 1
     FACE = 2
     OUTSIDE = 3
+
+
+class Location(NamedTuple):
+    """The answer of `locate`, of `SphericalDelaunay` and `ConstrainedDelaunay`, for query points.
+
+    Attributes
+    ----------
+    where : ndarray of int32, shape (...)
+        What each point lies on, as a value of `Where`: a vertex, an edge, a face or nothing.
+    face : ndarray of int32, shape (...)
+        A face that contains the point; of several the first; -1 outside.
+    sites : ndarray of int32, shape (..., 3)
+        The one, two or three sites of that vertex, edge or face, filled up with -1.
+
+    """
+
+    where: IntArray
+    face: IntArray
+    sites: IntArray
+
+
+class FaceLocations:
+    """The faces that have given points."""
+
+    # What answers to locate().
+    def _locator(self) -> Any:
+        raise NotImplementedError
+
+    def locate(self, xi: ArrayLike, *, threads: int | None = None) -> Location:
+        """Finds what each query point lies on: a vertex, an edge, a face or nothing.
+
+        Parameters
+        ----------
+        xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
+        Returns
+        -------
+        Location
+            `where` (a `Where`), `face` (of several the first; -1 outside) and `sites`, one for a
+            vertex, two for an edge, three for a face, filled up with -1. Their shapes are (...),
+            (...) and (..., 3).
+
+        Raises
+        ------
+        InvalidInput
+            If a query is not finite or is the center.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+        >>> found = tri.locate([[0, 2, 0], [1, 1, 0]])
+        >>> found.sites.tolist()
+        [[1, -1, -1], [0, 1, -1]]
+
+        """
+        queries, shape = as_queries(xi)
+        where, face, sites = self._locator().locate(queries, as_threads(threads))
+        return Location(where.reshape(shape)[()], face.reshape(shape)[()], sites.reshape(*shape, 3))
+
+    def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
+        """Finds the face that contains each point, like `scipy.spatial.Delaunay.find_simplex`.
+
+        Parameters
+        ----------
+        xi : array_like, shape (..., 3)
+            Query points; only their directions from the center of the sphere are used.
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
+        Returns
+        -------
+        ndarray of int32, shape (...)
+            Rows of `simplices`. For points on edges and vertices, the first of the faces there; -1
+            where there is no face: outside of sites that do not surround the center, and below
+            dimension 2.
+
+        Raises
+        ------
+        InvalidInput
+            If a query is not finite or is the center.
+
+        """
+        return self.locate(xi, threads=threads).face
 
 
 class Queries:

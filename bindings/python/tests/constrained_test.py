@@ -424,3 +424,27 @@ def test_progress_can_end_the_work():
     points = rondel.unit_vectors(lon, lat)
     with pytest.raises(ArithmeticError):
         rondel.constrained_delaunay(points, [[0, 1]], crossings="split", progress=stop)
+
+
+def test_location():
+    rng = np.random.default_rng(5)
+    points = rng.normal(size=(300, 3))
+    edges = [[0, 1]]
+    for pair in rng.integers(0, 300, (100, 2)).tolist():
+        try:
+            rondel.constrained_delaunay(points, [*edges, pair])
+        except rondel.InvalidInput:
+            continue
+        edges.append(pair)
+    tri = rondel.constrained_delaunay(points, edges)
+    queries = rng.normal(size=(40, 50, 3))
+    faces = tri.find_simplex(queries)
+    assert faces.shape == (40, 50)
+    corners = points[tri.simplices[faces]]
+    for i in range(3):
+        a, b = corners[..., i, :], corners[..., (i + 1) % 3, :]
+        assert (np.einsum("...i,...i", np.cross(a, b), queries) >= -1e-9).all()
+    assert tri.locate(points[7]).where == rondel.Where.VERTEX
+    assert tri.locate(points[7]).sites.tolist() == [7, -1, -1]
+    copy = pickle.loads(pickle.dumps(tri))
+    assert copy.find_simplex(queries[0, 0]) == faces[0, 0]
