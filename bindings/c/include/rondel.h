@@ -518,6 +518,45 @@ RONDEL_C_API const uint64_t* rondel_triangle_offsets(const rondel_triangles* tri
 /** Positions in rondel_triangle_points(), counterclockwise seen from outside, shape (number of triangles, 3). */
 RONDEL_C_API const uint32_t* rondel_triangle_corners(const rondel_triangles* triangles);
 
+/* ---- Triangulations with given edges (rondel/constrained.h) ---- */
+
+/** A triangulation in which given arcs, the constraints, are chains of edges; all other edges are locally Delaunay. */
+typedef struct rondel_constrained rondel_constrained;
+
+/** What becomes of constraints that cross each other in the inside of both. */
+enum {
+  RONDEL_REFUSE_CROSSINGS = 0, /**< RONDEL_INVALID_INPUT, whose message names both and the place */
+  RONDEL_SPLIT_CROSSINGS =
+      1 /**< each crossing, rounded to doubles, becomes a site behind the others */
+};
+
+/** Makes the constrained Delaunay triangulation of n points and of constraints, pairs of positions of points, shape
+ *  (num_constraints, 2). Constraints may be repeated, overlap, and have points on them. The model is RONDEL_PROJECTED.
+ *  RONDEL_INVALID_INPUT: as rondel_delaunay() (the index of the point); an end of a constraint is no point, or both ends are
+ *  in one place or opposite to each other (the index of the constraint); two constraints cross (the larger index) and are
+ *  not split; they are split, and the points are no unit vectors. */
+RONDEL_C_API rondel_status rondel_constrained_delaunay(
+    const double* points, size_t n, const uint32_t* constraints, size_t num_constraints,
+    const rondel_options* options, int32_t crossings, const rondel_execution* execution,
+    rondel_constrained** constrained);
+RONDEL_C_API void rondel_constrained_free(rondel_constrained* constrained);
+
+/** Makes a handle of its points and faces, which shares their arrays. What relies on Delaunay faces refuses it:
+ *  rondel_locator_create(). */
+RONDEL_C_API rondel_status rondel_constrained_triangulation(const rondel_constrained* constrained,
+                                                            rondel_triangulation** triangulation);
+
+RONDEL_C_API size_t rondel_num_constrained_edges(const rondel_constrained* constrained);
+/** The edges that are parts of constraints, the lower index first, sorted; shape (num_constrained_edges, 2). */
+RONDEL_C_API const uint32_t* rondel_constrained_edges(const rondel_constrained* constrained);
+/** Edge i is a part of the constraints sources[offsets[i]] ... sources[offsets[i + 1] - 1], ascending; shape
+ *  (num_constrained_edges + 1,). */
+RONDEL_C_API const uint64_t* rondel_constrained_source_offsets(
+    const rondel_constrained* constrained);
+RONDEL_C_API const uint32_t* rondel_constrained_sources(const rondel_constrained* constrained);
+/** For each face, bit i is set if the edge opposite to its corner i is a part of a constraint; shape (num_faces,). */
+RONDEL_C_API const uint8_t* rondel_constrained_sides(const rondel_constrained* constrained);
+
 /* ---- Predicates (rondel/predicates.h), exact ---- */
 
 /** Writes -1, 0 or 1: the sign of det(a - o, b - o, c - o), o the center of the sphere. */
