@@ -3,13 +3,13 @@
 
 // constrained_bench N CONSTRAINTS [THREADS] [--seed S]: measures the constrained triangulation of
 // uniform sites beside delaunay() of the same sites. Each constraint joins two random sites in a
-// square of the cube around the sphere, up to four in each square, so that none cross. Prints medians, and
-// nanoseconds for each edge that the constraints cross, as one JSON object.
+// square of the cube around the sphere, up to four in each square, so that none cross. Prints
+// medians, and nanoseconds for each edge that the constraints cross, as one JSON object.
 //
 // constrained_bench --changes N CONSTRAINTS [--seed S]: measures single changes of a
-// DynamicConstrainedTriangulation of the same sites and constraints: new sites, which then go again,
-// beside those of a DynamicTriangulation; and all constraints, which go and come again, both in
-// random order. Prints microseconds for each change as one JSON object.
+// DynamicConstrainedTriangulation of the same sites and constraints: new sites, which then go
+// again, beside those of a DynamicTriangulation; and all constraints, which go and come again, both
+// in random order. Prints microseconds for each change as one JSON object.
 
 #include <algorithm>
 #include <array>

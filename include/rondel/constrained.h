@@ -84,13 +84,14 @@ struct ConstrainedTriangulation {
 ///    and of the constraints nor on the number of threads. Without constraints it is that of
 ///    delaunay().
 /// 5. Faces are in the canonical order of Triangulation. An edge may occur twice, once between
-///    solid faces and once between ghost faces, as where a constraint is a diagonal that ghost faces
-///    have, too. Of two faces of an owner with the same second corner, the solid one comes first.
+///    solid faces and once between ghost faces, as where a constraint is a diagonal that ghost
+///    faces have, too. Of two faces of an owner with the same second corner, the solid one comes
+///    first.
 /// 6. Below dimension 2 there are no faces, and `edges` are pairs of neighbors in the ring.
 ///
 /// A Locator, an Interpolator and a DynamicTriangulation, which rely on Delaunay faces, refuse the
-/// triangulation unless all its faces are those of delaunay(); and its dual is no Voronoi diagram. A
-/// ConstrainedLocator locates points in it, and a DynamicConstrainedTriangulation changes it.
+/// triangulation unless all its faces are those of delaunay(); and its dual is no Voronoi diagram.
+/// A ConstrainedLocator locates points in it, and a DynamicConstrainedTriangulation changes it.
 ///
 /// A constraint takes time in proportion to the edges that it crosses, times their logarithm on
 /// average, and their square at worst. The proof is in docs/theory/constrained.md (Chew,

@@ -26,13 +26,13 @@ namespace rondel {
 /// 4. An object that was moved from can only be assigned to or destroyed.
 ///
 /// A walk from a vertex nearby crosses edges that are not constrained towards the query, and then,
-/// if a constraint is in the way, goes straight on (docs/theory/constrained.md has the proof that it
-/// ends). The expected time is O(log n), for large ranges O(1), and in proportion to the edges on
-/// the way behind a constraint. The memory is about 80 bytes for each vertex.
+/// if a constraint is in the way, goes straight on (docs/theory/constrained.md has the proof that
+/// it ends). The expected time is O(log n), for large ranges O(1), and in proportion to the edges
+/// on the way behind a constraint. The memory is about 80 bytes for each vertex.
 class RONDEL_API ConstrainedLocator {
  public:
   /// Prepares a triangulation, whose sites are kept, in O(n).
-  /// \param result  what constrained_delaunay() returned, or a snapshot has; the faces are not proved
+  /// \param result  what constrained_delaunay() returned, or a snapshot has; no face is proved
   /// \throws InvalidInput if `sides` does not have an entry for each face
   explicit ConstrainedLocator(const ConstrainedTriangulation& result);
   ~ConstrainedLocator();

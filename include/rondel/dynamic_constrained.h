@@ -43,18 +43,18 @@ struct ConstrainedSnapshot {
 ///    itself.
 /// 4. Constraints may be repeated and may overlap. An edge stays as long as one of its constraints
 ///    is left.
-/// 5. A call that throws changes nothing. The index of InvalidInput is the position in the argument.
-///    After std::bad_alloc, Interrupted or another failure amid a change, the triangulation is
-///    built again from its sites and constraints when it is next needed. This may take as long as
-///    constrained_delaunay(), and may throw std::bad_alloc again.
+/// 5. A call that throws changes nothing. The index of InvalidInput is the position in the
+///    argument. After std::bad_alloc, Interrupted or another failure amid a change, the
+///    triangulation is built again from its sites and constraints when it is next needed. This may
+///    take as long as constrained_delaunay(), and may throw std::bad_alloc again.
 /// 6. The insertion of a site takes time in proportion to the faces that it changes, after O(log n)
-///    expected time to find its place; and the edges on the way to it, where a constraint is between
-///    it and the closest site in the spatial order. The removal of a site with d neighbors takes
-///    O(d) expected time. A constraint takes the time that constrained_delaunay() takes for it; its
-///    removal takes a flip for each pair of edges that replace each other, as a rule, and at worst
-///    the square of their number. A change may take as long as constrained_delaunay() while all
-///    sites lie on one great circle. Whenever the number of sites has doubled or halved, one change
-///    takes O(n) to bring close sites together in memory.
+///    expected time to find its place; and the edges on the way to it, where a constraint is
+///    between it and the closest site in the spatial order. The removal of a site with d neighbors
+///    takes O(d) expected time. A constraint takes the time that constrained_delaunay() takes for
+///    it; its removal takes a flip for each pair of edges that replace each other, as a rule, and
+///    at worst the square of their number. A change may take as long as constrained_delaunay()
+///    while all sites lie on one great circle. Whenever the number of sites has doubled or halved,
+///    one change takes O(n) to bring close sites together in memory.
 /// 7. Const functions may be called from several threads at once.
 /// 8. A triangulation that was moved from can only be assigned to or destroyed.
 class RONDEL_API DynamicConstrainedTriangulation {
@@ -91,8 +91,9 @@ class RONDEL_API DynamicConstrainedTriangulation {
   /// Adds the arc between two sites and returns its id.
   /// \throws InvalidInput (0 for the first site, 1 for the second one) if there is no such site;
   ///         also if both are in one place or opposite to each other
-  /// \throws CrossingConstraints if it crosses a constraint in the inside of both. They are named by
-  ///         their ids, the new one by the id that it would have got. Of several any one is named.
+  /// \throws CrossingConstraints if it crosses a constraint in the inside of both. They are named
+  ///         by their ids, the new one by the id that it would have got. Of several any one is
+  ///         named.
   Index insert_constraint(Index first, Index second);
 
   /// Removes a constraint. \throws InvalidInput if there is no such constraint.
@@ -121,9 +122,9 @@ class RONDEL_API DynamicConstrainedTriangulation {
   /// Returns the lowest id in the same place, which represents all of them.
   [[nodiscard]] Index representative(Index site) const;
   /// Returns the vertices that share an edge of a solid face with a site, counterclockwise seen
-  /// from outside: from the lowest id on, or, on the border of what solid faces cover, from the next
-  /// vertex of the border on. A duplicate has those of its representative. Below dimension 2 they
-  /// are the neighbors in the ring, ascending.
+  /// from outside: from the lowest id on, or, on the border of what solid faces cover, from the
+  /// next vertex of the border on. A duplicate has those of its representative. Below dimension 2
+  /// they are the neighbors in the ring, ascending.
   [[nodiscard]] std::vector<Index> neighbors(Index site) const;
   /// Returns the vertices along a constraint, from its first site to its second one; of duplicates
   /// the lowest id.

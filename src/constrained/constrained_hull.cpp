@@ -147,8 +147,8 @@ std::vector<Index> ConstrainedHull::chain(Index a, Index b) const {
   return from_first;
 }
 
-// Lets an edge be free, and makes edges locally Delaunay by flips (Lawson), each of which raises the
-// surface.
+// Lets an edge be free, and makes edges locally Delaunay by flips (Lawson), each of which raises
+// the surface.
 void ConstrainedHull::release(Halfedge h) {
   set_sides(h, false);
   to_flip_.assign(1, h);

@@ -64,8 +64,8 @@ class ConstrainedHull {
     if (is_vertex(place)) system::prefetch(&mesh_[topology::face_of(corner_of_[place])]);
   }
 
-  // Inserts a place that is no vertex. `close` is a place close to it, or no_index. An edge on which
-  // it lies is divided, and constraints that end there follow, if it was removed just before.
+  // Inserts a place that is no vertex. `close` is a place close to it, or no_index. An edge on
+  // which it lies is divided, and constraints that end there follow, if it was removed just before.
   void insert(Index place, Index close);
   // Returns the neighbors of a vertex by edges of solid faces, counterclockwise; those of a vertex
   // of the border begin and end with its neighbors there.

@@ -5,9 +5,9 @@
 // constraint, and the star of p takes their place (docs/theory/constrained.md, "Insertion of a
 // site").
 //
-//     b_k ---- ... ---- a_1            p outside of what solid faces cover sees edges of the border,
-//      \   faces seen   /              from a_1 to b_k. The horizon has those of solid faces from
-//       \              /               b_k to a_1, and those of ghost faces from a_1 to b_k.
+//     b_k ---- ... ---- a_1       Outside of what solid faces cover, p sees edges of the border,
+//      \   faces seen   /         from a_1 to b_k. The horizon has those of solid faces from b_k
+//       \              /          to a_1, and those of ghost faces from a_1 to b_k.
 //        `----- p ----'
 
 #include <algorithm>
@@ -121,7 +121,8 @@ void ConstrainedHull::reach_out(Index p, Halfedge visible) {
   }
 }
 
-// Takes the face behind an edge, and leaves its other two edges to be crossed, the first one on top.
+// Takes the face behind an edge, and leaves its other two edges to be crossed, the first one on
+// top.
 void ConstrainedHull::enter(const topology::HorizonEdge& edge) {
   const Index f = face_of(edge.outside);
   const topology::Face& face = mesh_[f];
@@ -135,8 +136,8 @@ void ConstrainedHull::enter(const topology::HorizonEdge& edge) {
 bool ConstrainedHull::is_crossed(Index p, Halfedge outside) {
   const bool is_from_solid = is_solid(face_of(opposite(outside)));
   const bool is_to_solid = is_solid(face_of(outside));
-  // The border is crossed where p lies on it, and from one side: ghost faces may be in conflict then
-  // if the center is in their plane.
+  // The border is crossed where p lies on it, and from one side: ghost faces may be in conflict
+  // then if the center is in their plane.
   if (is_from_solid != is_to_solid && (outside != forced_ || is_to_solid)) return false;
   if (is_to_solid && is_constrained(outside)) return outside == forced_;
   return is_in_conflict(face_of(outside), p);

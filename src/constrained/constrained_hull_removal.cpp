@@ -8,10 +8,10 @@
 // 2. If v is on the border, the border that is to come divides its link: within it are holes of
 //    solid faces, and between it and the ghost faces is one hole of ghost faces.
 //
-//     u --- n --- n                    The new border goes from u, the vertex before v on the border,
-//      \    /\    /\                   to w, the one behind it, convex, along neighbors n of v. Here
-//       c--'  `--'  c--- w             it is u, c, c, w; a hole is at each edge that is none of the
-//        `--.  |  .-'                  link.
+//     u --- n --- n          The new border goes from u, the vertex before v on the border, to w,
+//      \    /\    /\         the one behind it, convex, along neighbors n of v. Here it is u, c,
+//       c--'  `--'  c--- w   c, w; a hole is at each edge that is none of the link.
+//        `--.  |  .-'
 //            ` v '
 
 #include <algorithm>
@@ -29,8 +29,8 @@ using topology::halfedge;
 using topology::next_corner;
 using topology::previous_corner;
 
-// Returns the corner of a solid face at v with which a turn around v begins, as 3 * face + corner: on
-// the border the one behind the ghost faces.
+// Returns the corner of a solid face at v with which a turn around v begins, as 3 * face + corner:
+// on the border the one behind the ghost faces.
 Halfedge ConstrainedHull::first_corner_at(Index v) const {
   Halfedge h = corner_of_[v];
   do {
@@ -195,8 +195,8 @@ void ConstrainedHull::fill_around(const std::vector<Index>& passing) {
   mesh_.link(one, fill(false));
 }
 
-// Lists the spokes of solid faces that lead to the new border, clockwise around v: from u to w. StarSpoke
-// num_solid_ leads to u.
+// Lists the spokes of solid faces that lead to the new border, clockwise around v: from u to w.
+// The spoke num_solid_ leads to u.
 void ConstrainedHull::list_new_border() {
   chain_.clear();
   const auto vertex = [this](std::size_t k) { return spokes_[k].neighbor; };

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// ConstrainedLocator: the vertices and faces are prepared as for a Locator (query::Built); the walk is
-// another one (constrained_walk.h).
+// ConstrainedLocator: the vertices and faces are prepared as for a Locator (query::Built); the walk
+// is another one (constrained_walk.h).
 
 #include "rondel/constrained_locator.h"
 

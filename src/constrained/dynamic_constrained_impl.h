@@ -4,9 +4,9 @@
 // The state of a DynamicConstrainedTriangulation: dynamic::Editor, whose hull is a ConstrainedHull,
 // and the constraints by id.
 //
-// The hull knows constraints by its edges alone. When the editor makes a hull, since a site has left
-// the great circle of all others, all constraints are inserted. Below dimension 2 there is no hull,
-// and constrained_delaunay() answers.
+// The hull knows constraints by its edges alone. When the editor makes a hull, since a site has
+// left the great circle of all others, all constraints are inserted. Below dimension 2 there is no
+// hull, and constrained_delaunay() answers.
 //
 // in    sites and constraints, and changes of them
 // out   what the editor and its hull hold

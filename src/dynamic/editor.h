@@ -45,8 +45,8 @@ class Editor {
   [[nodiscard]] const T& sites() const { return sites_; }
   // The hull of the places, whose vertices are their numbers; none below dimension 2.
   [[nodiscard]] const std::optional<Hull>& hull() const { return hull_; }
-  // For changes that leave the places alone. If one fails after a site has come or gone, roll_back()
-  // says whether it is there.
+  // For changes that leave the places alone. If one fails after a site has come or gone,
+  // roll_back() says whether it is there.
   [[nodiscard]] std::optional<Hull>& hull() { return hull_; }
   void roll_back(Index site, bool is_there) noexcept { places_.roll_back({&site, 1}, is_there); }
 
