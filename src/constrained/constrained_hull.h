@@ -66,18 +66,18 @@ class ConstrainedHull {
 
   // Inserts a place that is no vertex. `close` is a place close to it, or no_index. An edge on
   // which it lies is divided, and constraints that end there follow, if it was removed just before.
-  void insert(Index place, Index close);
+  void insert(Index p, Index close);
   // Returns the neighbors of a vertex by edges of solid faces, counterclockwise; those of a vertex
   // of the border begin and end with its neighbors there.
-  std::span<const Index> collect_star(Index place);
-  // Removes a vertex. Precondition: collect_star(place) was the call before, and the others do not
+  std::span<const Index> collect_star(Index v);
+  // Removes a vertex. Precondition: collect_star(v) was the call before, and the others do not
   // lie in one plane with the center. If just two constrained edges meet there, which have the same
-  // constraints and lie on one great circle, they become one. All others go until insert(place) is
+  // constraints and lie on one great circle, they become one. All others go until insert(v) is
   // called, which has to be the next change.
-  void remove_vertex(Index place);
+  void remove_vertex(Index v);
   // Returns the same neighbors.
-  [[nodiscard]] std::vector<Index> neighbors(Index place) const;
-  [[nodiscard]] bool is_on_border(Index place) const;
+  [[nodiscard]] std::vector<Index> neighbors(Index v) const;
+  [[nodiscard]] bool is_on_border(Index v) const;
   // Takes new numbers of places.
   void renumber(const dynamic::Renumbering& places);
 
@@ -104,7 +104,7 @@ class ConstrainedHull {
   // Returns the vertices along the arc between two vertices that is a chain of edges, from a to b.
   [[nodiscard]] std::vector<Index> chain(Index a, Index b) const;
   // Returns two constraints that cross in a vertex, if no constraint ends there and several do.
-  [[nodiscard]] std::optional<Edge> crossing_at(Index place);
+  [[nodiscard]] std::optional<Edge> crossing_at(Index v);
 
   // --- what ArcInsertion asks for ---
 
@@ -216,6 +216,8 @@ class ConstrainedHull {
   std::vector<Index> link_;        // what collect_star() has returned
   std::vector<Index> free_faces_;
   std::vector<HoleEdge> hole_;
+  std::vector<Index> corners_;  // of the hole
+  std::vector<Index> slots_;    // of the faces that fill it
   std::vector<std::size_t> chain_;
   std::vector<topology::Halfedge> to_flip_;
 };

@@ -45,16 +45,25 @@ Halfedge ConstrainedHull::first_corner_at(Index v) const {
 void ConstrainedHull::list_spokes(Index v) {
   spokes_.clear();
   num_solid_ = 0;
-  const Halfedge first = first_corner_at(v);
-  Halfedge h = first;
+  Halfedge h = corner_of_[v];
+  Halfedge back = h;
   do {
     const Index f = face_of(h);
     const unsigned corner = edge_of(h);
     spokes_.push_back({f, mesh_[f].vertex[next_corner[corner]], mesh_[f].opposite[corner],
                        halfedge(f, previous_corner[corner])});
     num_solid_ += is_solid(f) ? 1 : 0;
+    prefetch(spokes_.back().neighbor);
+    system::prefetch_to_write(&mesh_[face_of(spokes_.back().outer)]);
     h = mesh_.next_around(f, corner);
-  } while (h != first);
+    // The other way around, so that the second half is there when it is needed.
+    back = mesh_.previous_around(face_of(back), edge_of(back));
+    system::prefetch(&mesh_[face_of(back)]);
+  } while (h != corner_of_[v]);
+  if (num_solid_ == spokes_.size()) return;
+  const auto is_of_solid = [this](const StarSpoke& spoke) { return is_solid(spoke.face); };
+  const auto ghost = std::find_if_not(spokes_.begin(), spokes_.end(), is_of_solid);
+  std::rotate(spokes_.begin(), std::find_if(ghost, spokes_.end(), is_of_solid), spokes_.end());
 }
 
 bool ConstrainedHull::is_on_border(Index v) const {
@@ -244,30 +253,28 @@ void ConstrainedHull::close_up() {
 // returned, seen from the inside.
 Halfedge ConstrainedHull::fill(bool is_closed) {
   if (hole_.size() == 2) return hole_[0].outer;
-  std::vector<Index> corners;
-  corners.reserve(hole_.size());
-  for (const HoleEdge& edge : hole_) corners.push_back(edge.vertex);
-  triangulation_.run(test_, corners);
+  corners_.clear();
+  for (const HoleEdge& edge : hole_) corners_.push_back(edge.vertex);
+  triangulation_.run(test_, corners_);
   const auto faces = triangulation_.faces();
-  std::vector<Index> slots;
-  slots.reserve(faces.size());
-  while (slots.size() < faces.size()) {
+  slots_.clear();
+  while (slots_.size() < faces.size()) {
     if (free_faces_.empty()) {
-      slots.push_back(mesh_.add_face());
+      slots_.push_back(mesh_.add_face());
     } else {
-      slots.push_back(free_faces_.back());
+      slots_.push_back(free_faces_.back());
       free_faces_.pop_back();
     }
   }
   Halfedge base = no_index;
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    for (unsigned i = 0; i < 3; ++i) mesh_[slots[k]].vertex[i] = corners[faces[k].vertex[i]];
-    adopt(slots[k]);
+    for (unsigned i = 0; i < 3; ++i) mesh_[slots_[k]].vertex[i] = corners_[faces[k].vertex[i]];
+    adopt(slots_[k]);
     for (unsigned i = 0; i < 3; ++i) {
-      const Halfedge inside = halfedge(slots[k], i);
+      const Halfedge inside = halfedge(slots_[k], i);
       const Halfedge other = faces[k].opposite[i];
       if (other != no_index) {
-        mesh_[slots[k]].opposite[i] = halfedge(slots[face_of(other)], edge_of(other));
+        mesh_[slots_[k]].opposite[i] = halfedge(slots_[face_of(other)], edge_of(other));
         continue;
       }
       const std::size_t edge = faces[k].vertex[next_corner[i]];
