@@ -10,6 +10,9 @@
 // DynamicConstrainedTriangulation of the same sites and constraints: new sites, which then go
 // again, beside those of a DynamicTriangulation; and all constraints, which go and come again, both
 // in random order. Prints microseconds for each change as one JSON object.
+//
+// constrained_bench --curves K: measures one constraint between two curves of K sites each, whose
+// curvature grows along them, so that each face beside the constraint cuts off one site.
 
 #include <algorithm>
 #include <array>
@@ -181,18 +184,48 @@ void run_changes(std::size_t n, std::size_t wanted, std::uint64_t seed) {
               plain_insert, plain_remove);
 }
 
+// Returns sites along two arcs of spirals, from the first site to the second one.
+std::vector<Point> curves(std::size_t size) {
+  std::vector<Point> sites = {{1, -0.2, 0}, {1, 0.2, 0}};
+  for (std::size_t i = 1; i <= size; ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(size + 1);
+    const double height = t * (1 - t) * (1 + 2 * t * t);
+    sites.push_back({1, 0.4 * t - 0.2, 0.1 * height});
+    sites.push_back({1, 0.4 * t - 0.2, -0.08 * height});
+  }
+  return sites;
+}
+
+void run_curves(std::size_t size) {
+  const std::vector<Point> sites = curves(size);
+  const std::vector<Edge> constraint = {{0, 1}};
+  const rondel::Execution execution{.threads = 1};
+  const double plain = seconds_of([&] { delaunay(rondel::Sites::view(sites), {}, execution); });
+  const double constrained = seconds_of(
+      [&] { constrained_delaunay(rondel::Sites::view(sites), constraint, {}, execution); });
+  std::printf(R"({"sites": %zu, "delaunay_seconds": %.4f, "constrained_seconds": %.4f})"
+              "\n",
+              sites.size(), plain, constrained);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   const bool has_changes = argc > 1 && std::strcmp(argv[1], "--changes") == 0;
+  const bool has_curves = argc > 1 && std::strcmp(argv[1], "--curves") == 0;
   if (argc < (has_changes ? 4 : 3)) {
     std::fprintf(stderr,
                  "usage: constrained_bench N CONSTRAINTS [THREADS] [--seed S]\n"
-                 "       constrained_bench --changes N CONSTRAINTS [--seed S]\n");
+                 "       constrained_bench --changes N CONSTRAINTS [--seed S]\n"
+                 "       constrained_bench --curves K\n");
     return 2;
   }
   rondel::bench::keep_freed_memory();
+  if (has_curves) {
+    run_curves(static_cast<std::size_t>(std::atoll(argv[2])));
+    return 0;
+  }
   if (has_changes) {
     run_changes(static_cast<std::size_t>(std::atoll(argv[2])),
                 static_cast<std::size_t>(std::atoll(argv[3])), seed);

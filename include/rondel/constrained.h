@@ -94,7 +94,7 @@ struct ConstrainedTriangulation {
 /// A ConstrainedLocator locates points in it, and a DynamicConstrainedTriangulation changes it.
 ///
 /// A constraint takes time in proportion to the edges that it crosses, times their logarithm on
-/// average, and their square at worst. The proof is in docs/theory/constrained.md (Chew,
+/// average, also where sites lie along smooth curves, and their square at worst. The proof is in docs/theory/constrained.md (Chew,
 /// Constrained Delaunay triangulations, Algorithmica 4, 1989; Anglada, An improved incremental
 /// algorithm for constructing restricted Delaunay triangulations, Computers & Graphics 21, 1997).
 /// \param constraints  the two ends of each constraint, as indices of sites

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamic/link_triangulation.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 #include "topology/mesh.h"
@@ -204,7 +205,12 @@ class ArcInsertion {
     Index first;
     Index last;
     Index halfedge;  // of the face beyond its base; no_index: none yet
+    Index limit;     // the number of edges up to which it may be triangulated at once
+    [[nodiscard]] Index size() const { return last - first; }
   };
+  // Parts with so many edges may be triangulated at once.
+  static constexpr Index many = 16;
+
   // Two halfedges of new faces that are opposite to each other if the old one is the same.
   struct DoubleEdge {
     Index old;
@@ -223,7 +229,12 @@ class ArcInsertion {
   Index fill(Faces& faces, const Polygon& polygon);
   void close(Faces& faces, const PolygonEdge& edge, Index h);
   [[nodiscard]] static Index apex_of(Faces& faces, const Polygon& polygon, Index first, Index last);
-  Index add_face(Faces& faces, Index a, Index b, Index c);
+  Index add_face(Faces& faces, const Triple& corners);
+  [[nodiscard]] bool is_almost_convex(const Faces& faces, const Polygon& polygon,
+                                      const SubPolygon& part);
+  [[nodiscard]] bool triangulate_at_once(Faces& faces, const Polygon& polygon,
+                                         const SubPolygon& part);
+  Index take_triangulation(Faces& faces, const Polygon& polygon, const SubPolygon& part);
 
   // All of this belongs to the arc that is inserted.
   std::vector<Index> cavity_;
@@ -231,6 +242,9 @@ class ArcInsertion {
   Polygon right_;  // from the same end as left_ until it is filled
   std::vector<SubPolygon> to_fill_;
   std::vector<DoubleEdge> double_edges_;
+  dynamic::LinkTriangulation triangulation_;
+  std::vector<Index> ring_;   // the vertices of a convex part
+  std::vector<Index> slots_;  // the faces that fill it
 };
 
 // Finds the cavity of the arc from a, which leaves a face by a halfedge, to the first vertex on it.
@@ -293,11 +307,91 @@ void ArcInsertion<Faces>::look_outside(const Faces& faces, Polygon& polygon) {
 }
 
 template <class Faces>
-Index ArcInsertion<Faces>::add_face(Faces& faces, Index a, Index b, Index c) {
+Index ArcInsertion<Faces>::add_face(Faces& faces, const Triple& corners) {
   const Index face = cavity_.back();
   cavity_.pop_back();
-  faces.replace(face, {a, b, c});
+  faces.replace(face, corners);
   return face;
+}
+
+// True if few vertices of the chain of a part are reflex, and none occurs twice. At both ends of the
+// base none is reflex.
+template <class Faces>
+bool ArcInsertion<Faces>::is_almost_convex(const Faces& faces, const Polygon& polygon,
+                                           const SubPolygon& part) {
+  const std::vector<Index>& chain = polygon.vertices;
+  const Index most = part.size() / 8;
+  Index num_reflex = 0;
+  for (Index i = part.first + 1; i < part.last && num_reflex <= most; ++i) {
+    const bool is_left = chain[i - 1] != chain[i + 1] &&
+                         faces.side(chain[i + 1], chain[i], chain[i - 1]) == Sign::positive;
+    num_reflex += is_left ? 0 : 1;
+  }
+  if (num_reflex > most) return false;
+  ring_.assign(chain.begin() + part.first, chain.begin() + part.last + 1);
+  std::ranges::sort(ring_);
+  return std::ranges::adjacent_find(ring_) == ring_.end();
+}
+
+// Triangulates a part in random order (Chew 1990), in expected linear time if it is convex. If it is
+// not, the result may be wrong: it is right if all faces are positive and all edges between them are
+// locally Delaunay, which is tested. Nothing but triangulation_ and ring_ changes.
+template <class Faces>
+bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces, const Polygon& polygon,
+                                              const SubPolygon& part) {
+  struct CircleTest {
+    Faces& faces;
+    bool is_in_conflict(const Triple& face, Index v) const {
+      return faces.is_in_circle(face[0], face[1], face[2], v);
+    }
+  };
+  // Edge 0 of the ring is the base; edge e is edge last - e of the polygon.
+  ring_.assign(1, polygon.vertices[part.first]);
+  for (Index i = part.last; i > part.first; --i) ring_.push_back(polygon.vertices[i]);
+  CircleTest test{faces};
+  triangulation_.run(test, ring_);
+  const auto made = triangulation_.faces();
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const auto& v = made[k].vertex;
+    const Triple face = {ring_[v[0]], ring_[v[1]], ring_[v[2]]};
+    if (faces.side(face[0], face[1], face[2]) != Sign::positive) return false;
+    for (const Index other : made[k].opposite) {
+      if (other == no_index || topology::face_of(other) < k) continue;
+      const Index apex = ring_[made[topology::face_of(other)].vertex[topology::edge_of(other)]];
+      if (test.is_in_conflict(face, apex)) return false;
+    }
+  }
+  return true;
+}
+
+// Takes the faces of a part that was triangulated at once, and returns the halfedge from its first
+// vertex to its last one.
+template <class Faces>
+Index ArcInsertion<Faces>::take_triangulation(Faces& faces, const Polygon& polygon,
+                                              const SubPolygon& part) {
+  const auto made = triangulation_.faces();
+  slots_.clear();
+  for (const topology::Face& face : made) {
+    const auto& v = face.vertex;
+    slots_.push_back(add_face(faces, {ring_[v[0]], ring_[v[1]], ring_[v[2]]}));
+  }
+  Index base = no_index;
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    for (unsigned i = 0; i < 3; ++i) {
+      const Index inside = topology::halfedge(slots_[k], i);
+      const Index other = made[k].opposite[i];
+      const Index edge = made[k].vertex[topology::next_corner[i]];
+      if (other != no_index) {
+        faces.link(inside,
+                   topology::halfedge(slots_[topology::face_of(other)], topology::edge_of(other)));
+      } else if (edge == 0) {
+        base = inside;
+      } else {
+        close(faces, polygon.edges[part.last - edge], inside);
+      }
+    }
+  }
+  return base;
 }
 
 // Returns the vertex of a polygon, by its place in the chain, that makes with the base a face
@@ -329,24 +423,36 @@ template <class Faces>
 Index ArcInsertion<Faces>::fill(Faces& faces, const Polygon& polygon) {
   Index base = no_index;
   double_edges_.clear();
-  to_fill_.assign(1, {0, static_cast<Index>(polygon.vertices.size() - 1), no_index});
+  to_fill_.assign(1, {0, static_cast<Index>(polygon.vertices.size() - 1), no_index, no_index});
   while (!to_fill_.empty()) {
-    const auto [first, last, beyond] = to_fill_.back();
+    const SubPolygon part = to_fill_.back();
+    const auto [first, last, beyond, limit] = part;
     to_fill_.pop_back();
-    if (last == first + 1) {
+    if (part.size() == 1) {
       close(faces, polygon.edges[first], beyond);
       continue;
     }
-    const Index apex = apex_of(faces, polygon, first, last);
-    const Index face =
-        add_face(faces, polygon.vertices[first], polygon.vertices[last], polygon.vertices[apex]);
-    if (beyond == no_index) {
-      base = topology::halfedge(face, 2);
+    const bool is_tried =
+        part.size() >= many && part.size() <= limit && is_almost_convex(faces, polygon, part);
+    const bool is_done = is_tried && triangulate_at_once(faces, polygon, part);
+    Index to_last = no_index;
+    if (is_done) {
+      to_last = take_triangulation(faces, polygon, part);
     } else {
-      faces.link(topology::halfedge(face, 2), beyond);
+      const Index apex = apex_of(faces, polygon, first, last);
+      const std::vector<Index>& chain = polygon.vertices;
+      const Index face = add_face(faces, {chain[first], chain[last], chain[apex]});
+      // After a failure only parts of half the size are worth another one.
+      const Index next_limit = is_tried ? part.size() / 2 : limit;
+      to_fill_.push_back({first, apex, topology::halfedge(face, 1), next_limit});
+      to_fill_.push_back({apex, last, topology::halfedge(face, 0), next_limit});
+      to_last = topology::halfedge(face, 2);
     }
-    to_fill_.push_back({first, apex, topology::halfedge(face, 1)});
-    to_fill_.push_back({apex, last, topology::halfedge(face, 0)});
+    if (beyond == no_index) {
+      base = to_last;
+    } else {
+      faces.link(to_last, beyond);
+    }
   }
   std::ranges::sort(double_edges_, {}, &DoubleEdge::old);
   for (std::size_t i = 1; i < double_edges_.size(); i += 2) {

@@ -210,7 +210,7 @@ class ConstrainedHull {
   std::vector<topology::HorizonEdge> horizon_;
   std::vector<topology::HorizonEdge> stack_;
   std::vector<topology::Halfedge> border_;
-  dynamic::LinkTriangulation<models::ProjectedPoints> triangulation_;
+  dynamic::LinkTriangulation triangulation_;
   std::vector<StarSpoke> spokes_;  // those of solid faces first
   std::size_t num_solid_ = 0;      // of the spokes
   std::vector<Index> link_;        // what collect_star() has returned

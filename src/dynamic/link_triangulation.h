@@ -23,17 +23,18 @@
 #include <utility>
 #include <vector>
 
-#include "kernel/conflict_test.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
 
-template <models::SphereModel T>
 class LinkTriangulation {
  public:
-  // `link` has at least three vertices, counterclockwise seen from outside.
-  void run(kernel::ConflictTest<T>& test, std::span<const Index> link) {
+  // `link` has at least three vertices, counterclockwise seen from outside. The test is a
+  // kernel::ConflictTest, or what has its is_in_conflict(face, vertex). The vertices of a convex
+  // polygon are as good as a link, for the faces of their Delaunay triangulation.
+  template <class Test>
+  void run(Test& test, std::span<const Index> link) {
     const auto size = static_cast<Index>(link.size());
     shuffle(size);
     for (Index i = 0; i + 3 < size; ++i) {
@@ -75,7 +76,8 @@ class LinkTriangulation {
     inner_[a] = topology::halfedge(0, 2);
   }
 
-  void put_back(kernel::ConflictTest<T>& test, std::span<const Index> link, Index u) {
+  template <class Test>
+  void put_back(Test& test, std::span<const Index> link, Index u) {
     const Index a = previous_[u];
     const Index b = next_[u];
     find_conflict_region(test, link, u, {b, inner_[a]});
@@ -86,7 +88,8 @@ class LinkTriangulation {
 
   // Finds the conflict region as kernel/conflict_region.h does, entering through one edge of the
   // polygon.
-  void find_conflict_region(kernel::ConflictTest<T>& test, std::span<const Index> link, Index u,
+  template <class Test>
+  void find_conflict_region(Test& test, std::span<const Index> link, Index u,
                             topology::HorizonEdge entry) {
     region_.clear();
     horizon_.clear();
@@ -109,8 +112,9 @@ class LinkTriangulation {
     }
   }
 
-  [[nodiscard]] bool is_in_conflict(kernel::ConflictTest<T>& test, std::span<const Index> link,
-                                    Index u, topology::Halfedge h) const {
+  template <class Test>
+  [[nodiscard]] bool is_in_conflict(Test& test, std::span<const Index> link, Index u,
+                                    topology::Halfedge h) const {
     const auto& v = faces_[topology::face_of(h)].vertex;
     return test.is_in_conflict({link[v[0]], link[v[1]], link[v[2]]}, link[u]);
   }

@@ -261,7 +261,7 @@ class PlaceHull {
   HiddenSites hidden_;
   std::vector<topology::Halfedge> corner_of_;
 
-  LinkTriangulation<T> triangulation_;
+  LinkTriangulation triangulation_;
   std::vector<Index> link_;
   std::vector<topology::Halfedge> outer_;
   std::vector<Index> star_;

@@ -258,6 +258,26 @@ TEST(constrained_laws, hold_for_stars_and_rows) {
   expect_laws(rows, {{0, 1}}, random);
 }
 
+// A constraint between two arcs of spirals, along which each face cuts off one site; with dents, more
+// and more of which are reflex.
+TEST(constrained_laws, hold_between_curves) {
+  Random random(13);
+  for (const double dents : {0.0, 1e-7, 1e-5, 1e-4, 1e-3, 1e-2}) {
+    for (const int n : {20, 90, 350}) {
+      SCOPED_TRACE(std::to_string(dents) + " " + std::to_string(n));
+      SiteSet curves;
+      curves.sites = {{1, -0.2, 0}, {1, 0.2, 0}};
+      for (int i = 1; i < n; ++i) {
+        const double t = static_cast<double>(i) / n;
+        const double height = t * (1 - t) * (1 + 2 * t * t);
+        curves.sites.push_back({1, 0.4 * t - 0.2, 0.1 * height + dents * random.unit()});
+        curves.sites.push_back({1, 0.4 * t - 0.199, -0.08 * height - dents * random.unit()});
+      }
+      expect_laws(curves, {{0, 1}}, random);
+    }
+  }
+}
+
 TEST(constrained_laws, hold_below_dimension_two) {
   const SiteSet ring = {{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}, {2, 2, 0}}};
   const std::vector<Ends> constraints = {{0, 3}, {2, 5}, {4, 2}};
