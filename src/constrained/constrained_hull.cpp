@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "predicates/orientation.h"
 #include "system/large_arrays.h"
 
 namespace rondel::constrained {
@@ -20,8 +19,8 @@ using topology::halfedge;
 using topology::next_corner;
 using topology::previous_corner;
 
-ConstrainedHull::ConstrainedHull(models::ProjectedPoints& sites, const std::array<Index, 3>& first)
-    : test_(sites) {
+ConstrainedHull::ConstrainedHull(PlaceDirections& sites, const std::array<Index, 3>& first)
+    : sites_(sites) {
   const auto& [a, b, c] = first;
   const bool is_positive = side(a, b, c) == Sign::positive;
   const auto [top, bottom] =
@@ -30,13 +29,9 @@ ConstrainedHull::ConstrainedHull(models::ProjectedPoints& sites, const std::arra
   adopt(bottom);
 }
 
-ConstrainedHull::ConstrainedHull(models::ProjectedPoints& sites, topology::Mesh mesh)
-    : test_(sites), mesh_(std::move(mesh)) {
+ConstrainedHull::ConstrainedHull(PlaceDirections& sites, topology::Mesh mesh)
+    : sites_(sites), mesh_(std::move(mesh)) {
   mesh_.for_each_face([this](Index f) { adopt(f); });
-}
-
-Sign ConstrainedHull::side(Index a, Index b, Index v) const {
-  return predicates::orientation(test_.sites(), a, b, v).sign;
 }
 
 ConstrainedHull::Edge ConstrainedHull::ends_of(Halfedge h) const {

@@ -23,11 +23,10 @@
 #include <vector>
 
 #include "constrained/arc_insertion.h"
+#include "constrained/place_directions.h"
 #include "dynamic/link_triangulation.h"
 #include "dynamic/renumbering.h"
-#include "kernel/conflict_test.h"
 #include "kernel/walk.h"
-#include "models/projected_points.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 #include "system/prefetch.h"
@@ -43,9 +42,9 @@ class ConstrainedHull {
   using Sources = std::map<Edge, std::vector<Index>>;
 
   // `first` are three places with a non-zero orientation.
-  ConstrainedHull(models::ProjectedPoints& sites, const std::array<Index, 3>& first);
+  ConstrainedHull(PlaceDirections& sites, const std::array<Index, 3>& first);
   // The mesh of a build. Its constraints follow by adopt_constraints().
-  ConstrainedHull(models::ProjectedPoints& sites, topology::Mesh mesh);
+  ConstrainedHull(PlaceDirections& sites, topology::Mesh mesh);
 
   // --- places, as dynamic::Editor asks for them ---
 
@@ -57,7 +56,7 @@ class ConstrainedHull {
   }
   void prefetch(Index place) const {
     if (place >= corner_of_.size()) return;
-    test_.sites().prefetch(place);
+    sites_.prefetch(place);
     system::prefetch(&corner_of_[place]);
   }
   void prefetch_face(Index place) const {
@@ -118,9 +117,9 @@ class ConstrainedHull {
   [[nodiscard]] bool is_constrained(Index h) const {
     return (static_cast<unsigned>(sides_[h / 3]) >> h % 3 & 1U) != 0;
   }
-  [[nodiscard]] Sign side(Index a, Index b, Index v) const;
-  [[nodiscard]] bool is_in_circle(Index a, Index b, Index c, Index v) {
-    return test_.is_in_conflict({a, b, c}, v);
+  [[nodiscard]] Sign side(Index a, Index b, Index v) const { return sites_.orientation(a, b, v); }
+  [[nodiscard]] bool is_in_circle(Index a, Index b, Index c, Index v) const {
+    return sites_.is_in_conflict({a, b, c}, v);
   }
   void put_in_cavity(Index f) { sides_[f] |= in_cavity; }
   [[nodiscard]] bool is_in_cavity(Index f) const { return (sides_[f] & in_cavity) != 0; }
@@ -152,8 +151,8 @@ class ConstrainedHull {
   };
 
   static Edge edge_between(Index a, Index b) { return a < b ? Edge{a, b} : Edge{b, a}; }
-  [[nodiscard]] bool is_in_conflict(Index f, Index p) {
-    return test_.is_in_conflict(mesh_[f].vertex, p);
+  [[nodiscard]] bool is_in_conflict(Index f, Index p) const {
+    return sites_.is_in_conflict(mesh_[f].vertex, p);
   }
   [[nodiscard]] Edge ends_of(topology::Halfedge h) const;
   void set_side(topology::Halfedge h, bool is_constrained);
@@ -170,7 +169,7 @@ class ConstrainedHull {
   [[nodiscard]] topology::Halfedge previous_on_border(topology::Halfedge h) const;
   void list_seen_border(Index p, topology::Halfedge visible);
   void enter(const topology::HorizonEdge& edge);
-  [[nodiscard]] bool is_crossed(Index p, topology::Halfedge outside);
+  [[nodiscard]] bool is_crossed(Index p, topology::Halfedge outside) const;
   void spread(Index p);
   void make_star(Index p);
   void divide(Index p, const Edge& edge);
@@ -193,7 +192,7 @@ class ConstrainedHull {
   void release(topology::Halfedge h);
   void flip(topology::Halfedge h);
 
-  kernel::ConflictTest<models::ProjectedPoints> test_;
+  PlaceDirections& sites_;
   topology::Mesh mesh_;
   kernel::FaceKinds kinds_;
   std::vector<std::uint8_t> sides_;            // by face

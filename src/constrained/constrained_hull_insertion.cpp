@@ -26,7 +26,8 @@ using topology::next_corner;
 using topology::previous_corner;
 
 void ConstrainedHull::insert(Index p, Index close) {
-  ConstrainedWalk walk(test_.sites(), mesh_, kinds_, sides_, p);
+  const auto oriented = [this](Index a, Index b, Index c) { return side(a, b, c); };
+  ConstrainedWalk walk(oriented, mesh_, kinds_, sides_, p);
   const bool is_close = close != no_index && is_vertex(close);
   const ConstrainedWalkEnd end = walk.locate(is_close ? solid_face_at(close) : solid_face_);
   assert(end.where != Where::vertex);
@@ -133,7 +134,7 @@ void ConstrainedHull::enter(const topology::HorizonEdge& edge) {
   stack_.push_back({face.vertex[previous], face.opposite[next]});
 }
 
-bool ConstrainedHull::is_crossed(Index p, Halfedge outside) {
+bool ConstrainedHull::is_crossed(Index p, Halfedge outside) const {
   const bool is_from_solid = is_solid(face_of(opposite(outside)));
   const bool is_to_solid = is_solid(face_of(outside));
   // The border is crossed where p lies on it, and from one side: ghost faces may be in conflict

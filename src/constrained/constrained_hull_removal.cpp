@@ -255,7 +255,7 @@ Halfedge ConstrainedHull::fill(bool is_closed) {
   if (hole_.size() == 2) return hole_[0].outer;
   corners_.clear();
   for (const HoleEdge& edge : hole_) corners_.push_back(edge.vertex);
-  triangulation_.run(test_, corners_);
+  triangulation_.run(sites_, corners_);
   const auto faces = triangulation_.faces();
   slots_.clear();
   while (slots_.size() < faces.size()) {

@@ -14,12 +14,13 @@
 
 #include "api/validation.h"
 #include "constrained/constrained_walk.h"
+#include "predicates/orientation.h"
 #include "query/batch.h"
 #include "query/built.h"
 #include "query/engine.h"
 #include "query/locate.h"
-#include "query/target.h"
 #include "rondel/error.h"
+#include "rondel/predicates.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -47,10 +48,18 @@ struct ConstrainedLocator::Impl {
 Location ConstrainedLocator::Impl::locate(const Point& p, query::Cursor& cursor) const {
   const auto* surface = std::get_if<Surface>(&graph);
   if (surface == nullptr) return engine.locate(p, cursor);
-  const query::Target target(surface->sites, p);
+  constexpr Index query = no_index - 1;  // its name among the vertices
+  predicates::Vector ray;
+  predicates::directions({&p, 1}, sphere.center, &ray);
+  const auto oriented = [&, sites = &surface->sites](Index a, Index b, Index c) {
+    const auto direction = [&](Index v) { return v == query ? ray : sites->direction(v); };
+    const Sign sign = predicates::sure_orientation(direction(a), direction(b), direction(c));
+    if (sign != Sign::zero) return sign;
+    const auto point = [&](Index v) { return v == query ? p : sites->point(v); };
+    return orientation(point(a), point(b), point(c), sphere);
+  };
   if (cursor.face == no_index) cursor.face = query::first_solid_face(*surface, cursor.vertex);
-  constrained::ConstrainedWalk walk(target, surface->mesh, surface->kinds, sides,
-                                    decltype(target)::query);
+  constrained::ConstrainedWalk walk(oriented, surface->mesh, surface->kinds, sides, query);
   const constrained::ConstrainedWalkEnd end = walk.locate(cursor.face);
   cursor.face = topology::face_of(end.halfedge);
   if (end.where == Where::outside) return {};

@@ -23,7 +23,6 @@
 #include <span>
 
 #include "kernel/walk.h"
-#include "predicates/orientation.h"
 #include "query/locate.h"
 #include "rondel/query.h"
 #include "topology/mesh.h"
@@ -37,14 +36,14 @@ struct ConstrainedWalkEnd {
   topology::Halfedge halfedge;
 };
 
-// Source has the sites of the mesh and p, as predicates::orientation() reads them.
-template <class Source>
+// `oriented(a, b, c)` is the exact orientation of vertices of the mesh, or of p.
+template <class Oriented>
 class ConstrainedWalk {
  public:
   // `sides` are bits by face, as in ConstrainedTriangulation.
-  ConstrainedWalk(const Source& source, const topology::Mesh& mesh, const kernel::FaceKinds& kinds,
-                  std::span<const std::uint8_t> sides, Index p)
-      : source_(source),
+  ConstrainedWalk(const Oriented& oriented, const topology::Mesh& mesh,
+                  const kernel::FaceKinds& kinds, std::span<const std::uint8_t> sides, Index p)
+      : oriented_(oriented),
         mesh_(mesh),
         kinds_(kinds),
         sides_(sides),
@@ -101,9 +100,7 @@ class ConstrainedWalk {
   [[nodiscard]] Index vertex(const FaceCorner& at) const {
     return mesh_[at.face].vertex[at.corner];
   }
-  [[nodiscard]] Sign oriented(Index a, Index b, Index c) const {
-    return predicates::orientation(source_, a, b, c).sign;
-  }
+  [[nodiscard]] Sign oriented(Index a, Index b, Index c) const { return oriented_(a, b, c); }
   // Positive if p is on the side of the face of a halfedge.
   [[nodiscard]] Sign side_of_edge(topology::Halfedge h) const {
     const auto& v = mesh_[topology::face_of(h)].vertex;
@@ -223,7 +220,7 @@ class ConstrainedWalk {
     return ArcDeparture{at, previous == Sign::zero ? ArcStep::along_previous : ArcStep::across};
   }
 
-  const Source& source_;
+  const Oriented& oriented_;
   const topology::Mesh& mesh_;
   const kernel::FaceKinds& kinds_;
   std::span<const std::uint8_t> sides_;

@@ -22,8 +22,8 @@
 
 #include "constrained/constrained_hull.h"
 #include "constrained/dynamic_constraints.h"
+#include "constrained/place_directions.h"
 #include "dynamic/editor.h"
-#include "models/projected_points.h"
 #include "rondel/dynamic_constrained.h"
 #include "system/mutex.h"
 
@@ -31,7 +31,7 @@ namespace rondel {
 
 struct DynamicConstrainedTriangulation::Impl {
   using Ends = std::array<Index, 2>;
-  using Editor = dynamic::Editor<models::ProjectedPoints, constrained::ConstrainedHull>;
+  using Editor = dynamic::Editor<constrained::PlaceDirections, constrained::ConstrainedHull>;
 
   explicit Impl(const Sphere& its_sphere)
       : sphere(its_sphere), editor(Model::projected, its_sphere.center) {}

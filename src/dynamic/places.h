@@ -16,12 +16,13 @@
 #include "order/spatial_index.h"
 #include "order/spatial_order.h"
 #include "predicates/perturbation.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 #include "system/prefetch.h"
 
 namespace rondel::dynamic {
 
-class Places {
+class RONDEL_API Places {
  public:
   Places(Model model, const Point& center) : model_(model), center_(center) {}
   Places(const Places&) = delete;

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/types.h"
 #include "topology/mesh.h"
 
@@ -38,7 +39,7 @@ class RenumberingSchedule {
 };
 
 // Numbers are dense afterwards.
-struct Renumbering {
+struct RONDEL_API Renumbering {
   Renumbering(std::vector<Index> old_places, Index place_limit);
 
   // How many places there may be before the next one.
@@ -54,6 +55,6 @@ struct RenumberedMesh {
   topology::Mesh mesh;
   std::vector<Index> new_face;  // by old number
 };
-RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places);
+RONDEL_API RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places);
 
 }  // namespace rondel::dynamic

@@ -11,6 +11,7 @@
 #include "dynamic/hidden_sites.h"
 #include "dynamic/places.h"
 #include "kernel/walk.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "topology/mesh.h"
 #include "topology/triangulation_arrays.h"
@@ -18,7 +19,7 @@
 namespace rondel::dynamic {
 
 // The ids in use, increasing: position i of a snapshot is the site ids[i].
-std::vector<Index> live_sites(const Places& places);
+RONDEL_API std::vector<Index> live_sites(const Places& places);
 
 // The arrays in dimension 2 for `ids` and their `sites`, in canonical order.
 TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids,
@@ -33,6 +34,6 @@ struct Build {
   topology::Mesh mesh;
   std::vector<std::array<Index, 2>> hidden;
 };
-Build make_build(const Triangulation& triangulation, unsigned threads);
+RONDEL_API Build make_build(const Triangulation& triangulation, unsigned threads);
 
 }  // namespace rondel::dynamic

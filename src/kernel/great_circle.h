@@ -7,13 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::kernel {
 
 // Positions of points that span the most: three that are not in one plane with the center; if there
 // are none, two that are not in line with it; if there are none either, one.
-std::vector<Index> find_span(std::span<const Point> points, const Point& center);
+RONDEL_API std::vector<Index> find_span(std::span<const Point> points, const Point& center);
 
 // For points in one plane through the center: the positions of the vertices around
 // the circle, starting with the lowest, counterclockwise seen from the side to which the plane's

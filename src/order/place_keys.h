@@ -20,7 +20,7 @@ inline constexpr int high_key_bits = 3 + 2 * high_levels;
 CubePosition place_position(const Point& p, Model model, const Point& center);
 
 // The key of a site's place: all sites in one place have it.
-HilbertKey place_key(const Point& p, Model model, const Point& center);
+RONDEL_API HilbertKey place_key(const Point& p, Model model, const Point& center);
 
 // keys[i] = place_key(sites[i]).high and, unless empty, low_keys[i] = place_key(sites[i]).low.
 RONDEL_API void place_keys(std::span<const Point> sites, Model model, const Point& center,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "order/hilbert.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::order {
@@ -62,7 +63,7 @@ class SpatialIndex {
   [[nodiscard]] Index near(const HilbertKey& key) const;
 
   // Asks for the memory that a search for the key reads last.
-  void prefetch(const HilbertKey& key) const;
+  RONDEL_API void prefetch(const HilbertKey& key) const;
 
   // Some values of entries around the position, for what only guesses what is close; the rest is
   // no_index.
@@ -77,7 +78,7 @@ class SpatialIndex {
   void erase(const HilbertKey& key, Index value, IsBefore is_before);
 
   // All values in order.
-  [[nodiscard]] std::vector<Index> values() const;
+  [[nodiscard]] RONDEL_API std::vector<Index> values() const;
 
   // Replaces the values: 0, 1, 2 ... in order.
   void renumber();

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "rondel/export.h"
 #include "topology/mesh.h"
 
 namespace rondel::topology {
 
 // Adds two faces back to back, (a, b, c) and (a, c, b): the smallest surface. Returns both.
-std::pair<Index, Index> flat_pair(Mesh& mesh, const std::array<Index, 3>& corners);
+RONDEL_API std::pair<Index, Index> flat_pair(Mesh& mesh, const std::array<Index, 3>& corners);
 
 // An edge of the horizon: from `origin` to the origin of the next one, seen from outside.
 struct HorizonEdge {
@@ -31,6 +32,7 @@ struct HorizonEdge {
 //      / i \     /               its edge 1:  shared with face i+1, b_i = a_{i+1}
 //     a --- v --                 its edge 2:  shared with face i-1
 //
-void star(Mesh& mesh, Index v, std::span<const HorizonEdge> horizon, std::vector<Index>& slots);
+RONDEL_API void star(Mesh& mesh, Index v, std::span<const HorizonEdge> horizon,
+                     std::vector<Index>& slots);
 
 }  // namespace rondel::topology
