@@ -341,7 +341,7 @@ bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces, const Polygon& polyg
                                               const SubPolygon& part) {
   struct CircleTest {
     Faces& faces;
-    bool is_in_conflict(const Triple& face, Index v) const {
+    [[nodiscard]] bool is_in_conflict(const Triple& face, Index v) const {
       return faces.is_in_circle(face[0], face[1], face[2], v);
     }
   };

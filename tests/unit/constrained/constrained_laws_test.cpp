@@ -12,6 +12,7 @@
 #include "order/spatial_order.h"
 #include "rondel/constrained.h"
 #include "rondel/delaunay.h"
+#include "rondel/dynamic_constrained.h"
 #include "rondel/predicates.h"
 #include "support/generators.h"
 
@@ -275,6 +276,39 @@ TEST(constrained_laws, hold_between_curves) {
       }
       expect_laws(curves, {{0, 1}}, random);
     }
+  }
+}
+
+// Three sites in 32 of each curve are nearer to the constraint, one of them close to it: polygons that
+// are almost convex, the sides of which are not all Delaunay.
+TEST(constrained_laws, hold_between_curves_with_notches) {
+  Random random(14);
+  for (std::size_t k = 0; k < scaled(60); ++k) {
+    SCOPED_TRACE(k);
+    const int n = 34 + static_cast<int>(random.below(90));
+    const int shift = static_cast<int>(random.below(32));
+    const auto depth = [&](int i) {
+      const int place = (i + shift) % 32;
+      if (place == 16) return 0.02 + 0.1 * random.unit();
+      return place == 14 || place == 18 ? 0.1 + 0.8 * random.unit() : 1.0;
+    };
+    SiteSet curves;
+    curves.sites = {{1, -0.2, 0}, {1, 0.2, 0}};
+    for (int i = 1; i < n; ++i) {
+      const double t = static_cast<double>(i) / n;
+      const double height = t * (1 - t) * (1 + 2 * t * t);
+      curves.sites.push_back({1, 0.4 * t - 0.2, 0.2 * height * depth(i)});
+      curves.sites.push_back({1, 0.4 * t - 0.199, -0.2 * height * depth(i)});
+    }
+    // The curves are constraints, and the one between them comes last.
+    std::vector<Ends> constraints;
+    for (Index i = 2; i + 2 < curves.sites.size(); ++i) constraints.push_back({i, i + 2});
+    DynamicConstrainedTriangulation changing(curves.sites, constraints);
+    changing.insert_constraint(0, 1);
+    constraints.push_back({0, 1});
+    const auto result = changing.snapshot().result;
+    ASSERT_EQ(check_constrained(curves.sites, constraints, result.triangulation.faces()).reason,
+              "");
   }
 }
 
