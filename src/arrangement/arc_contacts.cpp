@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,16 +37,25 @@ class ContactFinder {
  public:
   ContactFinder(const NodedArcs& input, Contacts& found) : input_(input), found_(found) {}
 
+  // Takes a block of the tree, of whose arcs each is the first one of several pairs.
+  void begin_block(std::size_t block) {
+    first_of_block_ = block * BoxTree::fan_out;
+    sided_.clear();
+    const std::size_t end = std::min(input_.arcs.size(), first_of_block_ + BoxTree::fan_out);
+    for (std::size_t i = first_of_block_; i < end; ++i) {
+      sided_.emplace_back(point(input_.arcs[i].from), point(input_.arcs[i].to));
+    }
+  }
   void add(Index i, Index j) {
     const NodedArc s = input_.arcs[i];
     const NodedArc t = input_.arcs[j];
-    const SidedArc first(point(s.from), point(s.to));
-    const SidedArc second(point(t.from), point(t.to));
+    const SidedArc& first = sided_[i - first_of_block_];
     const bool is_from_shared = t.from == s.from || t.from == s.to;
     const bool is_to_shared = t.to == s.from || t.to == s.to;
     const int from = is_from_shared ? 0 : first.side(point(t.from));
     const int to = is_to_shared ? 0 : first.side(point(t.to));
     if (from * to > 0) return;
+    const SidedArc second(point(t.from), point(t.to));
     const int of_from = s.from == t.from || s.from == t.to ? 0 : second.side(point(s.from));
     const int of_to = s.to == t.from || s.to == t.to ? 0 : second.side(point(s.to));
     if (of_from * of_to > 0) return;
@@ -73,29 +83,43 @@ class ContactFinder {
 
   const NodedArcs& input_;
   Contacts& found_;
+  std::size_t first_of_block_ = 0;
+  std::vector<SidedArc> sided_;  // the arcs of the block
 };
 
-// Returns the pairs of all parts, ascending, each once. The pairs of an arc are few.
-std::vector<NearNode> sorted_pairs(const std::vector<std::vector<NearNode>>& parts,
-                                   std::size_t num_arcs, unsigned threads) {
-  system::RowPlaces<std::uint64_t> places(num_arcs);
-  for (const auto& part : parts) {
-    for (const NearNode& pair : part) places.count(pair.arc);
-  }
-  std::vector<NearNode> all(places.sum());
-  for (const auto& part : parts) {
-    for (const NearNode& pair : part) all[places.place(pair.arc)] = pair;
-  }
-  const std::vector<std::uint64_t> offsets = std::move(places).offsets();
-  constexpr std::size_t grain = 4096;
-  system::parallel_for(threads, num_arcs, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t arc = begin; arc < end; ++arc) {
-      std::sort(all.begin() + static_cast<std::ptrdiff_t>(offsets[arc]),
-                all.begin() + static_cast<std::ptrdiff_t>(offsets[arc + 1]));
-    }
+// Returns the entries of all parts, one part after the other.
+template <class T>
+std::vector<T> joined(const std::vector<std::vector<T>>& parts, unsigned threads) {
+  const std::vector<std::uint64_t> offsets =
+      system::offsets_of(parts.size(), [&](std::size_t i) { return parts[i].size(); });
+  std::vector<T> all(offsets.back());
+  system::parallel_for(threads, parts.size(), 1, [&](std::size_t i, std::size_t /*end*/) {
+    std::ranges::copy(parts[i], all.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
   });
-  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+// Sorts pairs and leaves each once. If there are many, those of an arc are few.
+void sort_pairs(std::vector<NearNode>& pairs, std::size_t num_arcs, unsigned threads) {
+  constexpr std::size_t arcs_per_pair = 16;
+  if (pairs.size() < num_arcs / arcs_per_pair) {
+    std::ranges::sort(pairs);
+  } else {
+    system::RowPlaces<std::uint64_t> places(num_arcs);
+    for (const NearNode& pair : pairs) places.count(pair.arc);
+    std::vector<NearNode> all(places.sum());
+    for (const NearNode& pair : pairs) all[places.place(pair.arc)] = pair;
+    const std::vector<std::uint64_t> offsets = std::move(places).offsets();
+    constexpr std::size_t grain = 4096;
+    system::parallel_for(threads, num_arcs, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t arc = begin; arc < end; ++arc) {
+        std::sort(all.begin() + static_cast<std::ptrdiff_t>(offsets[arc]),
+                  all.begin() + static_cast<std::ptrdiff_t>(offsets[arc + 1]));
+      }
+    });
+    pairs = std::move(all);
+  }
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 // True if the angle from p to q about a unit vector is positive beyond doubt: the product is off by
@@ -112,10 +136,51 @@ bool is_ahead(const Vec& direction, const Point& p, const Point& q) {
   return is_surely_ahead(direction, p, q) || dot(direction, normal_of(p, q)) > 0;
 }
 
+// Collects the arcs near to points, a batch of points at a time.
+class NearArcFinder {
+ public:
+  NearArcFinder(const NodedArcs& input, const SoughtPoints& sought, std::vector<NearNode>& found)
+      : input_(input), sought_(sought), found_(found) {}
+
+  void begin_batch(std::size_t first, std::size_t size) {
+    first_ = first;
+    box_ = empty_box;
+    for (std::size_t k = 0; k < PointBatch::size; ++k) {
+      // The first point fills the places that are left.
+      const Point& p = sought_.points[sought_.which[first + (k < size ? k : 0)]];
+      batch_.x[k] = p.x;
+      batch_.y[k] = p.y;
+      batch_.z[k] = p.z;
+      box_.include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+    }
+    in_use_ = (1U << size) - 1;
+  }
+  [[nodiscard]] const SpaceBox& box() const { return box_; }
+
+  void add(Index arc) {
+    const Point& a = input_.from(arc);
+    const Point& b = input_.to(arc);
+    unsigned left = SidedArc(a, b).may_be_near(batch_) & in_use_;
+    for (; left != 0; left &= left - 1) {
+      const std::size_t k = first_ + static_cast<unsigned>(std::countr_zero(left));
+      if (sought_.known[k].first == arc || sought_.known[k].second == arc) continue;
+      const Index point = sought_.which[k];
+      if (is_near(a, b, sought_.points[point])) found_.push_back({arc, point});
+    }
+  }
+
+ private:
+  const NodedArcs& input_;
+  const SoughtPoints& sought_;
+  std::vector<NearNode>& found_;
+  std::size_t first_ = 0;
+  unsigned in_use_ = 0;
+  PointBatch batch_{};
+  SpaceBox box_{};
+};
+
 constexpr std::size_t blocks_per_task = 128;
 constexpr std::size_t points_per_task = 1024;
-constexpr std::size_t points_per_query = 16;
-
 }  // namespace
 
 // Where each great circle separates the ends of the other arc, an arc crosses the other one or the
@@ -172,14 +237,10 @@ SpaceBox box_of(const Point& a, const Point& b) {
 }
 
 BoxTree boxes_of(const NodedArcs& input, unsigned threads) {
-  std::vector<SpaceBox> boxes(input.arcs.size());
-  constexpr std::size_t grain = 4096;
-  system::parallel_for(threads, boxes.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      boxes[i] = box_of(input.from(static_cast<Index>(i)), input.to(static_cast<Index>(i)));
-    }
-  });
-  return {std::move(boxes), threads};
+  const auto box = [&](std::size_t i) {
+    return box_of(input.from(static_cast<Index>(i)), input.to(static_cast<Index>(i)));
+  };
+  return {input.arcs.size(), box, threads};
 }
 
 Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned threads) {
@@ -192,50 +253,34 @@ Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned th
                          Contacts found;
                          ContactFinder finder(input, found);
                          for (std::size_t block = begin; block < end; ++block) {
+                           finder.begin_block(block);
                            boxes.visit_pairs(block, [&](Index i, Index j) { finder.add(i, j); });
                          }
                          std::ranges::sort(found.crossings);
                          crossings[begin / blocks_per_task] = std::move(found.crossings);
                          near[begin / blocks_per_task] = std::move(found.near);
                        });
-  Contacts result;
   // The tasks have the first arcs of their crossings in ascending order.
-  for (const auto& part : crossings) {
-    result.crossings.insert(result.crossings.end(), part.begin(), part.end());
-  }
-  result.near = sorted_pairs(near, input.arcs.size(), threads);
+  Contacts result = {joined(crossings, threads), joined(near, threads)};
+  sort_pairs(result.near, input.arcs.size(), threads);
   return result;
 }
 
 // Points that follow each other along the spatial order are close to each other, so that the tree is
 // asked for the arcs near to some of them at once.
 std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
-                                std::span<const Point> points, unsigned threads) {
-  std::vector<std::vector<NearNode>> parts(system::num_pieces(points.size(), points_per_task));
-  system::parallel_for(
-      threads, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
-        std::vector<NearNode>& part = parts[begin / points_per_task];
-        std::vector<SpaceBox> places;
-        for (std::size_t first = begin; first < end; first += points_per_query) {
-          places.clear();
-          for (std::size_t k = first; k < std::min(end, first + points_per_query); ++k) {
-            const std::array<double, 3> place = {points[k].x, points[k].y, points[k].z};
-            places.push_back({place, place});
-          }
-          SpaceBox all = places[0];
-          for (const SpaceBox& place : places) all.include(place);
-          boxes.visit(all, [&](Index arc) {
-            for (std::size_t k = 0; k < places.size(); ++k) {
-              if (places[k].overlaps(boxes.box(arc)) &&
-                  SidedArc(input.from(arc), input.to(arc)).side(points[first + k]) == 0 &&
-                  is_near(input.from(arc), input.to(arc), points[first + k])) {
-                part.push_back({arc, static_cast<Index>(first + k)});
-              }
-            }
-          });
-        }
-      });
-  return sorted_pairs(parts, input.arcs.size(), threads);
+                                const SoughtPoints& sought, unsigned threads) {
+  std::vector<std::vector<NearNode>> parts(
+      system::num_pieces(sought.which.size(), points_per_task));
+  system::parallel_for(threads, sought.which.size(), points_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         NearArcFinder finder(input, sought, parts[begin / points_per_task]);
+                         for (std::size_t first = begin; first < end; first += PointBatch::size) {
+                           finder.begin_batch(first, std::min(end - first, PointBatch::size));
+                           boxes.visit(finder.box(), [&](Index arc) { finder.add(arc); });
+                         }
+                       });
+  return joined(parts, threads);
 }
 
 }  // namespace rondel::arrangement

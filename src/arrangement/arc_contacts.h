@@ -60,8 +60,15 @@ BoxTree boxes_of(const NodedArcs& input, unsigned threads);
 
 Contacts find_contacts(const NodedArcs& input, const BoxTree& boxes, unsigned threads);
 
-// Returns the arcs to which new points are near: entries (arc, index of the point), ascending.
+// Points to which arcs near to them are sought.
+struct SoughtPoints {
+  std::span<const Point> points;
+  std::span<const Index> which;         // of these points, along the spatial order
+  std::span<const CrossingArcs> known;  // for each of `which` two arcs that are left out
+};
+
+// Returns the arcs to which points are near: entries (arc, index of the point), in any order.
 std::vector<NearNode> arcs_near(const NodedArcs& input, const BoxTree& boxes,
-                                std::span<const Point> points, unsigned threads);
+                                const SoughtPoints& sought, unsigned threads);
 
 }  // namespace rondel::arrangement

@@ -5,7 +5,9 @@
 // each given arc through these steps.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -13,10 +15,16 @@
 #include <vector>
 
 #include "arrangement/arc_checks.h"
+#include "arrangement/numbering.h"
 #include "arrangement/snapping.h"
 #include "rondel/arrangement.h"
 #include "rondel/error.h"
+#include "system/gather.h"
 #include "system/job.h"
+#include "system/numbers_where.h"
+#include "system/parallel.h"
+#include "system/prefetch.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -24,6 +32,8 @@ namespace {
 using arrangement::NodedArc;
 
 using Ends = std::array<Index, 2>;
+
+constexpr std::size_t arcs_per_task = 4096;
 
 // Throws InvalidInput with the first point or arc that is not as arrange() wants it.
 void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
@@ -43,66 +53,128 @@ struct ArrangementState {
   CompressedRows<Index> chains;
 };
 
+// Returns the points that are ends of arcs.
+std::vector<Index> used_points(std::size_t num_points, std::span<const Ends> arcs,
+                               unsigned threads) {
+  std::vector<std::uint8_t> is_used(num_points, 0);
+  system::parallel_for(threads, arcs.size(), arcs_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           for (const Index p : arcs[i]) {
+                             std::atomic_ref(is_used[p]).store(1, std::memory_order_relaxed);
+                           }
+                         }
+                       });
+  return system::numbers_where(threads, num_points, [&](std::size_t i) { return is_used[i] != 0; });
+}
+
+// Only points that are ends of arcs become nodes.
+arrangement::NumberedPoints first_nodes(std::span<const Point> points, std::span<const Ends> arcs,
+                                        unsigned threads) {
+  const std::vector<Index> used = used_points(points.size(), arcs, threads);
+  if (used.size() == points.size()) return arrangement::numbered(points, 0, threads);
+  arrangement::NumberedPoints nodes =
+      arrangement::numbered(system::gather(points, used), 0, threads);
+  std::vector<Index> numbers(points.size(), no_index);
+  for (std::size_t k = 0; k < used.size(); ++k) numbers[used[k]] = nodes.numbers[k];
+  nodes.numbers = std::move(numbers);
+  return nodes;
+}
+
 ArrangementState first_state(std::span<const Point> points, std::span<const Ends> arcs,
                              unsigned threads) {
-  // Only points that are ends of arcs become nodes.
-  std::vector<Index> places(points.size(), no_index);
-  std::vector<Point> used;
-  for (const Ends& ends : arcs) {
-    for (const Index p : ends) {
-      if (places[p] != no_index) continue;
-      places[p] = static_cast<Index>(used.size());
-      used.push_back(points[p]);
-    }
-  }
-  arrangement::NumberedPoints nodes = arrangement::numbered(used, 0, threads);
-  std::vector<NodedArc> given;
-  given.reserve(arcs.size());
-  for (const auto [a, b] : arcs) {
-    given.push_back({nodes.numbers[places[a]], nodes.numbers[places[b]]});
-  }
-  arrangement::NumberedArcs numbered = arrangement::numbered_arcs(given, threads);
+  arrangement::NumberedPoints nodes = first_nodes(points, arcs, threads);
+  std::vector<NodedArc> given(arcs.size());
+  system::parallel_for(threads, arcs.size(), arcs_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           given[i] = {nodes.numbers[arcs[i][0]], nodes.numbers[arcs[i][1]]};
+                         }
+                       });
+  arrangement::NumberedArcs numbered =
+      arrangement::numbered_arcs(given, nodes.points.size(), threads);
   ArrangementState state{{std::move(nodes.points), std::move(numbered.arcs)}, {}};
-  state.chains.values.reserve(arcs.size());
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    if (given[i].from != given[i].to) state.chains.values.push_back(numbered.halfedges[i]);
-    state.chains.end_row();
-  }
+  state.chains.offsets = system::offsets_of(arcs.size(), [&](std::size_t i) {
+    return static_cast<std::size_t>(given[i].from != given[i].to);
+  });
+  state.chains.values.resize(state.chains.offsets.back());
+  system::parallel_for(threads, arcs.size(), arcs_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           if (given[i].from != given[i].to) {
+                             state.chains.values[state.chains.offsets[i]] = numbered.halfedges[i];
+                           }
+                         }
+                       });
   return state;
 }
 
 // Replaces each halfedge by those of its pieces.
 CompressedRows<Index> refined(const CompressedRows<Index>& chains,
-                              const CompressedRows<Index>& pieces) {
+                              const CompressedRows<Index>& pieces, unsigned threads) {
   CompressedRows<Index> result;
-  result.offsets.reserve(chains.offsets.size());
-  result.values.reserve(chains.values.size());
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    for (const Index h : chains[i]) {
-      const std::span<const Index> row = pieces[h / 2];
-      if (h % 2 == 0) {
-        result.values.insert(result.values.end(), row.begin(), row.end());
-      } else {
-        for (std::size_t k = row.size(); k-- > 0;) result.values.push_back(row[k] ^ 1U);
-      }
-    }
-    result.end_row();
-  }
+  result.offsets.resize(chains.offsets.size());
+  // The arcs come in any order.
+  const auto prefetch = [&](std::uint64_t k) {
+    if (k < chains.values.size()) system::prefetch(&pieces.offsets[chains.values[k] / 2]);
+  };
+  system::parallel_for(threads, chains.size(), arcs_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           prefetch(chains.offsets[i] + system::prefetch_distance);
+                           std::uint64_t size = 0;
+                           for (const Index h : chains[i]) size += pieces[h / 2].size();
+                           result.offsets[i + 1] = size;
+                         }
+                       });
+  system::sum_counts(result.offsets);
+  result.values.resize(result.offsets.back());
+  system::parallel_for(
+      threads, chains.size(), arcs_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          prefetch(chains.offsets[i] + 2 * system::prefetch_distance);
+          if (const std::uint64_t k = chains.offsets[i] + system::prefetch_distance;
+              k < chains.values.size()) {
+            system::prefetch(pieces.values.data() + pieces.offsets[chains.values[k] / 2]);
+          }
+          auto next = result.values.begin() + static_cast<std::ptrdiff_t>(result.offsets[i]);
+          for (const Index h : chains[i]) {
+            const std::span<const Index> row = pieces[h / 2];
+            if (h % 2 == 0) {
+              next = std::copy(row.begin(), row.end(), next);
+            } else {
+              next = std::transform(row.rbegin(), row.rend(), next, [](Index p) { return p ^ 1U; });
+            }
+          }
+        }
+      });
   return result;
 }
 
 // Leaves out arcs that are points.
-Arrangement arrangement_of(ArrangementState state) {
-  Arrangement result;
-  std::vector<Index> numbers(state.arcs.arcs.size(), no_index);
-  result.edges.reserve(state.arcs.arcs.size());
-  for (std::size_t i = 0; i < state.arcs.arcs.size(); ++i) {
-    const NodedArc& arc = state.arcs.arcs[i];
-    if (arc.from == arc.to) continue;
-    numbers[i] = static_cast<Index>(result.edges.size());
-    result.edges.push_back({arc.from, arc.to});
+void leave_out_points(ArrangementState& state) {
+  std::vector<NodedArc>& arcs = state.arcs.arcs;
+  const auto is_point = [](const NodedArc& arc) { return arc.from == arc.to; };
+  if (std::ranges::none_of(arcs, is_point)) return;
+  std::vector<Index> numbers(arcs.size(), no_index);
+  Index count = 0;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (!is_point(arcs[i])) numbers[i] = count++;
   }
+  std::erase_if(arcs, is_point);
   for (Index& h : state.chains.values) h = 2 * numbers[h / 2] + h % 2;
+}
+
+Arrangement arrangement_of(ArrangementState state, unsigned threads) {
+  leave_out_points(state);
+  Arrangement result;
+  result.edges.resize(state.arcs.arcs.size());
+  system::parallel_for(threads, result.edges.size(), arcs_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           result.edges[i] = {state.arcs.arcs[i].from, state.arcs.arcs[i].to};
+                         }
+                       });
   result.nodes = std::move(state.arcs.nodes);
   result.chains = std::move(state.chains);
   return result;
@@ -125,11 +197,11 @@ Arrangement arrange(std::span<const Point> points, std::span<const Ends> arcs,
     // Arcs may cross in a place that is as near to all of their ends, and that none of them has.
     is_forced =
         snapped->pieces.nodes == state.arcs.nodes && snapped->pieces.arcs == state.arcs.arcs;
-    state.chains = refined(state.chains, snapped->chains);
+    state.chains = refined(state.chains, snapped->chains, execution.threads);
     state.arcs = std::move(snapped->pieces);
     if (snapped->is_certain) break;
   }
-  return arrangement_of(std::move(state));
+  return arrangement_of(std::move(state), execution.threads);
 }
 
 }  // namespace rondel

@@ -5,12 +5,13 @@
 //
 // in    boxes, in an order in which neighbors are close to each other
 // out   pairs of boxes that overlap, and the boxes that overlap a given one
-// index boxes, as given; nodes of level 0 are the boxes, node k of level i + 1 consists of the nodes
-//       8 k ... 8 k + 7 of level i
+// index boxes, as given; block k of level 0 has the boxes 8 k ... 8 k + 7, and block k of level i + 1
+//       those around the blocks 8 k ... 8 k + 7 of level i
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -54,101 +55,164 @@ struct SpaceBox {
 inline constexpr SpaceBox empty_box = {{4, 4, 4}, {-4, -4, -4}};
 inline constexpr SpaceBox whole_box = {{-2, -2, -2}, {2, 2, 2}};
 
+// Eight boxes, coordinate by coordinate, so that a box is compared with all of them at once.
+class alignas(64) BoxBlock {
+ public:
+  static constexpr std::size_t size = 8;
+
+  void set(std::size_t i, const SpaceBox& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low_[axis][i] = box.low[axis];
+      high_[axis][i] = box.high[axis];
+    }
+  }
+  [[nodiscard]] SpaceBox box(std::size_t i) const {
+    return {{low_[0][i], low_[1][i], low_[2][i]}, {high_[0][i], high_[1][i], high_[2][i]}};
+  }
+  // Returns a box around all of them.
+  [[nodiscard]] SpaceBox hull() const {
+    SpaceBox all = box(0);
+    for (std::size_t i = 1; i < size; ++i) all.include(box(i));
+    return all;
+  }
+  // Returns a number whose bit i tells whether box i overlaps the given one. The largest distance
+  // along an axis from the end of one box to the beginning of the other one tells it; its sign is
+  // exact. The compiler makes vector code of this loop.
+  [[nodiscard]] unsigned overlapping(const SpaceBox& box) const {
+    static constexpr std::array<double, size> places = {1, 2, 4, 8, 16, 32, 64, 128};
+    std::array<double, size> bits;
+    for (std::size_t i = 0; i < size; ++i) {
+      double apart = low_[0][i] - box.high[0];
+      const auto include = [&](double x) { apart = apart < x ? x : apart; };
+      include(box.low[0] - high_[0][i]);
+      include(low_[1][i] - box.high[1]);
+      include(box.low[1] - high_[1][i]);
+      include(low_[2][i] - box.high[2]);
+      include(box.low[2] - high_[2][i]);
+      const double place = places[i];
+      bits[i] = apart <= 0 ? place : 0.0;
+    }
+    const double sum =
+        ((bits[0] + bits[1]) + (bits[2] + bits[3])) + ((bits[4] + bits[5]) + (bits[6] + bits[7]));
+    return static_cast<unsigned>(static_cast<int>(sum));
+  }
+
+ private:
+  std::array<std::array<double, size>, 3> low_;
+  std::array<std::array<double, size>, 3> high_;
+};
+
 class BoxTree {
  public:
-  static constexpr std::size_t fan_out = 8;
+  static constexpr std::size_t fan_out = BoxBlock::size;
 
-  BoxTree(std::vector<SpaceBox> boxes, unsigned threads) {
-    levels_.push_back(std::move(boxes));
+  BoxTree(const std::vector<SpaceBox>& boxes, unsigned threads)
+      : BoxTree(
+            boxes.size(), [&](std::size_t i) { return boxes[i]; }, threads) {}
+  // Of `count` boxes, of which box(i) returns each.
+  template <class Box>
+  BoxTree(std::size_t count, const Box& box, unsigned threads) {
+    add_level(count, threads, box);
     while (levels_.back().size() > 1) {
-      const std::vector<SpaceBox>& below = levels_.back();
-      std::vector<SpaceBox> level((below.size() + fan_out - 1) / fan_out);
-      constexpr std::size_t grain = 4096;
-      system::parallel_for(threads, level.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          level[k] = below[k * fan_out];
-          for (std::size_t i = 1; i < size_of(below, k); ++i) {
-            level[k].include(below[k * fan_out + i]);
-          }
-        }
-      });
-      levels_.push_back(std::move(level));
+      const std::vector<BoxBlock>& below = levels_.back();
+      add_level(below.size(), threads, [&](std::size_t k) { return below[k].hull(); });
     }
   }
 
   // Returns the number of blocks of boxes that visit_pairs() takes.
-  [[nodiscard]] std::size_t num_blocks() const {
-    return levels_.size() > 1 ? levels_[1].size() : 0;
-  }
-  [[nodiscard]] const SpaceBox& box(Index i) const { return levels_[0][i]; }
+  [[nodiscard]] std::size_t num_blocks() const { return levels_[0].size(); }
+  [[nodiscard]] SpaceBox box(Index i) const { return levels_[0][i / fan_out].box(i % fan_out); }
   // Returns a box near to a place, which need not be the nearest one. There must be a box.
   [[nodiscard]] Index near(const std::array<double, 3>& place) const {
     std::size_t node = 0;
-    for (std::size_t level = levels_.size() - 1; level-- > 0;) {
-      const std::vector<SpaceBox>& boxes = levels_[level];
-      std::size_t nearest = node * fan_out;
-      double least = boxes[nearest].squared_distance(place);
-      for (std::size_t i = 1; i < size_of(boxes, node); ++i) {
-        const double distance = boxes[node * fan_out + i].squared_distance(place);
+    for (std::size_t level = levels_.size(); level-- > 0;) {
+      const BoxBlock& block = levels_[level][node];
+      std::size_t nearest = 0;
+      double least = block.box(0).squared_distance(place);
+      for (std::size_t i = 1; i < fan_out; ++i) {
+        const double distance = block.box(i).squared_distance(place);
         if (distance >= least) continue;
         least = distance;
-        nearest = node * fan_out + i;
+        nearest = i;
       }
-      node = nearest;
+      node = node * fan_out + nearest;
     }
     return static_cast<Index>(node);
   }
 
-  // Calls visit(i, j) for each pair i < j of boxes that overlap, of which i is in the block.
+  // Calls visit(i, j) for each pair i < j of boxes that overlap, of which i is in the block; pairs
+  // with the same i and a block of j follow each other.
   template <class Visit>
   void visit_pairs(std::size_t block, const Visit& visit) const {
-    const std::vector<SpaceBox>& boxes = levels_[0];
-    const auto visit_block = [&](std::size_t other) {
-      const std::size_t end = other * fan_out + size_of(boxes, other);
-      for (std::size_t i = block * fan_out; i < block * fan_out + size_of(boxes, block); ++i) {
-        if (!boxes[i].overlaps(levels_[1][other])) continue;
-        for (std::size_t j = std::max(other * fan_out, i + 1); j < end; ++j) {
-          if (boxes[i].overlaps(boxes[j])) visit(static_cast<Index>(i), static_cast<Index>(j));
-        }
+    const BoxBlock& boxes = levels_[0][block];
+    visit_blocks(block, boxes.hull(), [&](std::size_t other) {
+      const BoxBlock& others = levels_[0][other];
+      for (unsigned left = boxes.overlapping(others.hull()); left != 0; left &= left - 1) {
+        const auto i = static_cast<unsigned>(std::countr_zero(left));
+        // Of its own block a box is compared with those behind it.
+        const unsigned behind = other == block ? ~0U << (i + 1) : ~0U;
+        visit_each(other, others.overlapping(boxes.box(i)) & behind,
+                   [&](Index j) { visit(static_cast<Index>(block * fan_out + i), j); });
       }
-    };
-    descend(levels_.size() - 1, 0, 1, block, levels_[1][block], visit_block);
+    });
   }
 
   // Calls visit(i) for each box that overlaps the given one.
   template <class Visit>
   void visit(const SpaceBox& box, const Visit& visit) const {
-    if (levels_[0].empty()) return;
-    const auto visit_one = [&](std::size_t i) { visit(static_cast<Index>(i)); };
-    descend(levels_.size() - 1, 0, 0, 0, box, visit_one);
+    visit_blocks(0, box, [&](std::size_t block) {
+      visit_each(block, levels_[0][block].overlapping(box), visit);
+    });
   }
 
  private:
-  // Returns the number of nodes below node k.
-  static std::size_t size_of(const std::vector<SpaceBox>& below, std::size_t k) {
-    return std::min(fan_out, below.size() - k * fan_out);
+  // Adds a level, of which box(i) is box i. Where a block has fewer boxes, empty ones fill it.
+  template <class Box>
+  void add_level(std::size_t count, unsigned threads, const Box& box) {
+    std::vector<BoxBlock> blocks((count + fan_out - 1) / fan_out);
+    constexpr std::size_t grain = 1024;
+    system::parallel_for(threads, blocks.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin * fan_out; i < end * fan_out; ++i) {
+        blocks[i / fan_out].set(i % fan_out, i < count ? box(i) : empty_box);
+      }
+    });
+    levels_.push_back(std::move(blocks));
   }
 
-  // Calls visit(k) for each node k >= first of level `last` below a node that overlaps a box.
+  // Calls visit(i) for each box of a block of level 0 that has a bit.
   template <class Visit>
-  void descend(std::size_t level, std::size_t node, std::size_t last, std::size_t first,
-               const SpaceBox& box, const Visit& visit) const {
-    if (!levels_[level][node].overlaps(box)) return;
-    if (level == last) {
-      if (node >= first) visit(node);
-      return;
-    }
-    // The nodes of level `last` below this one end before `end`.
-    std::size_t end = node + 1;
-    for (std::size_t l = last; l < level; ++l) end *= fan_out;
-    if (end <= first) return;
-    const std::vector<SpaceBox>& below = levels_[level - 1];
-    for (std::size_t i = 0; i < size_of(below, node); ++i) {
-      descend(level - 1, node * fan_out + i, last, first, box, visit);
+  static void visit_each(std::size_t block, unsigned bits, const Visit& visit) {
+    for (; bits != 0; bits &= bits - 1) {
+      visit(static_cast<Index>(block * fan_out + static_cast<unsigned>(std::countr_zero(bits))));
     }
   }
 
-  std::vector<std::vector<SpaceBox>> levels_;
+  // Calls visit(k) for each block k >= first of level 0 that overlaps a box.
+  template <class Visit>
+  void visit_blocks(std::size_t first, const SpaceBox& box, const Visit& visit) const {
+    if (levels_[0].size() > 1) {
+      descend(levels_.size() - 1, 0, first, box, visit);
+    } else if (!levels_[0].empty()) {
+      visit(std::size_t{0});
+    }
+  }
+  template <class Visit>
+  void descend(std::size_t level, std::size_t block, std::size_t first, const SpaceBox& box,
+               const Visit& visit) const {
+    // Each box of the block has so many blocks of level 0.
+    const std::size_t width = std::size_t{1} << (3 * (level - 1));
+    for (unsigned left = levels_[level][block].overlapping(box); left != 0; left &= left - 1) {
+      const std::size_t k = block * fan_out + static_cast<unsigned>(std::countr_zero(left));
+      if ((k + 1) * width <= first) continue;
+      if (level == 1) {
+        visit(k);
+      } else {
+        descend(level - 1, k, first, box, visit);
+      }
+    }
+  }
+
+  std::vector<std::vector<BoxBlock>> levels_;
 };
 
 }  // namespace rondel::arrangement

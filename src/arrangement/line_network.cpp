@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "arrangement/arc_checks.h"
+#include "arrangement/numbering.h"
 #include "arrangement/ring_arrays.h"
-#include "arrangement/snapping.h"
 #include "rondel/error.h"
 #include "system/row_assembly.h"
 

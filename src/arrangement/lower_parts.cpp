@@ -9,8 +9,8 @@
 
 #include "arrangement/arc_contacts.h"
 #include "arrangement/box_tree.h"
+#include "arrangement/numbering.h"
 #include "arrangement/set_regions.h"
-#include "arrangement/snapping.h"
 #include "exact/vector.h"
 #include "rondel/predicates.h"
 #include "system/parallel.h"

@@ -4,7 +4,9 @@
 // On which side of an arc points are, where doubles can tell.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "arrangement/noded_arcs.h"
 #include "exact/vector.h"
@@ -20,6 +22,14 @@ namespace rondel::arrangement {
 // of higher order. It is multiplied by the sum of the sizes of coordinates, which is not below the
 // length.
 inline constexpr double side_bound = 18 * predicates::unit_roundoff + 2 * arrangement_radius;
+
+// Some points, coordinate by coordinate.
+struct PointBatch {
+  static constexpr std::size_t size = 16;
+  std::array<double, size> x;
+  std::array<double, size> y;
+  std::array<double, size> z;
+};
 
 // An arc, and on which side of it points are.
 class SidedArc {
@@ -38,8 +48,26 @@ class SidedArc {
     const double value = dot(normal_, exact::to_vector(p) - a_);
     return static_cast<int>(value > limit_) - static_cast<int>(value < -limit_);
   }
+  // Returns a number whose bit i tells whether point i may be within the radius of the great circle.
+  // The compiler makes vector code of this loop.
+  [[nodiscard]] unsigned may_be_near(const PointBatch& points) const {
+    std::array<double, PointBatch::size> bits;
+    for (std::size_t i = 0; i < PointBatch::size; ++i) {
+      const double value = normal_.x * (points.x[i] - a_.x) + normal_.y * (points.y[i] - a_.y) +
+                           normal_.z * (points.z[i] - a_.z);
+      const double place = places[i];
+      bits[i] = std::abs(value) <= limit_ ? place : 0.0;
+    }
+    double sum = 0;
+    for (const double bit : bits) sum += bit;
+    return static_cast<unsigned>(static_cast<int>(sum));
+  }
 
  private:
+  static constexpr std::array<double, PointBatch::size> places = {
+      0x1p0, 0x1p1, 0x1p2,  0x1p3,  0x1p4,  0x1p5,  0x1p6,  0x1p7,
+      0x1p8, 0x1p9, 0x1p10, 0x1p11, 0x1p12, 0x1p13, 0x1p14, 0x1p15};
+
   Vec a_;
   Vec normal_{};
   double limit_ = 0;

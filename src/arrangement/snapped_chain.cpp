@@ -9,6 +9,7 @@
 #include "arrangement/snapped_chain.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -146,10 +147,41 @@ class Envelope {
   std::vector<PlaceAlong> nearest_;
 };
 
+// Appends a few nodes near to an arc if they are far apart, from each other and from its ends, which
+// doubles show. So each of them has a cell that the arc enters.
+bool append_nodes_far_apart(std::span<const Point> nodes, NodedArc arc, std::span<const Index> near,
+                            std::vector<Index>& chain) {
+  constexpr std::size_t most = 14;
+  if (near.size() > most) return false;
+  const Point& a = nodes[arc.from];
+  const Point step = nodes[arc.to] - a;
+  // Places along the chord grow with the places along an arc of less than a right angle, and differ
+  // by less. They are off by a few units in the last place of the length of the chord.
+  if (!(dot(a, nodes[arc.to]) > 0)) return false;
+  std::array<RoughPlace, most + 2> order;
+  std::size_t size = 0;
+  order[size++] = {0, arc.from};
+  for (const Index node : near) {
+    const RoughPlace place = {dot(nodes[node] - a, step), node};
+    std::size_t k = size++;
+    for (; k > 0 && order[k - 1].at > place.at; --k) order[k] = order[k - 1];
+    order[k] = place;
+  }
+  order[size++] = {dot(step, step), arc.to};
+  constexpr double far = 0x1p-40;
+  const double least = far * (std::abs(step.x) + std::abs(step.y) + std::abs(step.z));
+  for (std::size_t k = 1; k < size; ++k) {
+    if (!(order[k].at - order[k - 1].at > least)) return false;
+  }
+  for (std::size_t k = 1; k + 1 < size; ++k) chain.push_back(order[k].node);
+  return true;
+}
+
 }  // namespace
 
 bool append_nearest_nodes(std::span<const Point> nodes, NodedArc arc, std::span<const Index> near,
                           std::span<const Index> required, std::vector<Index>& chain) {
+  if (append_nodes_far_apart(nodes, arc, near, chain)) return false;
   const NodesAlong along(nodes, arc);
   std::vector<RoughPlace> order;
   order.reserve(near.size() + 2);

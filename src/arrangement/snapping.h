@@ -9,8 +9,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "arrangement/noded_arcs.h"
 #include "rondel/compressed_rows.h"
@@ -31,21 +29,5 @@ struct Snapped {
 // Returns nothing if no arcs cross and no node is within an arc. With `is_forced` arcs are led
 // through the places of their crossings even where other nodes are as near.
 std::optional<Snapped> snap(const NodedArcs& input, bool is_forced, unsigned threads);
-
-// Points on different rays, along the spatial order, and the number of each given point among them.
-// One of the first `num_fixed` points stands for all points on its ray; otherwise the point with the
-// least coordinates does.
-struct NumberedPoints {
-  std::vector<Point> points;
-  std::vector<Index> numbers;
-};
-NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, unsigned threads);
-
-// Returns the arcs between the nodes with these numbers, each once, and the halfedge of each.
-struct NumberedArcs {
-  std::vector<NodedArc> arcs;
-  std::vector<Index> halfedges;
-};
-NumberedArcs numbered_arcs(std::span<const NodedArc> given, unsigned threads);
 
 }  // namespace rondel::arrangement

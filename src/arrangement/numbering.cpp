@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Arcs are dealt to buckets of nodes, and sorted in each bucket.
+#include "arrangement/numbering.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "order/spatial_order.h"
+#include "system/parallel.h"
+#include "system/prefetch.h"
+#include "system/site_copies.h"
+
+namespace rondel::arrangement {
+namespace {
+
+constexpr std::size_t numbers_per_task = 4096;
+
+// Sorts arcs by their nodes. A bucket has the arcs whose lower nodes have the same upper bits.
+class ArcSort {
+ public:
+  ArcSort(std::span<const NodedArc> given, std::size_t num_nodes, unsigned threads)
+      : given_(given), threads_(threads) {
+    constexpr std::size_t most_buckets = 1024;
+    constexpr std::size_t most_parts = 64;
+    while ((num_nodes >> shift_) >= most_buckets) ++shift_;
+    num_buckets_ = (num_nodes >> shift_) + 1;
+    part_size_ = std::max(numbers_per_task, system::num_pieces(given.size(), most_parts));
+  }
+
+  NumberedArcs run() {
+    deal();
+    system::parallel_for(threads_, num_buckets_, 1,
+                         [&](std::size_t bucket, std::size_t /*end*/) { sort_bucket(bucket); });
+    std::exclusive_scan(num_different_.begin(), num_different_.end(), num_different_.begin(),
+                        std::size_t{0});
+    NumberedArcs result;
+    result.arcs.resize(num_different_.back());
+    result.halfedges.resize(given_.size());
+    system::parallel_for(threads_, num_buckets_, 1, [&](std::size_t bucket, std::size_t /*end*/) {
+      number_bucket(bucket, result);
+    });
+    return result;
+  }
+
+ private:
+  // An arc from its lower node, and its place in the input, 2 * place + 1 if it is given backwards.
+  struct Entry {
+    Index low;
+    Index high;
+    Index halfedge;
+  };
+
+  // Each part of the input has places of its own in each bucket.
+  void deal() {
+    const std::size_t num_parts = system::num_pieces(given_.size(), part_size_);
+    std::vector<std::size_t> places(num_parts * num_buckets_ + 1, 0);
+    const auto place = [&](std::size_t begin, std::size_t bucket) -> std::size_t& {
+      return places[bucket * num_parts + begin / part_size_];
+    };
+    const auto bucket_of = [&](const NodedArc& arc) {
+      return std::size_t{std::min(arc.from, arc.to) >> shift_};
+    };
+    system::parallel_for(threads_, given_.size(), part_size_,
+                         [&](std::size_t begin, std::size_t end) {
+                           std::vector<std::size_t> counts(num_buckets_, 0);
+                           for (std::size_t i = begin; i < end; ++i) ++counts[bucket_of(given_[i])];
+                           for (std::size_t k = 0; k < num_buckets_; ++k)
+                             place(begin, k) = counts[k];
+                         });
+    std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
+    begins_.resize(num_buckets_ + 1, given_.size());
+    for (std::size_t k = 0; k < num_buckets_; ++k) begins_[k] = places[k * num_parts];
+    num_different_.assign(num_buckets_ + 1, 0);
+    entries_.resize(given_.size());
+    system::parallel_for(
+        threads_, given_.size(), part_size_, [&](std::size_t begin, std::size_t end) {
+          std::vector<std::size_t> next(num_buckets_);
+          for (std::size_t k = 0; k < num_buckets_; ++k) next[k] = place(begin, k);
+          for (std::size_t i = begin; i < end; ++i) {
+            const auto [low, high] = std::minmax(given_[i].from, given_[i].to);
+            entries_[next[bucket_of(given_[i])]++] = {
+                low, high, static_cast<Index>(2 * i) + (given_[i].from == low ? 0U : 1U)};
+          }
+        });
+  }
+
+  [[nodiscard]] std::span<Entry> bucket_entries(std::size_t bucket) {
+    return std::span(entries_).subspan(begins_[bucket], begins_[bucket + 1] - begins_[bucket]);
+  }
+
+  // Deals the arcs of a bucket to their lower nodes, then sorts those of each node.
+  void sort_bucket(std::size_t bucket) {
+    const std::span<Entry> entries = bucket_entries(bucket);
+    const std::size_t width = std::size_t{1} << shift_;
+    std::vector<Index> offsets(width + 1, 0);
+    for (const Entry& entry : entries) ++offsets[(entry.low & (width - 1)) + 1];
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    // Of each arc the higher node and its place in the input.
+    std::vector<std::uint64_t> words(entries.size());
+    std::vector<Index> ends = offsets;
+    for (const Entry& entry : entries) {
+      words[ends[entry.low & (width - 1)]++] =
+          std::uint64_t{entry.high} << 32U | std::uint64_t{entry.halfedge};
+    }
+    std::size_t num_different = 0;
+    for (std::size_t node = 0; node < width; ++node) {
+      if (offsets[node] == ends[node]) continue;
+      const std::span row = std::span(words).subspan(offsets[node], ends[node] - offsets[node]);
+      std::ranges::sort(row);
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto high = static_cast<Index>(row[k] >> 32U);
+        num_different += k == 0 || high != static_cast<Index>(row[k - 1] >> 32U) ? 1 : 0;
+        entries[offsets[node] + k] = {static_cast<Index>(bucket * width + node), high,
+                                      static_cast<Index>(row[k])};
+      }
+    }
+    num_different_[bucket] = num_different;
+  }
+
+  void number_bucket(std::size_t bucket, NumberedArcs& result) {
+    const std::span<const Entry> entries = bucket_entries(bucket);
+    std::size_t next = num_different_[bucket];
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      const Entry& entry = entries[k];
+      if (k + system::prefetch_distance < entries.size()) {
+        const Entry& later = entries[k + system::prefetch_distance];
+        system::prefetch_to_write(&result.halfedges[later.halfedge / 2]);
+      }
+      const NodedArc arc = {entry.low, entry.high};
+      if (k == 0 || NodedArc{entries[k - 1].low, entries[k - 1].high} != arc) {
+        result.arcs[next++] = arc;
+      }
+      result.halfedges[entry.halfedge / 2] =
+          static_cast<Index>(2 * (next - 1)) + entry.halfedge % 2;
+    }
+  }
+
+  std::span<const NodedArc> given_;
+  unsigned threads_;
+  unsigned shift_ = 0;
+  std::size_t num_buckets_ = 0;
+  std::size_t part_size_ = 0;
+  std::vector<std::size_t> begins_;         // the entries of each bucket
+  std::vector<std::size_t> num_different_;  // of each bucket, and at last of all before it
+  std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, unsigned threads) {
+  NumberedPoints result;
+  result.points.resize(given.size());
+  order::SpatialOrder order = order::spatial_order(given, Model::projected, {}, threads, {},
+                                                   system::SiteCopies(std::span(result.points)));
+  bool is_replaced = false;
+  for (const auto& [rank, name] : order.renamed) {
+    if (name >= num_fixed) continue;
+    order.order[rank] = name;
+    result.points[rank] = given[name];
+    is_replaced = true;
+  }
+  result.sources = std::move(order.order);
+  result.points.resize(result.sources.size());
+  result.numbers.resize(given.size());
+  system::parallel_for(threads, result.sources.size(), numbers_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t rank = begin; rank < end; ++rank) {
+                           if (rank + system::prefetch_distance < end) {
+                             system::prefetch_to_write(
+                                 &result.numbers[result.sources[rank + system::prefetch_distance]]);
+                           }
+                           result.numbers[result.sources[rank]] = static_cast<Index>(rank);
+                         }
+                       });
+  for (const auto& [rank, name] : order.renamed) result.numbers[name] = rank;
+  for (const auto& [site, representative] : order.duplicates) {
+    result.numbers[site] = result.numbers[representative];
+  }
+  if (!is_replaced) return result;
+  // The order was that of points which others on their rays have replaced.
+  NumberedPoints sorted = numbered(result.points, 0, threads);
+  for (Index& number : result.numbers) number = sorted.numbers[number];
+  for (Index& source : sorted.sources) source = result.sources[source];
+  result.sources = std::move(sorted.sources);
+  result.points = std::move(sorted.points);
+  return result;
+}
+
+NumberedArcs numbered_arcs(std::span<const NodedArc> given, std::size_t num_nodes,
+                           unsigned threads) {
+  return ArcSort(given, num_nodes, threads).run();
+}
+
+}  // namespace rondel::arrangement
