@@ -36,14 +36,26 @@ using Ends = std::array<Index, 2>;
 constexpr std::size_t arcs_per_task = 4096;
 
 // Throws InvalidInput with the first point or arc that is not as arrange() wants it.
-void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs) {
-  arrangement::validate_points(points);
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    const auto [a, b] = arcs[i];
-    if (a >= points.size() || b >= points.size()) {
-      throw InvalidInput("an end of an arc does not exist", i);
+void validate_arcs(std::span<const Point> points, std::span<const Ends> arcs, unsigned threads) {
+  const auto validate = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = arcs[i];
+      if (a >= points.size() || b >= points.size()) {
+        throw InvalidInput("an end of an arc does not exist", i);
+      }
+      arrangement::validate_ends(points[a], points[b], i);
     }
-    arrangement::validate_ends(points[a], points[b], i);
+  };
+  try {
+    system::parallel_for(threads, points.size(), arcs_per_task,
+                         [&](std::size_t begin, std::size_t end) {
+                           arrangement::validate_points(points.subspan(begin, end - begin));
+                         });
+    system::parallel_for(threads, arcs.size(), arcs_per_task, validate);
+  } catch (const InvalidInput&) {
+    // Others may be before the one that was found.
+    arrangement::validate_points(points);
+    validate(0, arcs.size());
   }
 }
 
@@ -53,10 +65,10 @@ struct ArrangementState {
   CompressedRows<Index> chains;
 };
 
-// Returns the points that are ends of arcs.
-std::vector<Index> used_points(std::size_t num_points, std::span<const Ends> arcs,
-                               unsigned threads) {
-  std::vector<std::uint8_t> is_used(num_points, 0);
+// Only points that are ends of arcs become nodes.
+arrangement::NumberedPoints first_nodes(std::span<const Point> points, std::span<const Ends> arcs,
+                                        unsigned threads) {
+  std::vector<std::uint8_t> is_used(points.size(), 0);
   system::parallel_for(threads, arcs.size(), arcs_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
@@ -65,14 +77,11 @@ std::vector<Index> used_points(std::size_t num_points, std::span<const Ends> arc
                            }
                          }
                        });
-  return system::numbers_where(threads, num_points, [&](std::size_t i) { return is_used[i] != 0; });
-}
-
-// Only points that are ends of arcs become nodes.
-arrangement::NumberedPoints first_nodes(std::span<const Point> points, std::span<const Ends> arcs,
-                                        unsigned threads) {
-  const std::vector<Index> used = used_points(points.size(), arcs, threads);
-  if (used.size() == points.size()) return arrangement::numbered(points, 0, threads);
+  if (std::ranges::find(is_used, 0) == is_used.end()) {
+    return arrangement::numbered(points, 0, threads);
+  }
+  const std::vector<Index> used =
+      system::numbers_where(threads, points.size(), [&](std::size_t i) { return is_used[i] != 0; });
   arrangement::NumberedPoints nodes =
       arrangement::numbered(system::gather(points, used), 0, threads);
   std::vector<Index> numbers(points.size(), no_index);
@@ -185,7 +194,7 @@ Arrangement arrangement_of(ArrangementState state, unsigned threads) {
 Arrangement arrange(std::span<const Point> points, std::span<const Ends> arcs,
                     const Execution& execution) {
   const system::Call call(execution);
-  validate_arcs(points, arcs);
+  validate_arcs(points, arcs, execution.threads);
   ArrangementState state = first_state(points, arcs, execution.threads);
   constexpr int max_steps = 64;
   bool is_forced = false;

@@ -29,7 +29,7 @@ using exact::DoubleDouble;
 using Quads = exact::Vector3<DoubleDouble>;
 
 // Crossings at a time, number by number, so that the compiler makes vector code.
-constexpr std::size_t batch_size = 32;
+constexpr std::size_t batch_size = 16;
 using Numbers = std::array<double, batch_size>;
 
 struct PointLanes {

@@ -5,7 +5,6 @@
 #include "arrangement/numbering.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "order/spatial_order.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "system/row_assembly.h"
 #include "system/site_copies.h"
 
 namespace rondel::arrangement {
@@ -24,11 +24,11 @@ constexpr std::size_t numbers_per_task = 4096;
 class ArcSort {
  public:
   ArcSort(std::span<const NodedArc> given, std::size_t num_nodes, unsigned threads)
-      : given_(given), threads_(threads) {
+      : given_(given), num_nodes_(num_nodes), threads_(threads) {
     constexpr std::size_t most_buckets = 1024;
     constexpr std::size_t most_parts = 64;
-    while ((num_nodes >> shift_) >= most_buckets) ++shift_;
-    num_buckets_ = (num_nodes >> shift_) + 1;
+    while (system::num_pieces(num_nodes, std::size_t{1} << shift_) > most_buckets) ++shift_;
+    num_buckets_ = system::num_pieces(num_nodes, std::size_t{1} << shift_);
     part_size_ = std::max(numbers_per_task, system::num_pieces(given.size(), most_parts));
   }
 
@@ -55,15 +55,28 @@ class ArcSort {
     Index halfedge;
   };
 
+  [[nodiscard]] std::size_t bucket_of(const NodedArc& arc) const {
+    return std::min(arc.from, arc.to) >> shift_;
+  }
+  [[nodiscard]] Entry entry_of(std::size_t i) const {
+    const auto [low, high] = std::minmax(given_[i].from, given_[i].to);
+    return {low, high, static_cast<Index>(2 * i) + (given_[i].from == low ? 0U : 1U)};
+  }
+
   // Each part of the input has places of its own in each bucket.
   void deal() {
+    begins_.resize(num_buckets_ + 1, given_.size());
+    num_different_.assign(num_buckets_ + 1, 0);
+    entries_.resize(given_.size());
     const std::size_t num_parts = system::num_pieces(given_.size(), part_size_);
+    if (num_buckets_ == 1 && num_parts == 1) {
+      begins_[0] = 0;
+      for (std::size_t i = 0; i < given_.size(); ++i) entries_[i] = entry_of(i);
+      return;
+    }
     std::vector<std::size_t> places(num_parts * num_buckets_ + 1, 0);
     const auto place = [&](std::size_t begin, std::size_t bucket) -> std::size_t& {
       return places[bucket * num_parts + begin / part_size_];
-    };
-    const auto bucket_of = [&](const NodedArc& arc) {
-      return std::size_t{std::min(arc.from, arc.to) >> shift_};
     };
     system::parallel_for(threads_, given_.size(), part_size_,
                          [&](std::size_t begin, std::size_t end) {
@@ -73,20 +86,15 @@ class ArcSort {
                              place(begin, k) = counts[k];
                          });
     std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
-    begins_.resize(num_buckets_ + 1, given_.size());
     for (std::size_t k = 0; k < num_buckets_; ++k) begins_[k] = places[k * num_parts];
-    num_different_.assign(num_buckets_ + 1, 0);
-    entries_.resize(given_.size());
-    system::parallel_for(
-        threads_, given_.size(), part_size_, [&](std::size_t begin, std::size_t end) {
-          std::vector<std::size_t> next(num_buckets_);
-          for (std::size_t k = 0; k < num_buckets_; ++k) next[k] = place(begin, k);
-          for (std::size_t i = begin; i < end; ++i) {
-            const auto [low, high] = std::minmax(given_[i].from, given_[i].to);
-            entries_[next[bucket_of(given_[i])]++] = {
-                low, high, static_cast<Index>(2 * i) + (given_[i].from == low ? 0U : 1U)};
-          }
-        });
+    system::parallel_for(threads_, given_.size(), part_size_,
+                         [&](std::size_t begin, std::size_t end) {
+                           std::vector<std::size_t> next(num_buckets_);
+                           for (std::size_t k = 0; k < num_buckets_; ++k) next[k] = place(begin, k);
+                           for (std::size_t i = begin; i < end; ++i) {
+                             entries_[next[bucket_of(given_[i])]++] = entry_of(i);
+                           }
+                         });
   }
 
   [[nodiscard]] std::span<Entry> bucket_entries(std::size_t bucket) {
@@ -96,26 +104,27 @@ class ArcSort {
   // Deals the arcs of a bucket to their lower nodes, then sorts those of each node.
   void sort_bucket(std::size_t bucket) {
     const std::span<Entry> entries = bucket_entries(bucket);
-    const std::size_t width = std::size_t{1} << shift_;
-    std::vector<Index> offsets(width + 1, 0);
-    for (const Entry& entry : entries) ++offsets[(entry.low & (width - 1)) + 1];
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    const auto first = static_cast<Index>(bucket << shift_);
+    const std::size_t width = std::min(std::size_t{1} << shift_, num_nodes_ - first);
+    system::RowPlaces<Index> places(width);
+    for (const Entry& entry : entries) places.count(entry.low - first);
     // Of each arc the higher node and its place in the input.
-    std::vector<std::uint64_t> words(entries.size());
-    std::vector<Index> ends = offsets;
+    std::vector<std::uint64_t> words(places.sum());
     for (const Entry& entry : entries) {
-      words[ends[entry.low & (width - 1)]++] =
+      words[places.place(entry.low - first)] =
           std::uint64_t{entry.high} << 32U | std::uint64_t{entry.halfedge};
     }
+    const std::vector<Index> offsets = std::move(places).offsets();
     std::size_t num_different = 0;
     for (std::size_t node = 0; node < width; ++node) {
-      if (offsets[node] == ends[node]) continue;
-      const std::span row = std::span(words).subspan(offsets[node], ends[node] - offsets[node]);
+      if (offsets[node] == offsets[node + 1]) continue;
+      const std::span row =
+          std::span(words).subspan(offsets[node], offsets[node + 1] - offsets[node]);
       std::ranges::sort(row);
       for (std::size_t k = 0; k < row.size(); ++k) {
         const auto high = static_cast<Index>(row[k] >> 32U);
         num_different += k == 0 || high != static_cast<Index>(row[k - 1] >> 32U) ? 1 : 0;
-        entries[offsets[node] + k] = {static_cast<Index>(bucket * width + node), high,
+        entries[offsets[node] + k] = {static_cast<Index>(first + node), high,
                                       static_cast<Index>(row[k])};
       }
     }
@@ -141,8 +150,9 @@ class ArcSort {
   }
 
   std::span<const NodedArc> given_;
+  std::size_t num_nodes_;
   unsigned threads_;
-  unsigned shift_ = 0;
+  unsigned shift_ = 12;
   std::size_t num_buckets_ = 0;
   std::size_t part_size_ = 0;
   std::vector<std::size_t> begins_;         // the entries of each bucket
