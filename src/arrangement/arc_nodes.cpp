@@ -133,7 +133,7 @@ class NodeFinder {
     return is_near_arc ? ArcNode::of_crossing | ArcNode::near_to_arc : ArcNode::of_crossing;
   }
 
-  CompressedRows<ArcNode> rows() const {
+  [[nodiscard]] CompressedRows<ArcNode> rows() const {
     system::RowPlaces<std::uint64_t> places(input_.arcs.size());
     for (const auto [s, t] : crossings_) {
       places.count(s);

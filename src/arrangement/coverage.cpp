@@ -60,7 +60,7 @@ void Coverage::link_components(unsigned threads) {
     boxes.push_back(
         box_of(halfedges_.point(halfedges_.origin(h)), halfedges_.point(halfedges_.end(h))));
   }
-  const BoxTree tree(std::move(boxes), threads);
+  const BoxTree tree(boxes, threads);
   constexpr std::size_t grain = 64;
   system::parallel_for(threads, links_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {

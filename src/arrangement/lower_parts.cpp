@@ -104,7 +104,7 @@ void LowerParts::find_ways(unsigned threads) {
     boxes.push_back(
         box_of(halfedges_.point(halfedges_.origin(h)), halfedges_.point(halfedges_.end(h))));
   }
-  const BoxTree tree(std::move(boxes), threads);
+  const BoxTree tree(boxes, threads);
   constexpr std::size_t grain = 64;
   system::parallel_for(threads, lone_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {

@@ -20,7 +20,7 @@ void PreparedSides::make_boxes() {
   for (const PolygonSide& side : sides_) {
     boxes.push_back(box_of(points_[side.from], points_[side.to]));
   }
-  boxes_ = BoxTree(std::move(boxes), 1);
+  boxes_ = BoxTree(boxes, 1);
 }
 
 // Divides sides at nodes in their inside.
@@ -94,7 +94,7 @@ void PreparedSides::make_components(const system::DisjointSets& sets) {
       boxes[components_[s]].include(boxes_.box(s));
     }
   }
-  component_boxes_ = BoxTree(std::move(boxes), 1);
+  component_boxes_ = BoxTree(boxes, 1);
 }
 
 bool PreparedSides::is_on_side(Index node) const {

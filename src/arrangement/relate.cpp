@@ -284,7 +284,7 @@ std::vector<std::array<Index, 2>> near_pairs(const PreparedOperands& operands, u
   std::vector<SpaceBox> boxes;
   boxes.reserve(order.size());
   for (const Index k : order) boxes.push_back(second.extent(k));
-  const BoxTree tree(std::move(boxes), threads);
+  const BoxTree tree(boxes, threads);
   constexpr std::size_t grain = 64;
   const std::size_t num_first = operands.first().size();
   std::vector<std::vector<std::array<Index, 2>>> parts(system::num_pieces(num_first, grain));

@@ -89,7 +89,7 @@ std::vector<CrossingCells> crossing_cells(const CellRings& cells, const Executio
   std::vector<arrangement::SpaceBox> boxes;
   boxes.reserve(sides.size());
   for (const Index i : order) boxes.push_back(arrangement::box_of(sides[i].a, sides[i].b));
-  const arrangement::BoxTree tree(std::move(boxes), execution.threads);
+  const arrangement::BoxTree tree(boxes, execution.threads);
   std::vector<std::vector<CrossingCells>> pieces(
       system::num_pieces(tree.num_blocks(), blocks_per_piece));
   system::parallel_for(execution.threads, tree.num_blocks(), blocks_per_piece,
