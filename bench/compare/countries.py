@@ -52,6 +52,7 @@ def ring(numbers: list[int], arcs: list[list[Position]], *, is_outer: bool) -> l
 
 
 def main(source: str, target: str) -> None:
+    """Reads a file and writes the other one."""
     topology = json.loads(Path(source).read_text(encoding="utf-8"))
     arcs = decoded(topology)
     lines = []

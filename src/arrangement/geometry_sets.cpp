@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "arrangement/arc_checks.h"
+#include "arrangement/pair_shortcuts.h"
 #include "arrangement/ring_arrays.h"
 #include "arrangement/set_regions.h"
 #include "exact/angles.h"
@@ -135,16 +136,24 @@ Geometries combine_pairs(const Geometries& first, const Geometries& second,
       throw InvalidInput("a geometry of a pair does not exist", k);
     }
   }
-  return geometries_of(arrangement::joined_each(pairs.size(), operation, RegionParts::all,
-                                                execution, [&](std::size_t k) {
-                                                  const auto [a, b] = pairs[k];
-                                                  arrangement::Sides sides;
-                                                  sides.append_cell(first.polygons, a, 0);
-                                                  sides.append_cell(second.polygons, b, 1);
-                                                  append_lines(first.lines, a, 0, sides);
-                                                  append_lines(second.lines, b, 1, sides);
-                                                  return sides;
-                                                }));
+  const arrangement::PairShortcuts shortcuts(first.polygons, second.polygons, pairs, operation,
+                                             execution.threads);
+  const auto has_lines = [](const Geometries& geometries, std::size_t g) {
+    return geometries.lines.offsets[g] < geometries.lines.offsets[g + 1];
+  };
+  return geometries_of(arrangement::joined_each(
+      pairs.size(), operation, RegionParts::all, execution, [&](std::size_t k) {
+        const auto [a, b] = pairs[k];
+        if (!has_lines(first, a) && !has_lines(second, b)) {
+          return shortcuts.sides(k);
+        }
+        arrangement::Sides sides;
+        sides.append_cell(first.polygons, a, 0);
+        sides.append_cell(second.polygons, b, 1);
+        append_lines(first.lines, a, 0, sides);
+        append_lines(second.lines, b, 1, sides);
+        return sides;
+      }));
 }
 
 GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,

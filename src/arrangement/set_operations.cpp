@@ -14,6 +14,7 @@
 
 #include "arrangement/combined_each.h"
 #include "arrangement/even_odd.h"
+#include "arrangement/pair_shortcuts.h"
 #include "arrangement/ring_arrays.h"
 #include "arrangement/set_regions.h"
 #include "rondel/error.h"
@@ -94,13 +95,9 @@ CellRings combine_pairs(const CellRings& first, const CellRings& second,
       throw InvalidInput("a polygon of a pair does not exist", k);
     }
   }
-  return cells_of(
-      joined_each(pairs.size(), operation, RegionParts::areas, execution, [&](std::size_t k) {
-        Sides sides;
-        sides.append_cell(first, pairs[k][0], 0);
-        sides.append_cell(second, pairs[k][1], 1);
-        return sides;
-      }));
+  const arrangement::PairShortcuts shortcuts(first, second, pairs, operation, execution.threads);
+  return cells_of(joined_each(pairs.size(), operation, RegionParts::areas, execution,
+                              [&](std::size_t k) { return shortcuts.sides(k); }));
 }
 
 CellRings repaired(const CellRings& polygons, const Execution& execution) {

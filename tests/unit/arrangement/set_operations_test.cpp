@@ -397,6 +397,60 @@ TEST(combine, knows_the_whole_sphere_and_nothing) {
   EXPECT_TRUE(is_equal(combine(all, all, SetOperation::symmetric_difference), none));
 }
 
+// Rings around a place with many corners, which run in and out.
+Ring star(const Point& middle, double size, std::size_t num_corners) {
+  const Point right = normalized(cross(Point{1, 2, 3}, middle));
+  const Point up = cross(middle, right);
+  Ring ring;
+  for (std::size_t k = 0; k < num_corners; ++k) {
+    const double angle =
+        2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(num_corners);
+    const double radius = k % 2 == 0 ? size : 0.9 * size;
+    ring.push_back(normalized(middle + radius * (std::cos(angle) * right + std::sin(angle) * up)));
+  }
+  return ring;
+}
+
+// Small polygons in, around and across the borders of polygons with many corners and a hole: those
+// far from a border need no arrangement, which must not show.
+TEST(combine_pairs, has_the_corners_of_combine_where_one_polygon_is_large) {
+  const Point middle = normalized(Point{0.3, -0.5, 0.8});
+  CellRings large = cells_of({star(middle, 0.6, 200)});
+  append(reversed(star(middle, 0.2, 100)), large);
+  large.cells.back() = large.rings.size() - 1;      // the hole of the first one
+  append(reversed(star(middle, 0.5, 150)), large);  // more than half of the sphere
+  large.end_cell();
+  CellRings small;
+  for (int i = -8; i <= 8; ++i) {
+    for (int k = -8; k <= 8; ++k) {
+      const Point place = normalized(middle + Point{0.11 * i, 0.11 * k, 0.03 * (i - k)});
+      append(square(place, 0.02 + 0.01 * (k % 3 == 0)), small);
+      if (i % 3 == 0) append(reversed(square(place, 0.01)), small);  // with a hole
+      if (k == 5) append(square(-1.0 * place, 0.01), small);         // with another part
+      small.end_cell();
+    }
+  }
+  append(reversed(square(-1.0 * middle, 0.1)), small);  // nearly the sphere
+  small.end_cell();
+  for (const SetOperation operation : operations) {
+    for (const bool is_large_first : {false, true}) {
+      const CellRings& a = is_large_first ? large : small;
+      const CellRings& b = is_large_first ? small : large;
+      const Pairs pairs = all_pairs(a, b);
+      const CellRings result = combine_pairs(a, b, pairs, operation, {1});
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        CellRings first;
+        first.points = a.points;
+        first.append_cell(a, pairs[i][0]);
+        CellRings second;
+        second.points = b.points;
+        second.append_cell(b, pairs[i][1]);
+        ASSERT_EQ(rings_of(result, i), rings_of(combine(first, second, operation, {1}), 0)) << i;
+      }
+    }
+  }
+}
+
 TEST(combine_pairs, knows_the_whole_sphere_and_nothing) {
   CellRings cells = cells_of({square({0, 0, 1}, 0.3)});
   append(reversed(square({0, 0, 1}, 0.3)), cells);  // with points of its own
