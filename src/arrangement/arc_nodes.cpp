@@ -64,7 +64,7 @@ class NodeFinder {
     const std::span<Point> places = std::span(all).subspan(num_before_);
     system::parallel_for(threads_, places.size(), entries_per_task,
                          [&](std::size_t begin, std::size_t end) {
-                           std::vector<Crossing> crossings;
+                           std::vector<CrossingEnds> crossings;
                            for (std::size_t k = begin; k < end; ++k) {
                              crossings.push_back(ends_of(crossings_[k]));
                            }
@@ -76,7 +76,7 @@ class NodeFinder {
     });
     for (const Index k : merged_) merged_places_.push_back(all[num_before_ + k]);
   }
-  [[nodiscard]] Crossing ends_of(const CrossingArcs& crossing) const {
+  [[nodiscard]] CrossingEnds ends_of(const CrossingArcs& crossing) const {
     const auto [s, t] = crossing;
     return {input_.from(s), input_.to(s), input_.from(t), input_.to(t)};
   }

@@ -109,7 +109,7 @@ class BoxTree {
   BoxTree(const std::vector<SpaceBox>& boxes, unsigned threads)
       : BoxTree(
             boxes.size(), [&](std::size_t i) { return boxes[i]; }, threads) {}
-  // Of `count` boxes, of which box(i) returns each.
+  // There are `count` boxes, of which box(i) returns each.
   template <class Box>
   BoxTree(std::size_t count, const Box& box, unsigned threads) {
     add_level(count, threads, box);
@@ -149,7 +149,7 @@ class BoxTree {
       const BoxBlock& others = levels_[0][other];
       for (unsigned left = boxes.overlapping(others.hull()); left != 0; left &= left - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(left));
-        // Of its own block a box is compared with those behind it.
+        // A box is compared with those behind it of its own block.
         const unsigned behind = other == block ? ~0U << (i + 1) : ~0U;
         visit_each(other, others.overlapping(boxes.box(i)) & behind,
                    [&](Index j) { visit(static_cast<Index>(block * fan_out + i), j); });

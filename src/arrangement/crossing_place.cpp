@@ -112,7 +112,7 @@ std::optional<Point> place_with_words(const Point& a, const Point& b, const Poin
 }
 
 // Returns the place where double-double does not suffice.
-Point place_with_enough_words(const Crossing& crossing) {
+Point place_with_enough_words(const CrossingEnds& crossing) {
   const auto& [a, b, c, d] = crossing;
   std::optional<Point> place = place_with_words<8>(a, b, c, d);
   if (!place) place = place_with_words<24>(a, b, c, d);
@@ -123,7 +123,7 @@ Point place_with_enough_words(const Crossing& crossing) {
 }
 
 // Returns the place on the side of the arcs.
-Point finished(Point place, const Crossing& crossing) {
+Point finished(Point place, const CrossingEnds& crossing) {
   // Smaller coordinates would be refused where the result is input again.
   for (double* const coordinate : {&place.x, &place.y, &place.z}) {
     if (std::abs(*coordinate) < least_coordinate) *coordinate = 0;
@@ -133,12 +133,12 @@ Point finished(Point place, const Crossing& crossing) {
 
 }  // namespace
 
-void crossing_places(std::span<const Crossing> crossings, std::span<Point> places) {
+void crossing_places(std::span<const CrossingEnds> crossings, std::span<Point> places) {
   CrossingLanes lanes;
   for (std::size_t begin = 0; begin < crossings.size(); begin += batch_size) {
     const std::size_t count = std::min(batch_size, crossings.size() - begin);
     for (std::size_t i = 0; i < batch_size; ++i) {
-      const Crossing& crossing = crossings[begin + std::min(i, count - 1)];
+      const CrossingEnds& crossing = crossings[begin + std::min(i, count - 1)];
       lanes.a.set(i, crossing.a);
       lanes.b.set(i, crossing.b);
       lanes.c.set(i, crossing.c);
@@ -148,7 +148,7 @@ void crossing_places(std::span<const Crossing> crossings, std::span<Point> place
       for (std::size_t i = 0; i < batch_size; ++i) find_place(lanes, i);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      const Crossing& crossing = crossings[begin + i];
+      const CrossingEnds& crossing = crossings[begin + i];
       const bool is_known = lanes.is_known[i] > 0;
       places[begin + i] =
           finished(is_known ? lanes.place.get(i) : place_with_enough_words(crossing), crossing);
@@ -157,7 +157,7 @@ void crossing_places(std::span<const Crossing> crossings, std::span<Point> place
 }
 
 Point crossing_place(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const Crossing crossing = {a, b, c, d};
+  const CrossingEnds crossing = {a, b, c, d};
   Point place;
   crossing_places({&crossing, 1}, {&place, 1});
   return place;

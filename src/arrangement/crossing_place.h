@@ -11,7 +11,7 @@
 namespace rondel::arrangement {
 
 // The arcs ab and cd. Precondition: they cross in the inside of both.
-struct Crossing {
+struct CrossingEnds {
   Point a;
   Point b;
   Point c;
@@ -25,6 +25,6 @@ struct Crossing {
 Point crossing_place(const Point& a, const Point& b, const Point& c, const Point& d);
 
 // Computes the same for each crossing, faster.
-void crossing_places(std::span<const Crossing> crossings, std::span<Point> places);
+void crossing_places(std::span<const CrossingEnds> crossings, std::span<Point> places);
 
 }  // namespace rondel::arrangement

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "order/spatial_order.h"
@@ -36,8 +35,7 @@ class ArcSort {
     deal();
     system::parallel_for(threads_, num_buckets_, 1,
                          [&](std::size_t bucket, std::size_t /*end*/) { sort_bucket(bucket); });
-    std::exclusive_scan(num_different_.begin(), num_different_.end(), num_different_.begin(),
-                        std::size_t{0});
+    system::sum_counts(num_different_);
     NumberedArcs result;
     result.arcs.resize(num_different_.back());
     result.halfedges.resize(given_.size());
@@ -49,7 +47,7 @@ class ArcSort {
 
  private:
   // An arc from its lower node, and its place in the input, 2 * place + 1 if it is given backwards.
-  struct Entry {
+  struct SortedArc {
     Index low;
     Index high;
     Index halfedge;
@@ -58,7 +56,7 @@ class ArcSort {
   [[nodiscard]] std::size_t bucket_of(const NodedArc& arc) const {
     return std::min(arc.from, arc.to) >> shift_;
   }
-  [[nodiscard]] Entry entry_of(std::size_t i) const {
+  [[nodiscard]] SortedArc entry_of(std::size_t i) const {
     const auto [low, high] = std::minmax(given_[i].from, given_[i].to);
     return {low, high, static_cast<Index>(2 * i) + (given_[i].from == low ? 0U : 1U)};
   }
@@ -75,42 +73,43 @@ class ArcSort {
       return;
     }
     std::vector<std::size_t> places(num_parts * num_buckets_ + 1, 0);
-    const auto place = [&](std::size_t begin, std::size_t bucket) -> std::size_t& {
-      return places[bucket * num_parts + begin / part_size_];
+    const auto place = [&](std::size_t begin, std::size_t bucket) {
+      return bucket * num_parts + begin / part_size_;
     };
     system::parallel_for(threads_, given_.size(), part_size_,
                          [&](std::size_t begin, std::size_t end) {
                            std::vector<std::size_t> counts(num_buckets_, 0);
                            for (std::size_t i = begin; i < end; ++i) ++counts[bucket_of(given_[i])];
                            for (std::size_t k = 0; k < num_buckets_; ++k)
-                             place(begin, k) = counts[k];
+                             places[place(begin, k) + 1] = counts[k];
                          });
-    std::exclusive_scan(places.begin(), places.end(), places.begin(), std::size_t{0});
+    system::sum_counts(places);
     for (std::size_t k = 0; k < num_buckets_; ++k) begins_[k] = places[k * num_parts];
     system::parallel_for(threads_, given_.size(), part_size_,
                          [&](std::size_t begin, std::size_t end) {
                            std::vector<std::size_t> next(num_buckets_);
-                           for (std::size_t k = 0; k < num_buckets_; ++k) next[k] = place(begin, k);
+                           for (std::size_t k = 0; k < num_buckets_; ++k)
+                             next[k] = places[place(begin, k)];
                            for (std::size_t i = begin; i < end; ++i) {
                              entries_[next[bucket_of(given_[i])]++] = entry_of(i);
                            }
                          });
   }
 
-  [[nodiscard]] std::span<Entry> bucket_entries(std::size_t bucket) {
+  [[nodiscard]] std::span<SortedArc> bucket_entries(std::size_t bucket) {
     return std::span(entries_).subspan(begins_[bucket], begins_[bucket + 1] - begins_[bucket]);
   }
 
   // Deals the arcs of a bucket to their lower nodes, then sorts those of each node.
   void sort_bucket(std::size_t bucket) {
-    const std::span<Entry> entries = bucket_entries(bucket);
+    const std::span<SortedArc> entries = bucket_entries(bucket);
     const auto first = static_cast<Index>(bucket << shift_);
     const std::size_t width = std::min(std::size_t{1} << shift_, num_nodes_ - first);
     system::RowPlaces<Index> places(width);
-    for (const Entry& entry : entries) places.count(entry.low - first);
-    // Of each arc the higher node and its place in the input.
+    for (const SortedArc& entry : entries) places.count(entry.low - first);
+    // A word has the higher node of an arc and its place in the input.
     std::vector<std::uint64_t> words(places.sum());
-    for (const Entry& entry : entries) {
+    for (const SortedArc& entry : entries) {
       words[places.place(entry.low - first)] =
           std::uint64_t{entry.high} << 32U | std::uint64_t{entry.halfedge};
     }
@@ -128,16 +127,16 @@ class ArcSort {
                                       static_cast<Index>(row[k])};
       }
     }
-    num_different_[bucket] = num_different;
+    num_different_[bucket + 1] = num_different;
   }
 
   void number_bucket(std::size_t bucket, NumberedArcs& result) {
-    const std::span<const Entry> entries = bucket_entries(bucket);
+    const std::span<const SortedArc> entries = bucket_entries(bucket);
     std::size_t next = num_different_[bucket];
     for (std::size_t k = 0; k < entries.size(); ++k) {
-      const Entry& entry = entries[k];
+      const SortedArc& entry = entries[k];
       if (k + system::prefetch_distance < entries.size()) {
-        const Entry& later = entries[k + system::prefetch_distance];
+        const SortedArc& later = entries[k + system::prefetch_distance];
         system::prefetch_to_write(&result.halfedges[later.halfedge / 2]);
       }
       const NodedArc arc = {entry.low, entry.high};
@@ -156,8 +155,8 @@ class ArcSort {
   std::size_t num_buckets_ = 0;
   std::size_t part_size_ = 0;
   std::vector<std::size_t> begins_;         // the entries of each bucket
-  std::vector<std::size_t> num_different_;  // of each bucket, and at last of all before it
-  std::vector<Entry> entries_;
+  std::vector<std::size_t> num_different_;  // in each bucket, and at last before it
+  std::vector<SortedArc> entries_;
 };
 
 }  // namespace

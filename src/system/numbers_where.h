@@ -5,11 +5,11 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 #include "rondel/types.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::system {
 
@@ -31,7 +31,7 @@ std::vector<Index> numbers_where(unsigned threads, std::size_t count, const Want
     for (std::size_t i = begin; i < end; ++i) wanted += is_wanted(i) ? 1 : 0;
     offsets[begin / grain + 1] = wanted;
   });
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  sum_counts(offsets);
   std::vector<Index> numbers(offsets.back());
   parallel_for(threads, count, grain, [&](std::size_t begin, std::size_t end) {
     std::size_t next = offsets[begin / grain];
