@@ -57,27 +57,29 @@ std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides, RegionMemo
   std::vector<Line> lines;
   lines.reserve(sides.size());
   for (const DirectedLine& side : sides) lines.push_back({side.from, side.to, lines.size()});
-  std::vector<DirectedLine> sorted(sides.begin(), sides.end());
-  std::ranges::sort(sorted, is_earlier_side);
   const Rectangles rectangles(lines);
   std::vector<Trouble> troubles;
   if (memory.sides.empty()) {
     rectangles.find_overlapping(
         [&](const Line& i, const Line& j) { append_troubles(i, j, troubles); });
-  } else {
-    troubles = lasting_meetings(memory, sorted);
-    std::vector<bool> is_new(sides.size());
-    for (std::size_t k = 0; k < sides.size(); ++k)
-      is_new[k] = !has_side(memory.sides, sides[k].from, sides[k].to);
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-      if (!is_new[k]) continue;
-      rectangles.find_overlapping(Rectangle::around(lines[k]), [&](const Line& other) {
-        if (other.name < k || (other.name > k && !is_new[other.name]))
-          append_troubles(other, lines[k], troubles);
-      });
-    }
+    memory = {{sides.begin(), sides.end()}, troubles, false};
+    return troubles;
   }
-  memory = {std::move(sorted), troubles};
+  if (!memory.are_sorted) std::ranges::sort(memory.sides, is_earlier_side);
+  std::vector<DirectedLine> sorted(sides.begin(), sides.end());
+  std::ranges::sort(sorted, is_earlier_side);
+  troubles = lasting_meetings(memory, sorted);
+  std::vector<bool> is_new(sides.size());
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    is_new[k] = !has_side(memory.sides, sides[k].from, sides[k].to);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (!is_new[k]) continue;
+    rectangles.find_overlapping(Rectangle::around(lines[k]), [&](const Line& other) {
+      if (other.name < k || (other.name > k && !is_new[other.name]))
+        append_troubles(other, lines[k], troubles);
+    });
+  }
+  memory = {std::move(sorted), troubles, true};
   return troubles;
 }
 

@@ -45,6 +45,7 @@ struct RegionLook {
 struct RegionMemory {
   std::vector<DirectedLine> sides;
   std::vector<Trouble> meetings;
+  bool are_sorted = false;  // the sides; most regions have no troubles and are not looked at again
 };
 
 // Returns the polygons or the troubles of a region whose loops are drawn with the divisions and

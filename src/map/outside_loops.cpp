@@ -62,7 +62,8 @@ std::vector<SideEnds> all_sides(std::span<const std::vector<Loop>> regions) {
 
 // Removes the sides that occur in both directions and returns the rest, reversed.
 std::vector<DirectedLine> single_sides(std::vector<SideEnds> sides) {
-  std::ranges::sort(sides, [](const SideEnds& x, const SideEnds& y) {
+  // An unstable sort falls back to heaps for the sides of many loops, which is slower.
+  std::ranges::stable_sort(sides, [](const SideEnds& x, const SideEnds& y) {
     return x.low == y.low ? InPlane()(x.high, y.high) : InPlane()(x.low, y.low);
   });
   std::vector<DirectedLine> single;

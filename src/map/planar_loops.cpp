@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "map/map_plane.h"
+#include "system/hash.h"
 
 namespace rondel::map {
 namespace {
@@ -92,6 +95,36 @@ void append_simple(const Loop& loop, std::vector<Loop>& found) {
   found.push_back(std::move(open));
 }
 
+// Returns the numbers of both ends of a line, the lower end first.
+std::array<double, 4> ends_of(const DirectedLine& line) {
+  const auto [low, high] = std::minmax(line.from, line.to, InPlane());
+  return {low.lon_deg, low.lat_deg, high.lon_deg, high.lat_deg};
+}
+
+// Returns lines, ascending, among them all that have both ends in common with another line. They share
+// a bit of a hash, which few others do by chance: one of 8 at most.
+std::vector<std::size_t> lines_that_may_share_ends(std::span<const DirectedLine> lines) {
+  const int shift = 61 - static_cast<int>(std::bit_width(lines.size()));
+  std::vector<std::uint64_t> hashes;
+  hashes.reserve(lines.size());
+  for (const DirectedLine& line : lines) {
+    std::uint64_t hash = 0;
+    for (const double number : ends_of(line)) hash = system::mixed(hash, system::bits_of(number));
+    hashes.push_back(hash * system::golden_multiplier >> shift);
+  }
+  std::vector<bool> is_seen(std::size_t{1} << (64 - shift), false);
+  std::vector<bool> is_shared(is_seen.size(), false);
+  for (const std::uint64_t hash : hashes) {
+    if (is_seen[hash]) is_shared[hash] = true;
+    is_seen[hash] = true;
+  }
+  std::vector<std::size_t> sharing;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (is_shared[hashes[i]]) sharing.push_back(i);
+  }
+  return sharing;
+}
+
 }  // namespace
 
 double doubled_loop_area(std::span<const LonLat> loop) {
@@ -112,17 +145,14 @@ bool has_touching(std::span<const Loop> loops) {
 }
 
 void cancel_opposite(std::vector<DirectedLine>& lines) {
-  std::vector<std::size_t> order(lines.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto key = [&](std::size_t i) {
-    const auto [low, high] = std::minmax(lines[i].from, lines[i].to, InPlane());
-    return std::array{low.lon_deg, low.lat_deg, high.lon_deg, high.lat_deg};
-  };
+  const auto key = [&](std::size_t i) { return ends_of(lines[i]); };
+  std::vector<std::size_t> order = lines_that_may_share_ends(lines);
   std::ranges::stable_sort(order, {}, key);
   std::vector<bool> is_gone(lines.size(), false);
+  std::vector<std::size_t> kept;
   for (auto at = order.begin(); at != order.end();) {
     const auto ends = key(*at);
-    std::vector<std::size_t> kept;
+    kept.clear();
     for (; at != order.end() && key(*at) == ends; ++at) {
       const std::size_t line = *at;
       if (!kept.empty() && !(lines[kept.back()] == lines[line])) {

@@ -107,7 +107,9 @@ class RegionsInPlane {
 
  private:
   void look_at(std::span<const std::size_t> open) {
-    system::parallel_for(threads_, open.size(), regions_per_task,
+    // Few regions may be large.
+    constexpr std::size_t few = 64;
+    system::parallel_for(threads_, open.size(), open.size() < few ? 1 : regions_per_task,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t k = begin; k < end; ++k) {
                              const std::size_t i = open[k];
