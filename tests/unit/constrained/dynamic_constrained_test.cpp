@@ -274,7 +274,7 @@ TEST(dynamic_constrained, equals_a_build_after_every_step_on_grids) {
     ASSERT_NO_FATAL_FAILURE(script.run(60, 2));
     num_refused += script.num_refused();
   }
-  EXPECT_GT(num_refused, 100U);
+  EXPECT_GT(num_refused, scaled(100));
 }
 
 // A square around the north pole, its middle and the south pole.
