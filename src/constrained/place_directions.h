@@ -19,6 +19,8 @@
 #include "predicates/orientation.h"
 #include "predicates/points.h"
 #include "rondel/predicates.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
 #include "system/gather.h"
 #include "system/prefetch.h"
 
