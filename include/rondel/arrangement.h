@@ -54,7 +54,8 @@ inline constexpr double arrangement_radius = 0x1p-52;
 /// \param arcs  the two ends of each arc, as indices into `points`. Each arc is the shorter one
 ///        between its ends. An arc whose ends are the same is a point.
 /// \throws InvalidInput (the position of the arc) if an end does not exist, or both ends are
-///         opposite up to 2^-45; (the position of the point) if a point is not as described.
+///         opposite up to 2^-45; (the position of the point) if a point is not as described; if
+///         there are more than 2^31 - 1 arcs, or pieces of them
 RONDEL_API Arrangement arrange(std::span<const Point> points,
                                std::span<const std::array<Index, 2>> arcs,
                                const Execution& execution = {});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "order/spatial_order.h"
+#include "rondel/error.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 #include "system/row_assembly.h"
@@ -202,6 +203,8 @@ NumberedPoints numbered(std::span<const Point> given, std::size_t num_fixed, uns
 
 NumberedArcs numbered_arcs(std::span<const NodedArc> given, std::size_t num_nodes,
                            unsigned threads) {
+  // A halfedge is twice the number of its arc, or one more.
+  if (given.size() > no_index / 2) throw InvalidInput("there are more than 2147483647 arcs");
   return ArcSort(given, num_nodes, threads).run();
 }
 
