@@ -15,7 +15,7 @@ namespace {
 
 int number(Sign sign) { return static_cast<int>(sign); }
 
-struct Question {
+struct SiteQuadruple {
   const std::vector<Point>& sites;
   Model model;
   Sphere sphere;
@@ -40,7 +40,7 @@ struct Question {
   }
 };
 
-void test_orientation(const Question& q) {
+void test_orientation(const SiteQuadruple& q) {
   const int sign = q.oriented(0, 1, 2);
   require(q.oriented(1, 2, 0) == sign && q.oriented(2, 0, 1) == sign, "orientation is cyclic");
   require(
@@ -55,7 +55,7 @@ void test_orientation(const Question& q) {
   require((low == 0 && high == 0) || (low < 0 && high > 0), "orientation is a chirotope");
 }
 
-void test_same_site(const Question& q) {
+void test_same_site(const SiteQuadruple& q) {
   require(q.is_same(0, 0), "a site is the same as itself");
   require(q.is_same(0, 1) == q.is_same(1, 0), "being the same is symmetric");
   if (!q.is_same(0, 1)) return;
@@ -65,7 +65,7 @@ void test_same_site(const Question& q) {
   require(q.is_same(0, 2) == q.is_same(1, 2), "being the same is transitive");
 }
 
-void test_permutations(const Question& q) {
+void test_permutations(const SiteQuadruple& q) {
   const int sign = q.side(0, 1, 2, 3);
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
   do {
@@ -80,7 +80,7 @@ void test_permutations(const Question& q) {
 }
 
 // Every sign of a 4-subset, under the three-term relation for each pair of common sites.
-void test_chirotope(const Question& q, bool is_perturbed) {
+void test_chirotope(const SiteQuadruple& q, bool is_perturbed) {
   const auto sign = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
     return is_perturbed ? q.perturbed(a, b, c, d) : q.side(a, b, c, d);
   };
@@ -97,9 +97,9 @@ void test_chirotope(const Question& q, bool is_perturbed) {
   require((least == 0 && most == 0) || (least < 0 && most > 0), "five sites have a Radon point");
 }
 
-void test_exact_signs(const Question& q) { test_chirotope(q, false); }
+void test_exact_signs(const SiteQuadruple& q) { test_chirotope(q, false); }
 
-void test_ties(const Question& q) {
+void test_ties(const SiteQuadruple& q) {
   bool are_general = true;
   for (std::size_t a = 0; a < 6; ++a) {
     for (std::size_t b = a + 1; b < 6; ++b) {
@@ -124,13 +124,13 @@ void test_ties(const Question& q) {
 
 // A mirror exchanges the sides; a cyclic shift of the axes changes nothing. The
 // tie-breaking order is that of the coordinates, so this is about exact signs only.
-void test_symmetry(const Question& q) {
+void test_symmetry(const SiteQuadruple& q) {
   const auto changed = [&](auto&& change) {
     std::vector<Point> moved;
     for (const Point& p : q.sites) moved.push_back(change(p));
     Sphere sphere = q.sphere;
     sphere.center = change(q.sphere.center);
-    const Question r{moved, q.model, sphere};
+    const SiteQuadruple r{moved, q.model, sphere};
     return std::pair(r.side(0, 1, 2, 3), r.oriented(0, 1, 2));
   };
   const std::pair before(q.side(0, 1, 2, 3), q.oriented(0, 1, 2));

@@ -21,7 +21,7 @@ using test::IntegerRay;
 using test::Random;
 using Quadruple = std::array<IntegerRay, 4>;
 
-int number(Sign sign) { return static_cast<int>(sign); }
+int value_of(Sign sign) { return static_cast<int>(sign); }
 
 std::int64_t integer(Random& random, std::int64_t most) {
   const auto width = static_cast<std::uint64_t>(2 * most + 1);
@@ -107,7 +107,7 @@ std::array<Point, 4> placed(const Quadruple& q, const Scaling& scaling) {
 
 void compare_side(const Quadruple& q, const Scaling& scaling, Model model, int expected) {
   const auto [a, b, c, p] = placed(q, scaling);
-  require(number(side_of_circle(a, b, c, p, model, scaling.sphere)) == expected,
+  require(value_of(side_of_circle(a, b, c, p, model, scaling.sphere)) == expected,
           "side_of_circle is that of the integers");
   if (expected == 0) return;
   require(is_in_conflict(a, b, c, p, model, scaling.sphere) == (expected > 0),
@@ -116,7 +116,7 @@ void compare_side(const Quadruple& q, const Scaling& scaling, Model model, int e
 
 void compare_orientation(const Quadruple& q, const Scaling& scaling) {
   const auto [a, b, c, p] = placed(q, scaling);
-  require(number(orientation(a, b, p, scaling.sphere)) ==
+  require(value_of(orientation(a, b, p, scaling.sphere)) ==
               test::sign_of(test::determinant(q[0], q[1], q[3])),
           "orientation is that of the integers");
   if (std::ranges::any_of(q, is_center)) return;
@@ -201,9 +201,9 @@ void test_doubles(Random& random) {
   for (const Model model : {Model::projected, Model::weighted}) {
     const test::Oracle oracle(sites, model, {});
     const int expected = oracle.side_of_circle(0, 1, 2, 3);
-    require(number(side_of_circle(sites[0], sites[1], sites[2], sites[3], model)) == expected,
+    require(value_of(side_of_circle(sites[0], sites[1], sites[2], sites[3], model)) == expected,
             "side_of_circle is that of the oracle");
-    require(number(orientation(sites[1], sites[2], sites[3])) == oracle.orientation(1, 2, 3),
+    require(value_of(orientation(sites[1], sites[2], sites[3])) == oracle.orientation(1, 2, 3),
             "orientation is that of the oracle");
     bool are_distinct = true;
     for (std::size_t i = 0; i < 4; ++i) {

@@ -160,7 +160,7 @@ void test_global_grid(std::string_view bytes) {
   require(weight_file(same).target.areas == same.target_areas, "a file has the areas");
 }
 
-void test(std::string_view bytes) {
+void test_weights(std::string_view bytes) {
   test_global_grid(bytes);
   test_lonlats(bytes);
   test_corners(bytes);
@@ -220,6 +220,6 @@ void test(std::string_view bytes) {
 }  // namespace rondel::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  rondel::fuzz::test({reinterpret_cast<const char*>(data), size});
+  rondel::fuzz::test_weights({reinterpret_cast<const char*>(data), size});
   return 0;
 }

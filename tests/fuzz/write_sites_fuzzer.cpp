@@ -13,7 +13,7 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::array endings = {".csv", ".tsv", ".xyz", ".txt", ".npy"};
+constexpr std::array site_endings = {".csv", ".tsv", ".xyz", ".txt", ".npy"};
 
 bool has_header(const std::string& path) {
   return path.ends_with(".csv") || path.ends_with(".tsv");
@@ -49,8 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   static const fuzz::ScratchFolder folder;
   fuzz::ByteSource source(data, size);
-  const std::string path =
-      folder.file(std::string("sites") + fuzz::endings[source.below(fuzz::endings.size())]);
+  const std::string path = folder.file(std::string("sites") +
+                                       fuzz::site_endings[source.below(fuzz::site_endings.size())]);
   const std::size_t what = source.below(3);
   const SiteTable table = fuzz::next_table(source, fuzz::next_limit(source, 100));
   fuzz::require(can_write_sites(path), "a format of sites can be written");

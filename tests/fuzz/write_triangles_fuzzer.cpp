@@ -20,13 +20,13 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::array endings = {".npy", ".off", ".ply", ".obj", ".vtp", ".stl"};
+constexpr std::array triangle_endings = {".npy", ".off", ".ply", ".obj", ".vtp", ".stl"};
 
 // A map takes a thousand times longer than a list, so that one of 16 inputs makes one.
-std::string next_ending(ByteSource& source) {
+std::string next_triangle_ending(ByteSource& source) {
   const std::size_t which = source.below(16);
   if (which == 15) return ".geojson";
-  return endings[which % endings.size()];
+  return triangle_endings[which % triangle_endings.size()];
 }
 
 void test_stl(const std::string& path, const SiteTable& table, const Triangulation& t) {
@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   static const fuzz::ScratchFolder folder;
   fuzz::ByteSource source(data, size);
-  const std::string ending = fuzz::next_ending(source);
+  const std::string ending = fuzz::next_triangle_ending(source);
   const std::string path = folder.file("triangles" + ending);
   Options options;
   const SiteTable table = fuzz::next_table(source, 40, ending);
