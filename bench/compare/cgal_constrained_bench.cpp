@@ -19,7 +19,7 @@
 #include "constraints.h"
 #include "inputs.h"
 #include "measure.h"
-#include "rondel/sites.h"
+#include "rondel/delaunay.h"
 
 namespace {
 
