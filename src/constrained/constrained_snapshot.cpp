@@ -113,9 +113,12 @@ ConstrainedSnapshot make_snapshot(const dynamic::Places& places, const Constrain
   list_edges(pieces, nullptr, now.result);
   Sites sites(std::move(points));
   const Options options = {Model::projected, sphere};
-  now.result.triangulation =
-      has_pieces ? with_faces(sites, std::move(arrays), options, {})
-                 : api::make_triangulation(std::move(sites), std::move(arrays), options, {});
+  if (has_pieces) {
+    now.result.triangulation = with_faces(sites, std::move(arrays), options, {});
+  } else {
+    now.result.triangulation =
+        api::make_triangulation(std::move(sites), std::move(arrays), options, {});
+  }
   return now;
 }
 

@@ -54,7 +54,7 @@ class NarrowWater {
 
  private:
   // The lines of one kind of feature, and the polygon of the area.
-  struct Part {
+  struct FeaturePart {
     FeatureLines lines;
     CellRings polygon;
 
@@ -108,7 +108,7 @@ class NarrowWater {
     return number == no_index ? FeatureOfEdge::coast : features_[number];
   }
 
-  Part& part_of(FeatureOfEdge feature) {
+  FeaturePart& part_of(FeatureOfEdge feature) {
     return feature == FeatureOfEdge::coast  ? coast_
            : feature == FeatureOfEdge::line ? lines_
                                             : area_;
@@ -120,7 +120,7 @@ class NarrowWater {
     for (const Index node : loop) is_needed_[node] = true;
   }
 
-  void add_line(std::span<const Index> nodes, Part& part) {
+  void add_line(std::span<const Index> nodes, FeaturePart& part) {
     std::vector<Point> points;
     for (const Index node : nodes) {
       points.push_back(mesh_.nodes[node]);
@@ -234,7 +234,7 @@ class NarrowWater {
   WiderDomain finished() {
     WiderDomain result;
     result.new_corners = std::move(new_corners_);
-    for (Part* part : {&coast_, &area_, &lines_}) part->end();
+    for (FeaturePart* part : {&coast_, &area_, &lines_}) part->end();
     result.domain.coast.push_back({std::move(coast_.lines), std::move(coast_.polygon)});
     result.domain.area.push_back({std::move(area_.lines), std::move(area_.polygon)});
     result.domain.lines.push_back({std::move(lines_.lines), std::move(lines_.polygon)});
@@ -249,9 +249,9 @@ class NarrowWater {
   std::vector<Triple> kept_;
   std::vector<Ends> border_;  // of the kept triangles, which are to the left
   std::vector<Point> new_corners_;
-  Part coast_;
-  Part area_;
-  Part lines_;
+  FeaturePart coast_;
+  FeaturePart area_;
+  FeaturePart lines_;
 };
 
 }  // namespace

@@ -44,22 +44,22 @@ class Fans {
 
   // Returns the fans around a node of the border.
   [[nodiscard]] std::vector<Fan> around(Index node) const {
-    struct Spoke {
+    struct SideOfNode {
       Index from, to, triangle;
     };
-    std::vector<Spoke> spokes;
+    std::vector<SideOfNode> spokes;
     for (std::uint64_t k = offsets_[node]; k < offsets_[node + 1]; ++k) {
       const Triple& corners = triangles_[at_node_[k]];
       const auto i = static_cast<std::size_t>(std::ranges::find(corners, node) - corners.begin());
       spokes.push_back({corners[(i + 1) % 3], corners[(i + 2) % 3], at_node_[k]});
     }
     std::vector<Fan> fans;
-    for (const Spoke& first : spokes) {
-      if (std::ranges::find(spokes, first.from, &Spoke::to) != spokes.end()) continue;
+    for (const SideOfNode& first : spokes) {
+      if (std::ranges::find(spokes, first.from, &SideOfNode::to) != spokes.end()) continue;
       Fan fan;
       fan.first = nodes_[first.from];
-      for (auto spoke = std::ranges::find(spokes, first.from, &Spoke::from); spoke != spokes.end();
-           spoke = std::ranges::find(spokes, spoke->to, &Spoke::from)) {
+      for (auto spoke = std::ranges::find(spokes, first.from, &SideOfNode::from);
+           spoke != spokes.end(); spoke = std::ranges::find(spokes, spoke->to, &SideOfNode::from)) {
         const auto& [a, b, c] = triangles_[spoke->triangle];
         const std::array<Point, 3> ring = {nodes_[a], nodes_[b], nodes_[c]};
         fan.triangles.push_back(spoke->triangle);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "exact/angles.h"
 #include "exact/vector.h"
 #include "rondel/triangle_mesh.h"
 #include "system/arithmetic.h"
@@ -33,9 +33,11 @@ TriangleQuality triangle_quality(const TriangleMesh& mesh) {
   }
   if (mesh.triangles.empty()) return {};
   const auto angle_of = [](double square) {
-    return 2 * std::asin(std::min(std::sqrt(square) / 2, 1.0));
+    return 2 * exact::argument(std::sqrt(square), std::sqrt(std::max(4 - square, 0.0)));
   };
-  return {std::acos(std::min(largest_cosine, 1.0)) * 180 / std::numbers::pi, angle_of(least),
+  const double cosine = std::min(largest_cosine, 1.0);
+  const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+  return {exact::argument(sine, cosine) * exact::degrees_per_radian, angle_of(least),
           angle_of(most)};
 }
 

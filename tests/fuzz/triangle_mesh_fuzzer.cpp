@@ -56,6 +56,9 @@ void expect_the_same_again(const TriangleMesh& mesh, const char* format) {
 void use_mesh(const TriangleMesh& mesh) {
   mesh::require_valid(mesh);
   for (const Index node : mesh::pinched_nodes(mesh)) require(node < mesh.points.size(), "a node");
+  const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
+  require(quality.shortest_edge <= quality.longest_edge && quality.smallest_angle_deg < 60.01,
+          "no triangle has larger angles alone");
   for (const char* format : mesh_formats) expect_the_same_again(mesh, format);
   const FileName folder(std::string(".rondel-fuzz-fesom-not-there/") + "x", "ply");
   require(!mesh::can_write_triangle_mesh(folder) && !mesh::is_triangle_mesh_file(folder),
