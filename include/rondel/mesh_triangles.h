@@ -51,13 +51,12 @@ struct TrianglesOptions {
   /// all water.
   ///
   /// The domain without its lines is refined by angles alone (26.5 degrees). Then triangles are
-  /// filled that have all corners on coasts or the border, if equilateral triangles in their
-  /// circles have edges shorter than this share of the least spacing at their corners. The new
-  /// coasts are simplified, with the tolerance and at least a quarter of that length, and all that
-  /// is repeated until nothing is narrow, at most ten times. At last triangles are filled at nodes
-  /// where the mesh touches itself. What is left of coasts, borders and lines stays where it is.
-  /// (Compare the closing of mathematical morphology by a disk: Serra, Image Analysis and
-  /// Mathematical Morphology, 1982.)
+  /// filled that have all corners on coasts or the border, and an edge in the water that is
+  /// shorter than this share of the spacing at its ends. The new coasts are simplified, with the
+  /// tolerance and at least a quarter of that length, and all that is repeated until nothing is
+  /// narrow, at most ten times. At last triangles are filled at nodes where the mesh touches
+  /// itself. What is left of coasts, borders and lines stays where it is. (Compare the closing of
+  /// mathematical morphology by a disk: Serra, Image Analysis and Mathematical Morphology, 1982.)
   double fill_narrow = 0;
   /// Parts of the mesh that are smaller than this share of the largest part's area vanish: from 0,
   /// where all stay, to 1, where the largest one stays. Parts have no edge in common.

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // In water that is narrow everything is border: a refinement by angles alone puts no vertex between
-// two coasts that are near to each other, and makes triangles there that are as small as the water
-// is narrow. So narrow water is found by its triangles.
+// two coasts that are near to each other, and edges across the water are as short as it is narrow.
+// Beside such an edge no triangle is much larger. So narrow water is found by its triangles.
 #include "meshing/narrow_water.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -77,21 +76,22 @@ class NarrowWater {
     for (const Triple& triangle : mesh_.triangles) {
       const bool is_between =
           std::ranges::all_of(triangle, [&](Index corner) { return is_border[corner]; });
-      if (!is_between || !is_small(triangle, spacing, share)) kept_.push_back(triangle);
+      if (!is_between || !is_narrow(triangle, spacing, share)) kept_.push_back(triangle);
     }
   }
 
-  [[nodiscard]] bool is_small(const Triple& triangle, const mesh::SizeFunction& spacing,
-                              double share) const {
-    const Point& a = mesh_.nodes[triangle[0]];
-    const Point& b = mesh_.nodes[triangle[1]];
-    const Point& c = mesh_.nodes[triangle[2]];
-    const double wanted =
-        share * std::min({spacing.spacing(a), spacing.spacing(b), spacing.spacing(c)});
-    const double product = norm(b - a) * norm(c - b) * norm(a - c);
-    const double twice_area = norm(cross(b - a, c - a));
-    // The radius is the product by four areas, and the edge the square root of three times it.
-    return std::sqrt(3.0) * product < wanted * 2 * twice_area;
+  // True if an edge in the water is shorter than `share` of the spacing at its ends.
+  [[nodiscard]] bool is_narrow(const Triple& triangle, const mesh::SizeFunction& spacing,
+                               double share) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = triangle[k];
+      const Index b = triangle[(k + 1) % 3];
+      if (number_of(a, b) != no_index) continue;
+      const Point& p = mesh_.nodes[a];
+      const Point& q = mesh_.nodes[b];
+      if (norm(q - p) < share * std::min(spacing.spacing(p), spacing.spacing(q))) return true;
+    }
+    return false;
   }
 
   // Returns the number of a constrained edge; no_index if it is none.

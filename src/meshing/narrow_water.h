@@ -21,10 +21,10 @@ struct WiderDomain {
   std::vector<Point> new_corners;  // corners of its border that are ends of new coast
 };
 
-// Fills the triangles that have all corners on the border or on coasts and are smaller than
-// equilateral ones with edges of `share` of the spacing, by the radii of their circles. Returns
-// nothing if there are none. Corners of the new border are sites of `made`, and ends of its edges
-// inside; so what stays does not move. Throws InvalidInput if nothing is left.
+// Fills the triangles that have all corners on the border or on coasts, and an edge in the water that
+// is shorter than `share` of the spacing. Returns nothing if there are none. Corners of the new
+// border are sites of `made`, and ends of its edges inside; so what stays does not move. Throws
+// InvalidInput if nothing is left.
 std::optional<WiderDomain> without_narrow_water(const mesh::DomainTriangles& made,
                                                 const mesh::SizeFunction& spacing, double share);
 

@@ -127,6 +127,26 @@ def test_an_ocean_has_the_spacing_and_the_angles():
     same(pickle.loads(pickle.dumps(mesh)), mesh)
 
 
+def test_narrow_water_is_filled_and_small_parts_are_left_out():
+    shapely = pytest.importorskip("shapely")
+    land = [shapely.box(8, 40, 10, 44.9), shapely.box(8, 45.1, 10, 50)]
+    given = {"area": shapely.box(0, 40, 12, 50), "spacing": 0.01}
+    made = [
+        rondel.mesh.triangles(land, **given),
+        rondel.mesh.triangles(land, **given, fill_narrow=0.5),
+        rondel.mesh.triangles(land, **given, fill_narrow=0.5, smallest_part=0.5),
+    ]
+    for mesh in made:
+        sides = sides_of(mesh)
+        shortest, longest = mesh.quality.shortest_edge, mesh.quality.longest_edge
+        assert np.allclose([shortest, longest], [sides.min(), sides.max()], rtol=1e-3)
+    assert made[0].quality.shortest_edge < 0.0036 < 0.004 < made[1].quality.shortest_edge
+    assert made[1].lonlat[:, 0].max() > 11
+    assert made[2].lonlat[:, 0].max() < 8.1
+    with pytest.raises(ValueError, match="from 0 to 1"):
+        rondel.mesh.triangles(land, **given, fill_narrow=2)
+
+
 def test_lines_that_cross_make_a_node():
     shapely = pytest.importorskip("shapely")
     cross = shapely.MultiLineString([[(-3, 0), (3, 0)], [(0, -3), (0, 3)]])
