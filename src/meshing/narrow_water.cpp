@@ -40,8 +40,8 @@ class NarrowWater {
     }
     border_ = border_of(mesh_.nodes.size(), kept_);
     for (const auto& [a, b] : border_) {
-      if (number_of(a, b) == no_index)
-        is_needed_[a] = is_needed_[b] = is_new_[a] = is_new_[b] = true;
+      if (std::ranges::binary_search(border_before_, Ends{a, b})) continue;
+      is_needed_[a] = is_needed_[b] = is_new_[a] = is_new_[b] = true;
     }
     const std::vector<std::vector<Index>> loops = loops_of(mesh_.nodes, border_);
     for (const std::vector<Index>& loop : loops) require_corners_of(loop);
@@ -65,10 +65,10 @@ class NarrowWater {
 
   // Keeps triangles that are not narrow.
   void fill(const mesh::SizeFunction& spacing, double share) {
+    border_before_ = border_of(mesh_.nodes.size(), mesh_.triangles);
     std::vector<bool> is_border(mesh_.nodes.size());
-    for (const auto& [a, b] : border_of(mesh_.nodes.size(), mesh_.triangles)) {
-      is_border[a] = is_border[b] = true;
-    }
+    for (const auto& [a, b] : border_before_) is_border[a] = is_border[b] = true;
+    std::ranges::sort(border_before_);
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
       if (features_[e] != FeatureOfEdge::coast) continue;
       for (const Index node : mesh_.edges[e]) is_border[node] = true;
@@ -102,10 +102,10 @@ class NarrowWater {
     return static_cast<Index>(place - mesh_.edges.begin());
   }
 
-  // What fills water is coast.
+  // Returns what an edge of the border follows: where it was inside before, the new coast.
   [[nodiscard]] FeatureOfEdge feature_of(Index a, Index b) const {
-    const Index number = number_of(a, b);
-    return number == no_index ? FeatureOfEdge::coast : features_[number];
+    const bool is_old = std::ranges::binary_search(border_before_, Ends{a, b});
+    return is_old ? features_[number_of(a, b)] : FeatureOfEdge::coast;
   }
 
   FeaturePart& part_of(FeatureOfEdge feature) {
@@ -247,7 +247,8 @@ class NarrowWater {
   std::vector<bool> is_new_ = std::vector<bool>(is_needed_.size());  // ends of the new coast
   std::vector<bool> is_on_line_ = std::vector<bool>(is_needed_.size());
   std::vector<Triple> kept_;
-  std::vector<Ends> border_;  // of the kept triangles, which are to the left
+  std::vector<Ends> border_before_;  // sorted
+  std::vector<Ends> border_;         // of the kept triangles, which are to the left
   std::vector<Point> new_corners_;
   FeaturePart coast_;
   FeaturePart area_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -109,6 +110,21 @@ double mark_pinched(const mesh::RefinedMesh& mesh, std::vector<bool>& is_filled)
   return area;
 }
 
+// Returns the edges that are on the border of triangles, and were not on that of more triangles: the
+// lower node first, sorted.
+std::vector<Ends> new_border(std::size_t num_nodes, std::span<const Triple> before,
+                             std::span<const Triple> kept) {
+  const auto edges_of = [&](std::span<const Triple> triangles) {
+    std::vector<Ends> edges = border_of(num_nodes, triangles);
+    for (Ends& edge : edges) std::ranges::sort(edge);
+    std::ranges::sort(edges);
+    return edges;
+  };
+  std::vector<Ends> result;
+  std::ranges::set_difference(edges_of(kept), edges_of(before), std::back_inserter(result));
+  return result;
+}
+
 // Takes triangles away, and nodes that are corners of none. What was beside them is coast.
 void remove_triangles(const std::vector<bool>& is_filled, mesh::DomainTriangles& made) {
   mesh::RefinedMesh& mesh = made.mesh;
@@ -121,18 +137,16 @@ void remove_triangles(const std::vector<bool>& is_filled, mesh::DomainTriangles&
     regions.push_back(mesh.regions[t]);
     for (const Index corner : kept.back()) numbers[corner] = 0;
   }
-  std::vector<Ends> coast = border_of(mesh.nodes.size(), kept);
-  for (Ends& edge : coast) std::ranges::sort(edge);
+  const std::vector<Ends> coast = new_border(mesh.nodes.size(), mesh.triangles, kept);
   std::vector<std::tuple<Ends, Index, mesh::FeatureOfEdge>> edges;
   const std::vector<Ends> sides = sides_of(kept);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (!std::ranges::binary_search(sides, mesh.edges[e])) continue;
-    edges.emplace_back(mesh.edges[e], mesh.sources[e], made.features[e]);
+    const Ends& edge = mesh.edges[e];
+    if (std::ranges::binary_search(coast, edge) || !std::ranges::binary_search(sides, edge))
+      continue;
+    edges.emplace_back(edge, mesh.sources[e], made.features[e]);
   }
-  for (const Ends& edge : coast) {
-    if (std::ranges::binary_search(mesh.edges, edge)) continue;
-    edges.emplace_back(edge, no_index, mesh::FeatureOfEdge::coast);
-  }
+  for (const Ends& edge : coast) edges.emplace_back(edge, no_index, mesh::FeatureOfEdge::coast);
   std::ranges::sort(edges);
 
   std::size_t number = 0;

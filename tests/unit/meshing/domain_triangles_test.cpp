@@ -256,6 +256,18 @@ TEST(domain_triangles, lines_and_points_stay_where_narrow_water_is_filled) {
   EXPECT_LT(length, 11);
 }
 
+TEST(domain_triangles, a_border_across_filled_water_becomes_coast) {
+  // Two parts of an area have the mouth of the strait in common.
+  MeshDomain domain = seas_with_strait();
+  domain.area = {polygon({box(-10, -10, 10, 20)}), polygon({box(10, -10, 20, 20)})};
+  TrianglesOptions options = spaced(1);
+  EXPECT_GT(number_of(triangles(domain, options), FeatureOfEdge::area), 0U);
+  options.fill_narrow = 0.5;
+  const DomainTriangles made = triangles(domain, options);
+  EXPECT_EQ(number_of(made, FeatureOfEdge::area), 0U);
+  EXPECT_EQ(number_of(made, FeatureOfEdge::coast), made.features.size());
+}
+
 TEST(domain_triangles, shares_out_of_range) {
   const Geometries sea = polygon({box(-5, -4, 6, 5)});
   TrianglesOptions options = spaced(1);
