@@ -32,15 +32,16 @@ struct Fan {
 class Fans {
  public:
   Fans(std::span<const Point> nodes, std::span<const Triple> triangles)
-      : nodes_(nodes), triangles_(triangles), places_(nodes.size()) {
+      : nodes_(nodes), triangles_(triangles) {
+    system::RowPlaces<> places(nodes.size());
     for (const Triple& triangle : triangles) {
-      for (const Index corner : triangle) places_.count(corner);
+      for (const Index corner : triangle) places.count(corner);
     }
-    at_node_.resize(places_.sum());
+    at_node_.resize(places.sum());
     for (Index t = 0; t < triangles.size(); ++t) {
-      for (const Index corner : triangles[t]) at_node_[places_.place(corner)] = t;
+      for (const Index corner : triangles[t]) at_node_[places.place(corner)] = t;
     }
-    offsets_ = std::move(places_).offsets();
+    offsets_ = std::move(places).offsets();
   }
 
   // Returns the fans around a node of the border.
@@ -74,15 +75,9 @@ class Fans {
  private:
   std::span<const Point> nodes_;
   std::span<const Triple> triangles_;
-  system::RowPlaces<> places_;
   std::vector<std::uint64_t> offsets_;
   std::vector<Index> at_node_;
 };
-
-bool is_larger(const Fan& fan, const Fan& other) {
-  const auto key = [](const Fan& f) { return std::tuple(f.area, f.first.x, f.first.y, f.first.z); };
-  return key(fan) > key(other);
-}
 
 // Marks the triangles that are to be filled, and returns their area.
 double mark_pinched(const mesh::RefinedMesh& mesh, std::vector<bool>& is_filled) {
@@ -94,8 +89,9 @@ double mark_pinched(const mesh::RefinedMesh& mesh, std::vector<bool>& is_filled)
   for (auto node = std::ranges::adjacent_find(starts); node != starts.end();
        node = std::adjacent_find(std::upper_bound(node, starts.end(), *node), starts.end())) {
     const std::vector<Fan> fans = all.around(*node);
-    const auto largest = std::ranges::max_element(
-        fans, [](const Fan& fan, const Fan& other) { return is_larger(other, fan); });
+    const auto largest = std::ranges::max_element(fans, {}, [](const Fan& fan) {
+      return std::tuple(fan.area, fan.first.x, fan.first.y, fan.first.z);
+    });
     for (auto fan = fans.begin(); fan != fans.end(); ++fan) {
       if (fan == largest) continue;
       for (const Index t : fan->triangles) {
