@@ -112,7 +112,7 @@ triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
 ///         and latitudes beyond a pole; and for what breaks 1 or 2
 RONDEL_API void require_valid(const TriangleMesh& mesh);
 
-/// What the time step and the errors of a model depend on.
+/// The measures on which the time step and the errors of a model depend.
 struct TriangleQuality {
   double smallest_angle_deg = 0;  ///< of all triangles, between chords
   double shortest_edge = 0;       ///< of all edges, in radians

@@ -117,8 +117,8 @@ class ArcFan {
   bool is_clockwise_ = false;
 };
 
-// What it asks of Faces: corners(f), neighbor(f, edge), opposite(h), is_solid(f), solid_face_at(v),
-// is_constrained(h), side(a, b, v), is_in_circle(a, b, c, v); and, to change them,
+// The template parameter Faces has corners(f), neighbor(f, edge), opposite(h), is_solid(f),
+// solid_face_at(v), is_constrained(h), side(a, b, v), is_in_circle(a, b, c, v); and, to change them,
 // put_in_cavity(f), is_in_cavity(f), replace(f, corners), which lets a face have no constrained
 // side, link(h, g), constrain_side(h) for the face of h alone, constrain(h) for both.
 template <class Faces>

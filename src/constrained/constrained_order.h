@@ -18,7 +18,7 @@
 
 namespace rondel::constrained {
 
-// What may be true of a face.
+// The marks that a face may have.
 enum FaceState : std::uint8_t {
   ghost_face = 1,
   changed_face = 2,    // it was not there, in this place, in the canonical order before

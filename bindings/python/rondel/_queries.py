@@ -47,7 +47,7 @@ class Location(NamedTuple):
 class FaceLocations:
     """The faces that have given points."""
 
-    # What answers to locate().
+    # Returns the object that answers to locate().
     def _locator(self) -> Any:
         raise NotImplementedError
 

@@ -44,7 +44,7 @@ class Boundary(NamedTuple):
 
 
 class TriangleQuality(NamedTuple):
-    """What the time step and the errors of a model depend on.
+    """The measures on which the time step and the errors of a model depend.
 
     Attributes
     ----------
