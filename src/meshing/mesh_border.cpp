@@ -234,25 +234,24 @@ std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
   return border;
 }
 
+std::vector<std::array<Index, 2>> undirected(std::vector<std::array<Index, 2>> edges) {
+  for (auto& edge : edges) std::ranges::sort(edge);
+  std::ranges::sort(edges);
+  return edges;
+}
+
 std::vector<std::array<Index, 2>> sides_of(std::span<const Triple> triangles) {
   std::vector<std::array<Index, 2>> sides;
   sides.reserve(3 * triangles.size());
-  for (const Triple& triangle : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({triangle[k], triangle[(k + 1) % 3]});
-      sides.push_back({low, high});
-    }
-  }
-  std::ranges::sort(sides);
-  return sides;
+  for (const auto& [a, b, c] : triangles) sides.insert(sides.end(), {{a, b}, {b, c}, {c, a}});
+  return undirected(std::move(sides));
 }
 
 Found fault_of(const mesh::TriangleMesh& mesh, Index base) {
   if (Found fault = fault_of_numbers(mesh, base)) return fault;
   std::vector<std::array<Index, 2>> border;
   if (Found fault = fault_of_triangles(mesh, base, border)) return fault;
-  for (auto& edge : border) std::ranges::sort(edge);
-  std::ranges::sort(border);
+  border = undirected(std::move(border));
   for (std::size_t s = 0; s < mesh.boundary.size(); ++s) {
     const std::string text = fault_of_nodes(mesh.boundary[s], mesh.points.size(), border, base);
     if (text.empty()) continue;

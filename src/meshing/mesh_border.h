@@ -29,6 +29,9 @@ void require_corners(std::size_t num_nodes, std::span<const Triple> triangles, I
 std::vector<std::array<Index, 2>> border_of(std::size_t num_nodes,
                                             std::span<const Triple> triangles, Index base = 0);
 
+// Returns edges without their directions, the lower node first, sorted.
+std::vector<std::array<Index, 2>> undirected(std::vector<std::array<Index, 2>> edges);
+
 // Returns the sides of triangles, each as often as triangles have it, the lower node first, sorted.
 std::vector<std::array<Index, 2>> sides_of(std::span<const Triple> triangles);
 

@@ -132,9 +132,7 @@ class NarrowWater {
   // Adds constrained edges with water on both sides: where all pieces of an edge are left the edge
   // between its sites, else its pieces.
   void add_inner_edges() {
-    std::vector<Ends> border(border_);
-    for (Ends& edge : border) std::ranges::sort(edge);
-    std::ranges::sort(border);
+    const std::vector<Ends> border = undirected(border_);
     const std::vector<Ends> sides = sides_of(kept_);
     const auto is_inside = [&](const Ends& edge) {
       return std::ranges::binary_search(sides, edge) && !std::ranges::binary_search(border, edge);

@@ -111,10 +111,7 @@ double mark_pinched(const mesh::RefinedMesh& mesh, std::vector<bool>& is_filled)
 std::vector<Ends> new_border(std::size_t num_nodes, std::span<const Triple> before,
                              std::span<const Triple> kept) {
   const auto edges_of = [&](std::span<const Triple> triangles) {
-    std::vector<Ends> edges = border_of(num_nodes, triangles);
-    for (Ends& edge : edges) std::ranges::sort(edge);
-    std::ranges::sort(edges);
-    return edges;
+    return undirected(border_of(num_nodes, triangles));
   };
   std::vector<Ends> result;
   std::ranges::set_difference(edges_of(kept), edges_of(before), std::back_inserter(result));

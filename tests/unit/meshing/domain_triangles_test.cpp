@@ -251,7 +251,7 @@ TEST(domain_triangles, lines_and_points_stay_where_narrow_water_is_filled) {
     const Point& q = made.mesh.nodes[made.mesh.edges[e][1]];
     length += std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) * 180 / std::numbers::pi;
   }
-  // Of the line through the strait two degrees are land.
+  // Two degrees of the line through the strait are on land.
   EXPECT_GT(length, 9);
   EXPECT_LT(length, 11);
 }
