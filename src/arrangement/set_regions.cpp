@@ -7,11 +7,11 @@
 #include "arrangement/set_regions.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "arrangement/halfedges.h"
 #include "arrangement/lower_parts.h"
+#include "exact/point_order.h"
 #include "system/row_assembly.h"
 
 namespace rondel::arrangement {
@@ -144,10 +144,6 @@ Sides mended(const Sides& sides, const std::vector<Index>& polygons, const Execu
   return result;
 }
 
-bool is_less(const Point& p, const Point& q) {
-  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-}
-
 // Returns the regions that have a border, of which the halfedges are sorted.
 std::vector<Region> bordered_regions(const Arrangement& arranged, const Halfedges& halfedges,
                                      std::span<const BorderHalfedge> border) {
@@ -245,10 +241,10 @@ CellRings cells_of(std::span<const Region> regions) {
       result.points.insert(result.points.end(), ring.begin(), ring.end());
     }
   }
-  std::ranges::sort(result.points, is_less);
+  std::ranges::sort(result.points, exact::is_less);
   result.points.erase(std::unique(result.points.begin(), result.points.end()), result.points.end());
   const auto number_of = [&](const Point& p) {
-    return static_cast<Index>(std::ranges::lower_bound(result.points, p, is_less) -
+    return static_cast<Index>(std::ranges::lower_bound(result.points, p, exact::is_less) -
                               result.points.begin());
   };
   for (const Region& region : regions) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/point_order.h"
 #include "map/ring_area.h"
 #include "meshing/narrow_water.h"
 #include "meshing/pinches.h"
@@ -53,10 +54,6 @@ void append(const Geometries& more, std::size_t begin, std::size_t end, Geometri
 }
 
 void append(const Geometries& more, Geometries& all) { append(more, 0, more.size(), all); }
-
-bool is_before(const Point& p, const Point& q) {
-  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
-}
 
 // Numbers nodes along the spatial order, and triangles and edges by their nodes. Drops the sites and
 // the sources, which have numbers of the domain.
@@ -142,7 +139,7 @@ class TrianglesOfDomain {
   // Simplifies where coasts are new.
   void simplify_at(std::span<const Point> new_corners) {
     const auto is_new = [&](const Point& place) {
-      return std::ranges::binary_search(new_corners, place, is_before);
+      return std::ranges::binary_search(new_corners, place, exact::is_less);
     };
     SimplifyOptions simplify;
     simplify.tolerance_at = [&](const Point& place) {
@@ -209,7 +206,7 @@ class TrianglesOfDomain {
       if (!wider) break;
       take(wider->domain);
       new_corners.insert(new_corners.end(), wider->new_corners.begin(), wider->new_corners.end());
-      std::ranges::sort(new_corners, is_before);
+      std::ranges::sort(new_corners, exact::is_less);
       simplify_at(new_corners);
       triangulate();
     }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "exact/angles.h"
+#include "exact/point_order.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/measure.h"
@@ -28,10 +29,6 @@ namespace {
 constexpr std::size_t keys_per_block = 256;
 // The area of a clockwise ring that is taken for rounding, in multiples of area_of_rounding().
 constexpr double of_holes = 8;
-
-bool is_before(const Point& a, const Point& b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 // A directed side between two points, which are named by their places in the list of points.
 struct NamedSide {
@@ -59,7 +56,7 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
   std::vector<Index> sorted(places.values.size());
   std::iota(sorted.begin(), sorted.end(), Index{0});
   std::ranges::sort(
-      sorted, [&](Index a, Index b) { return is_before(places.values[a], places.values[b]); });
+      sorted, [&](Index a, Index b) { return exact::is_less(places.values[a], places.values[b]); });
   Named result;
   result.points.reserve(sorted.size());
   std::vector<Index> names(sorted.size());

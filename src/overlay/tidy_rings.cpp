@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/point_order.h"
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
 #include "overlay/measure.h"
@@ -23,10 +24,6 @@
 
 namespace rondel::overlay {
 namespace {
-
-bool is_less(const Point& a, const Point& b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
 
 // True if the path from a over b to c turns back on itself: all three are on one great circle, with
 // a and c on the same side of b.
@@ -159,7 +156,7 @@ class NamesOfCorners {
   }
   // Returns the index of the cell's point with these coordinates. Precondition: there is one.
   [[nodiscard]] Index operator[](const Point& p) const {
-    return *std::ranges::lower_bound(names_, p, is_less,
+    return *std::ranges::lower_bound(names_, p, exact::is_less,
                                      [&](Index name) -> const Point& { return points_[name]; });
   }
 
