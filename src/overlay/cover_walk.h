@@ -22,7 +22,8 @@ class CoverWalk {
  public:
   explicit CoverWalk(const Subdivision& cover) : cover_(cover) {}
 
-  // Walks from line.from(), which is in `cell`, to line.to(), and returns the cell of the latter.
+  // Walks from line.from(), which is in `cell`, to line.to(), and returns the cell of the latter, or
+  // no_index if the walk leaves a cover of a part of the sphere.
   // Calls cross(h, edge) for each halfedge h by which the walk leaves a cell, in order; `edge` is
   // the same halfedge as a CoverEdge.
   template <class Cross>
@@ -37,6 +38,7 @@ class CoverWalk {
       if (edge.is_left(line.to())) return cell;
       cross(out, edge);
       in = cover_.twins[out];
+      if (in == no_index) return no_index;
       cell = cover_.cell_of[in];
     }
   }

@@ -86,18 +86,33 @@ std::optional<Point> point_inside(const Subdivision& cover, Index cell) {
   return std::nullopt;
 }
 
-// Returns a point inside of a cell near p in spatial order. Throws InvalidInput if no cell has one.
-Base base_near(const Subdivision& cover, const Point& p) {
+// Calls `is_good` with points inside of cells, those near p in spatial order first, until it returns
+// true. Throws InvalidInput if it does not.
+template <class IsGood>
+void for_bases_near(const Subdivision& cover, const Point& p, const IsGood& is_good) {
   std::uint64_t key = 0;
   order::place_keys(std::span(&p, 1), Model::projected, {}, std::span(&key, 1));
   const auto near =
       static_cast<std::size_t>(std::ranges::lower_bound(cover.keys, key) - cover.keys.begin());
   const std::size_t n = cover.num_cells();
   for (std::size_t k = 0; k < n; ++k) {
-    const auto cell = static_cast<Index>((near + k) % n);
-    if (const auto point = point_inside(cover, cell)) return {cell, *point};
+    // The next cells behind, and before, that place.
+    const std::size_t step = k % 2 == 0 ? k / 2 : n - 1 - k / 2;
+    const auto cell = static_cast<Index>((near + step) % n);
+    const auto point = point_inside(cover, cell);
+    if (point && is_good(Base{cell, *point})) return;
   }
   throw InvalidInput("no cell has an inside");
+}
+
+// Returns a point inside of a cell near p in spatial order. Throws InvalidInput if no cell has one.
+Base base_near(const Subdivision& cover, const Point& p) {
+  Base result{};
+  for_bases_near(cover, p, [&](const Base& base) {
+    result = base;
+    return true;
+  });
+  return result;
 }
 
 // Returns a unit vector orthogonal to p.
@@ -110,7 +125,7 @@ Point point_beside(const Point& p) {
 class Walker {
  public:
   Walker(const Subdivision& cover, const Base& base)
-      : walk_(cover), at_(base.point), cell_(base.cell) {}
+      : cover_(cover), walk_(cover), at_(base.point), cell_(base.cell) {}
 
   [[nodiscard]] Index cell() const { return cell_; }
   // Moves to a point whose cell is known.
@@ -119,12 +134,14 @@ class Walker {
     cell_ = cell;
   }
   // Moves to p along a great circle. If p is far, the path has a corner, so that each of its arcs
-  // is shorter than 180 degrees.
+  // is shorter than 180 degrees. Where the path leaves a cover of a part of the sphere, p is reached
+  // from a cell near it.
   void go_to(const Point& p) {
-    if (p == at_) return;
-    constexpr double far = -0.5;
-    if (dot(at_, p) < far) go_to(point_beside(p));
-    along(TracedLine(at_, p), [](Halfedge /*out*/, const CoverEdge& /*edge*/) {});
+    if (p == at_ || is_reached(p)) return;
+    for_bases_near(cover_, p, [&](const Base& base) {
+      jump_to(base.point, base.cell);
+      return is_reached(p);
+    });
   }
   template <class Cross>
   void along(const TracedLine& line, const Cross& cross) {
@@ -133,6 +150,15 @@ class Walker {
   }
 
  private:
+  // Moves to p unless the path leaves the cover.
+  bool is_reached(const Point& p) {
+    constexpr double far = -0.5;
+    if (dot(at_, p) < far && !is_reached(point_beside(p))) return false;
+    along(TracedLine(at_, p), [](Halfedge /*out*/, const CoverEdge& /*edge*/) {});
+    return cell_ != no_index;
+  }
+
+  const Subdivision& cover_;
   CoverWalk walk_;
   Point at_;
   Index cell_;

@@ -27,7 +27,7 @@ struct RowBlock {
   std::vector<Index> sizes;  // the number of pieces of each cell
   // The column of each piece.
   std::vector<Index> columns;
-  // The place of each piece.
+  // The place of each piece; empty if sums of columns are not wanted.
   std::vector<Index> places;
   std::vector<double> areas;
   std::vector<Point> moments;
@@ -54,7 +54,7 @@ inline std::vector<double> column_sums(std::span<const RowBlock> blocks,
 // Computes the pieces of all cells in parallel and returns them as rows. make(first, end) makes a
 // callable for the cells [first, end). Its operator()(cell) returns the pieces of a cell that has a
 // ring, each with `area` and `moment`, sorted by its column(piece). Its column(piece) must be
-// names[place(piece)].
+// names[place(piece)]; without names there are no sums of columns.
 template <class Make>
 PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, bool has_moments,
                         const Execution& execution, const Make& make) {
@@ -74,7 +74,7 @@ PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, 
                            if (cells.shapes[c] != Shape::empty) {
                              for (const auto& piece : maker(cell)) {
                                block.columns.push_back(maker.column(piece));
-                               block.places.push_back(maker.place(piece));
+                               if (!names.empty()) block.places.push_back(maker.place(piece));
                                block.areas.push_back(piece.area);
                                if (has_moments) block.moments.push_back(piece.moment);
                                add_term(piece.area, sum);
@@ -86,7 +86,7 @@ PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, 
                          }
                          progress.step();
                        });
-  result.column_sums = column_sums(blocks, names);
+  if (!names.empty()) result.column_sums = column_sums(blocks, names);
   result.offsets = system::join_rows(
       execution.threads, n, std::move(blocks),
       [&](std::size_t b, const RowBlock&, std::size_t k) {

@@ -14,28 +14,22 @@
 namespace rondel::overlay {
 namespace {
 
-// A column, or a row, of each grid, and the range that they share, in degrees from `low` to `high`.
-struct Overlap {
-  Index first;
-  Index second;
-  double low;
-  double high;
-};
-
-// Adds an overlap unless it is narrower than the distance of lines that are one.
-void add_overlap(Index first, Index second, double low, double high,
-                 std::vector<Overlap>& overlaps) {
-  if (high - low > same_line_degrees) overlaps.push_back({first, second, low, high});
-}
-
 // Returns `to` if the value is within rounding of it, or the value.
 double snapped(double to, double value) {
   return std::abs(value - to) <= same_line_degrees ? to : value;
 }
 
+}  // namespace
+
+// Adds an overlap unless it is narrower than the distance of lines that are one.
+void GridOverlay::add_overlap(const LineOverlap& overlap, std::vector<LineOverlap>& overlaps) {
+  if (overlap.high - overlap.low > same_line_degrees) overlaps.push_back(overlap);
+}
+
 // Returns the ranges of longitude that columns of the two grids share. `first` is a column of a.
-std::vector<Overlap> shared_columns(const PreparedGrid& a, const PreparedGrid& b) {
-  std::vector<Overlap> overlaps;
+std::vector<GridOverlay::LineOverlap> GridOverlay::shared_columns(const PreparedGrid& a,
+                                                                   const PreparedGrid& b) {
+  std::vector<LineOverlap> overlaps;
   for (Index i = 0; i < a.num_columns_of_grid(); ++i) {
     const double west = a.columns()[i].west_deg;
     const double east = a.columns()[i].east_deg;
@@ -51,7 +45,7 @@ std::vector<Overlap> shared_columns(const PreparedGrid& a, const PreparedGrid& b
       const double low = snapped(west, b.columns()[j].west_deg + shift);
       const double high = snapped(east, b.columns()[j].east_deg + shift);
       if (low >= east) break;
-      add_overlap(i, j, std::max(low, west), std::min(high, east), overlaps);
+      add_overlap({i, j, std::max(low, west), std::min(high, east)}, overlaps);
       if (++j == n) {
         j = 0;
         shift += 360;
@@ -62,8 +56,9 @@ std::vector<Overlap> shared_columns(const PreparedGrid& a, const PreparedGrid& b
 }
 
 // Returns the ranges of latitude that rows of the two grids share. `first` is a row of a.
-std::vector<Overlap> shared_rows(const PreparedGrid& a, const PreparedGrid& b) {
-  std::vector<Overlap> overlaps;
+std::vector<GridOverlay::LineOverlap> GridOverlay::shared_rows(const PreparedGrid& a,
+                                                                const PreparedGrid& b) {
+  std::vector<LineOverlap> overlaps;
   Index j = 0;
   for (Index i = 0; i < a.num_rows_of_grid(); ++i) {
     const double south = a.latitudes()[i];
@@ -72,7 +67,7 @@ std::vector<Overlap> shared_rows(const PreparedGrid& a, const PreparedGrid& b) {
     for (; j < b.num_rows_of_grid(); ++j) {
       const double low = snapped(south, b.latitudes()[j]);
       const double high = snapped(north, b.latitudes()[j + 1]);
-      add_overlap(i, j, std::max(low, south), std::min(high, north), overlaps);
+      add_overlap({i, j, std::max(low, south), std::min(high, north)}, overlaps);
       if (high > north) break;
     }
     if (j == b.num_rows_of_grid()) j = b.num_rows_of_grid() - 1;
@@ -80,15 +75,8 @@ std::vector<Overlap> shared_rows(const PreparedGrid& a, const PreparedGrid& b) {
   return overlaps;
 }
 
-// The range that a column shares with a column of the other grid.
-struct LonRange {
-  Index column;
-  double width;
-  Point run;
-};
-
 // Converts a range of longitude into what the moments of boxes need.
-LonRange range_of(const Overlap& overlap, const PreparedGrid& grid) {
+GridOverlay::LonRange GridOverlay::range_of(const LineOverlap& overlap, const PreparedGrid& grid) {
   constexpr double one_degree = std::numbers::pi / 180;
   const PreparedGrid::Lune& column = grid.columns()[overlap.first];
   const auto meridian = [&](double lon) {
@@ -100,16 +88,9 @@ LonRange range_of(const Overlap& overlap, const PreparedGrid& grid) {
           meridian(overlap.high) - meridian(overlap.low)};
 }
 
-// The range that a row shares with a row of the other grid.
-struct LatRange {
-  Index row;
-  PreparedGrid::Parallel south;
-  PreparedGrid::Parallel north;
-  double height;
-};
-
 // Converts a range of latitude into parallels; those that are lines of a grid are taken from it.
-LatRange range_of(const Overlap& overlap, const PreparedGrid& grid, const PreparedGrid& other) {
+GridOverlay::LatRange GridOverlay::range_of(const LineOverlap& overlap, const PreparedGrid& grid,
+                                            const PreparedGrid& other) {
   const auto parallel = [&](double latitude) {
     const Index row = grid.first_row() + overlap.first;
     if (latitude == grid.latitudes()[overlap.first]) return grid.parallel(row);
@@ -122,16 +103,10 @@ LatRange range_of(const Overlap& overlap, const PreparedGrid& grid, const Prepar
   return {other.first_row() + overlap.second, south, north, height_between(south, north)};
 }
 
-// The intersection of a cell with a cell of the other grid.
-struct BoxPiece {
-  Index cell;
-  double area;
-  Point moment;
-};
-
 // Appends the pieces of a cell. A column may share two ranges with a column of a grid around the
 // globe, which make one piece.
-void append_row(const std::vector<BoxPiece>& row, bool has_moments, PieceRows& result) {
+void GridOverlay::append_row(const std::vector<BoxPiece>& row, bool has_moments,
+                             PieceRows& result) {
   for (const BoxPiece& piece : row) {
     if (!(piece.area > 0)) continue;  // a row at a pole can be thinner than rounding
     const bool is_same =
@@ -148,39 +123,38 @@ void append_row(const std::vector<BoxPiece>& row, bool has_moments, PieceRows& r
   result.end_row();
 }
 
-}  // namespace
+GridOverlay::GridOverlay(const PreparedGrid& rows, const PreparedGrid& columns)
+    : columns_(columns),
+      along_(rows.num_columns_of_grid()),
+      across_(rows.num_rows_of_grid()) {
+  const Index row_length = rows.num_columns_of_grid();
+  for (const LineOverlap& overlap : shared_columns(rows, columns)) {
+    const Index given = rows.cell(overlap.first, rows.first_row()) % row_length;
+    along_[given].push_back(range_of(overlap, rows));
+  }
+  for (const LineOverlap& overlap : shared_rows(rows, columns)) {
+    const Index given = rows.cell(0, rows.first_row() + overlap.first) / row_length;
+    across_[given].push_back(range_of(overlap, rows, columns));
+  }
+}
 
-PieceRows pieces(const PreparedGrid& rows, const PreparedGrid& columns, bool has_moments) {
-  std::vector<std::vector<LonRange>> along(rows.num_columns_of_grid());
-  for (const Overlap& overlap : shared_columns(rows, columns)) {
-    along[overlap.first].push_back(range_of(overlap, rows));
-  }
-  std::vector<std::vector<LatRange>> across(rows.num_rows_of_grid());
-  for (const Overlap& overlap : shared_rows(rows, columns)) {
-    across[overlap.first].push_back(range_of(overlap, rows, columns));
-  }
-  // The place of a cell in the grid of rows.
-  struct Box {
-    Index column;
-    Index row;
-  };
-  std::vector<Box> of_cells(rows.num_cells());
-  for (Index i = 0; i < along.size(); ++i) {
-    for (Index j = 0; j < across.size(); ++j) {
-      of_cells[rows.cell(i, j + rows.first_row())] = {i, j};
-    }
-  }
+PieceRows GridOverlay::pieces(Index first, Index end, bool has_moments) const {
   PieceRows result;
   std::vector<BoxPiece> row;
-  for (const auto& [i, j] : of_cells) {
+  const auto row_length = static_cast<Index>(along_.size());
+  for (Index cell = first; cell < end; ++cell) {
     row.clear();
-    for (const LatRange& lat : across[j]) {
-      for (const LonRange& lon : along[i]) {
-        row.push_back({columns.cell(lon.column, lat.row), lon.width * lat.height,
-                       moment_of_row(lat.south, lat.north, lat.height, lon.width, lon.run)});
+    for (const LatRange& lat : across_[cell / row_length]) {
+      for (const LonRange& lon : along_[cell % row_length]) {
+        const Point moment = has_moments ? moment_of_row(lat.south, lat.north, lat.height,
+                                                         lon.width, lon.run)
+                                         : Point{};
+        row.push_back({columns_.cell(lon.column, lat.row), lon.width * lat.height, moment});
       }
     }
-    std::ranges::stable_sort(row, {}, &BoxPiece::cell);
+    if (!std::ranges::is_sorted(row, {}, &BoxPiece::cell)) {
+      std::ranges::stable_sort(row, {}, &BoxPiece::cell);
+    }
     append_row(row, has_moments, result);
   }
   return result;

@@ -253,7 +253,7 @@ class GridPieceMaker {
 }  // namespace
 
 PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_moments,
-                 const Execution& execution) {
+                 const Execution& execution, bool has_column_sums) {
   const Subdivision& subdivision = cells.subdivision();
   std::vector<PlaceInGrid> places(subdivision.points.size());
   const GridWalk walk(grid, has_moments);
@@ -263,7 +263,7 @@ PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_mo
                            places[i] = walk.place_of(subdivision.points[i]);
                          }
                        });
-  LargeVector<Index> boxes(grid.num_cells());
+  LargeVector<Index> boxes(has_column_sums ? grid.num_cells() : 0);
   std::iota(boxes.begin(), boxes.end(), Index{0});
   return gathered_rows(subdivision, boxes, has_moments, execution,
                        [&](Index /*first*/, Index /*end*/) {

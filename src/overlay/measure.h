@@ -106,6 +106,16 @@ constexpr double area_of_rounding(double length) {
   return 16 * predicates::unit_roundoff * (length + predicates::unit_roundoff);
 }
 
+// Returns the area of a cell that counts: where the cell is covered, the sum of its pieces differs
+// from its area only by rounding, and replaces it, since it is the sum that conserves integrals.
+// Corners on the cell's border are off by area_of_rounding(), and so are the pieces that were
+// dropped; these may be many, and have together at most a share of 1e-9.
+inline double counted_area(double covered, double area, double length) {
+  constexpr double of_many = 1e-9;
+  const double rounding = of_many * area + area_of_rounding(length);
+  return covered > 0 && std::abs(covered - area) <= rounding ? covered : area;
+}
+
 // Throws InvalidInput with the cell (its index in the input), whose pieces do not add up to its
 // area.
 [[noreturn]] void refuse_pieces(Index name, double sum, double area);

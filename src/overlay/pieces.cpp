@@ -205,19 +205,25 @@ PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
   });
 }
 
-void find_sums(PieceRows& pieces, std::size_t num_columns) {
-  std::vector<exact::DoubleDouble> of_columns(num_columns);
+void find_row_sums(PieceRows& pieces) {
   pieces.row_sums.assign(pieces.offsets.size() - 1, 0);
   for (std::size_t row = 0; row < pieces.row_sums.size(); ++row) {
-    exact::DoubleDouble of_row{};
+    exact::DoubleDouble sum{};
     for (std::uint64_t k = pieces.offsets[row]; k < pieces.offsets[row + 1]; ++k) {
-      add_term(pieces.areas[k], of_row);
-      add_term(pieces.areas[k], of_columns[pieces.columns[k]]);
+      add_term(pieces.areas[k], sum);
     }
-    pieces.row_sums[row] = of_row.hi + of_row.lo;
+    pieces.row_sums[row] = sum.hi + sum.lo;
+  }
+}
+
+void find_sums(PieceRows& pieces, std::size_t num_columns) {
+  find_row_sums(pieces);
+  std::vector<exact::DoubleDouble> sums(num_columns);
+  for (std::size_t k = 0; k < pieces.columns.size(); ++k) {
+    add_term(pieces.areas[k], sums[pieces.columns[k]]);
   }
   pieces.column_sums.clear();
-  for (const exact::DoubleDouble& sum : of_columns) pieces.column_sums.push_back(sum.hi + sum.lo);
+  for (const exact::DoubleDouble& sum : sums) pieces.column_sums.push_back(sum.hi + sum.lo);
 }
 
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns) {

@@ -33,8 +33,9 @@ struct PieceRows {
   void end_row() { offsets.push_back(columns.size()); }
 };
 
-// Computes row_sums and column_sums.
+// Computes row_sums and column_sums, or row_sums alone.
 void find_sums(PieceRows& pieces, std::size_t num_columns);
+void find_row_sums(PieceRows& pieces);
 
 // The area and the length of the border of each cell, by its index in the input.
 struct CellSizes {

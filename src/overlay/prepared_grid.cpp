@@ -82,11 +82,11 @@ PreparedGrid::PreparedGrid(const LonLatGrid& grid) {
 
 void PreparedGrid::take_columns(std::vector<double> lon) {
   is_around_ = goes_around(lon);
-  const bool is_westward = lon.front() > lon.back();
-  if (is_westward) std::ranges::reverse(lon);
+  is_westward_ = lon.front() > lon.back();
+  if (is_westward_) std::ranges::reverse(lon);
   if (is_around_) lon.back() = lon.front() + 360;
   for (std::size_t k = 0; k + 1 < lon.size(); ++k) {
-    const std::size_t of_grid = is_westward ? lon.size() - 2 - k : k;
+    const std::size_t of_grid = is_westward_ ? lon.size() - 2 - k : k;
     columns_.push_back({on_equator(lon[k]), (lon[k] - lon[0]) * radians_per_degree,
                         (lon[k + 1] - lon[k]) * radians_per_degree, static_cast<Index>(of_grid),
                         lon[k], lon[k + 1]});
@@ -152,14 +152,25 @@ std::vector<Point> PreparedGrid::moments() const {
   return result;
 }
 
+PreparedGrid::CellSize PreparedGrid::size_of(Index column, Index row) const {
+  const Index r = row - first_row_;
+  const double height = (latitudes_[r + std::size_t{1}] - latitudes_[r]) * radians_per_degree;
+  const double cosines = parallels_[row].cosine + parallels_[row + 1].cosine;
+  return {area(column, row), columns_[column].width * cosines + 2 * height};
+}
+
+PreparedGrid::CellSize PreparedGrid::size_of(Index cell) const {
+  const Index lat = cell / num_columns_of_grid_;
+  const Index lon = cell % num_columns_of_grid_;
+  return size_of(is_westward_ ? num_columns_of_grid_ - 1 - lon : lon,
+                 first_row_ + (is_southward_ ? num_rows_of_grid_ - 1 - lat : lat));
+}
+
 std::vector<double> PreparedGrid::lengths() const {
   std::vector<double> result(num_cells());
   for (Index c = 0; c < num_columns_of_grid_; ++c) {
-    for (Index r = 0; r < num_rows_of_grid_; ++r) {
-      const double height = (latitudes_[r + std::size_t{1}] - latitudes_[r]) * radians_per_degree;
-      const Index row = first_row_ + r;
-      const double cosines = parallels_[row].cosine + parallels_[row + 1].cosine;
-      result[cell(c, row)] = columns_[c].width * cosines + 2 * height;
+    for (Index r = first_row_; r < first_row_ + num_rows_of_grid_; ++r) {
+      result[cell(c, r)] = size_of(c, r).length;
     }
   }
   return result;

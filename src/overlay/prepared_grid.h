@@ -108,6 +108,12 @@ class PreparedGrid {
     return columns_[column + 1 < columns_.size() ? column + 1 : 0].west;
   }
 
+  // The area of a cell, in steradians, and the length of its border, in radians.
+  struct CellSize {
+    double area;
+    double length;
+  };
+  [[nodiscard]] CellSize size_of(Index cell) const;
   // Returns the area of each cell, in steradians.
   [[nodiscard]] std::vector<double> areas() const;
   [[nodiscard]] std::vector<Point> moments() const;
@@ -119,11 +125,13 @@ class PreparedGrid {
  private:
   void take_columns(std::vector<double> lon);
   void take_rows(std::vector<double> lat);
+  [[nodiscard]] CellSize size_of(Index column, Index row) const;
 
   Index num_columns_of_grid_;
   Index num_rows_of_grid_;
   bool is_around_ = false;
   bool is_southward_ = false;  // the rows of the given grid lead from north to south
+  bool is_westward_ = false;   // its columns lead from east to west
   Index first_row_ = 0;        // the first row that belongs to the grid
   std::vector<Lune> columns_;
   std::vector<Parallel> parallels_;

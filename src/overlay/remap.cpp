@@ -72,7 +72,8 @@ PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool 
     return transposed(whole_cells(target, source.whole(), num_sources), num_targets);
   }
   if (target.grid() != nullptr && source.grid() != nullptr) {
-    return pieces(*target.grid(), *source.grid(), has_moments);
+    return overlay::GridOverlay(*target.grid(), *source.grid())
+        .pieces(0, target.grid()->num_cells(), has_moments);
   }
   if (source.grid() != nullptr) return pieces(target, *source.grid(), has_moments, execution);
   if (target.grid() != nullptr) {
@@ -152,17 +153,12 @@ std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_colum
   return sums;
 }
 
-// Returns the areas of cells. Where a cell is covered, the sum of its pieces differs from its area
-// only by rounding, and replaces it, since it is the sum that conserves integrals. Corners on the
-// cell's border are off by area_of_rounding(), and so are the pieces that were dropped; these may
-// be many, and have together at most a share of 1e-9.
+// Returns the areas of cells that count.
 std::vector<double> areas_of(const std::vector<double>& covered,
                              const overlay::CountedSizes& sizes) {
-  constexpr double of_many = 1e-9;
   std::vector<double> areas = sizes.areas();
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double rounding = of_many * areas[i] + overlay::area_of_rounding(sizes.lengths()[i]);
-    if (covered[i] > 0 && std::abs(covered[i] - areas[i]) <= rounding) areas[i] = covered[i];
+    areas[i] = overlay::counted_area(covered[i], areas[i], sizes.lengths()[i]);
   }
   return areas;
 }

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Grids that a short name describes completely: those of models and of archives (target
+/// rondel::geo).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondel/cell_set.h"
+#include "rondel/export.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+namespace grids {
+class GridFormula;
+}  // namespace grids
+
+/// A grid of the whole sphere that is given by its name:
+///
+/// | name | cells |
+/// | --- | --- |
+/// | `grid:DEG` | between meridians and parallels at equal steps; 180 must be a multiple of DEG |
+/// | `grid:NLONxNLAT` | the same with NLON by NLAT cells; from longitude -180 eastward and from the south pole northward |
+/// | `healpix:K`, `healpix:K:nested` | HEALPix with 12 * 4^K pixels, K from 0 to 13, numbered within base pixels |
+/// | `healpix:K:ring` | the same, numbered ring by ring from the north pole |
+/// | `F320` | ECMWF's regular Gaussian grid: 640 latitudes from north to south with 1280 longitudes each, from 0 eastward |
+/// | `N320` | ECMWF's original reduced Gaussian grid, where its table is known: 32, 48, 64, 80, 96, 128, 160, 200, 256, 320, 400, 512, 640, 1024, 1280, 2000 |
+/// | `O320` | ECMWF's octahedral reduced Gaussian grid: 20, 24, 28 ... cells in a row |
+/// | `C384` | the equiangular cubed sphere with 6 * 384^2 cells, face by face |
+/// | `R2B6` | triangles of an icosahedron whose sides are divided by 2 and then 6 times by halves: ICON's grid before it is optimized |
+///
+/// 1. Sides of cells are arcs of great circles, except for the parallels of `grid:` and `F`
+///    (GridSides::parallels). In `N` and `O`, what is between two corners of a parallel is an arc,
+///    for the rows on both sides of it.
+/// 2. Borders of HEALPix's pixels are curves. They are chains of two arcs (more in coarse grids)
+///    that leave the same area on either side as the curve: each pixel has 4 pi / (12 * 4^K), up to
+///    rounding of corners. With GridSides::great_circles each side is one arc, which changes areas.
+/// 3. Gaussian latitudes are the roots of a Legendre polynomial; rows end half way between them.
+/// 4. Coordinates are the same bits on every machine.
+class RONDEL_API NamedGrid {
+ public:
+  /// True if a text has the form of a name of a grid, such as "N7", which is none.
+  [[nodiscard]] static bool is_name(std::string_view text);
+
+  /// \param sides  those of `grid:`, `F` and `healpix:`
+  /// \throws InvalidInput for a text that names no grid, or one of too many cells
+  explicit NamedGrid(std::string_view name, GridSides sides = GridSides::parallels);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
+  /// Returns the lengths of the dimensions of the cells, the last one varying fastest: nlat, nlon
+  /// for `grid:` and `F`; 6, n, n for `C`; otherwise the number of cells.
+  [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
+  /// Returns the axes of the centers of `grid:` and `F`, else null.
+  [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
+  /// Returns the center of each cell, in degrees.
+  [[nodiscard]] std::vector<LonLat> centers() const;
+  /// Returns the cells, whose facts() have the name, the shape and the centers.
+  [[nodiscard]] CellSet cells(const Execution& execution = {}) const;
+
+ private:
+  friend class TiledCells;
+  std::string name_;
+  std::size_t num_cells_ = 0;
+  std::vector<std::uint64_t> shape_;
+  GridSides sides_;
+  std::optional<LonLatGrid> lines_ = std::nullopt;  // of grid: and F
+  std::optional<LonLatAxes> axes_ = std::nullopt;
+  std::shared_ptr<const grids::GridFormula> formula_ = nullptr;  // of the others
+};
+
+}  // namespace rondel

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/named_grids.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "grids/formula_cells.h"
+#include "grids/gaussian_lines.h"
+#include "grids/grid_formula.h"
+#include "io/bad_value.h"
+#include "io/number.h"
+#include "meshing/point_rings.h"
+#include "rondel/error.h"
+#include "system/arithmetic.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+// The largest grids of each kind: with more cells, or rows, indices or tables would not fit.
+constexpr std::uint64_t max_parallels = 1'000'000;
+constexpr std::uint64_t max_healpix_order = 13;
+constexpr std::uint64_t max_gaussian = 8000;
+constexpr std::uint64_t max_cube_side = 20'000;
+constexpr std::uint64_t max_root = 100;
+
+[[noreturn]] void refuse(std::string_view name, const std::string& why) {
+  throw InvalidInput("'" + std::string(name) + "' is no grid: " + why);
+}
+
+// Returns the whole number that a text is, or nothing.
+std::optional<std::uint64_t> number_of(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  return is_whole && !text.empty() ? std::optional(number) : std::nullopt;
+}
+
+// Returns the number that a text is if it is in a range. `name` and `what` are for the message.
+std::uint64_t number_in(std::string_view text, std::uint64_t least, std::uint64_t most,
+                        std::string_view name, const char* what) {
+  const auto number = number_of(text);
+  if (number && *number >= least && *number <= most) return *number;
+  refuse(name, std::string(what) + " is from " + std::to_string(least) + " to " +
+                   std::to_string(most));
+}
+
+// Returns the grid that the text after "grid:" describes.
+GlobalGrid global_grid(std::string_view text, std::string_view name) {
+  constexpr const char* why =
+      "grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has NLON by NLAT cells";
+  if (const std::size_t cross = text.find('x'); cross != std::string_view::npos) {
+    const auto num_lon = number_of(text.substr(0, cross));
+    const auto num_lat = number_of(text.substr(cross + 1));
+    const bool is_good = num_lon && num_lat && *num_lon >= 1 && *num_lon <= 2 * max_parallels &&
+                         *num_lat >= 1 && *num_lat <= max_parallels;
+    if (!is_good) refuse(name, why);
+    return {*num_lon, *num_lat};
+  }
+  double step = 0;
+  try {
+    step = io::parse_number(text, "the step");
+  } catch (const io::BadValue&) {
+    refuse(name, why);
+  }
+  if (!(step > 0)) refuse(name, why);
+  const double count = 180 / step;
+  const double whole = std::round(count);
+  // The quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the
+  // division.
+  if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
+      whole > static_cast<double>(max_parallels)) {
+    refuse(name, why);
+  }
+  const auto num_lat = static_cast<std::uint64_t>(whole);
+  return {2 * num_lat, num_lat};
+}
+
+// Returns the lines and the centers of ECMWF's grid F.
+std::pair<LonLatGrid, LonLatAxes> gaussian_grid(std::uint64_t number) {
+  const std::uint64_t num_lon = 4 * number;
+  LonLatAxes axes;
+  axes.lat_deg = grids::gaussian_latitudes(number);
+  LonLatGrid lines;
+  lines.lat_deg = grids::lines_between(axes.lat_deg);
+  for (std::uint64_t i = 0; i <= num_lon; ++i) {
+    const double step = static_cast<double>(i);
+    if (i < num_lon) axes.lon_deg.push_back(360 * step / static_cast<double>(num_lon));
+    lines.lon_deg.push_back(360 * (step - 0.5) / static_cast<double>(num_lon));
+  }
+  return {std::move(lines), std::move(axes)};
+}
+
+// Returns the pixels that the text after "healpix:" describes.
+std::unique_ptr<grids::GridFormula> healpix(std::string_view text, std::string_view name,
+                                            GridSides sides) {
+  const std::size_t colon = text.find(':');
+  const std::string_view scheme =
+      colon == std::string_view::npos ? "nested" : text.substr(colon + 1);
+  if (scheme != "nested" && scheme != "ring") refuse(name, "the order is nested or ring");
+  const auto order = static_cast<unsigned>(
+      number_in(text.substr(0, colon), 0, max_healpix_order, name, "the level of HEALPix"));
+  return grids::healpix_grid(order, scheme == "ring", sides);
+}
+
+// Returns the triangles of "R2B6".
+std::unique_ptr<grids::GridFormula> triangles(std::string_view name) {
+  const std::size_t b = name.find('B');
+  const std::uint64_t root =
+      number_in(name.substr(1, b - 1), 1, max_root, name, "the division of the sides");
+  const std::uint64_t bisections =
+      number_in(name.substr(b + 1), 0, 15, name, "the number of bisections");
+  if (20 * root * root << (2 * bisections) >= no_index) refuse(name, "it has too many cells");
+  return grids::triangle_grid(static_cast<unsigned>(root), static_cast<unsigned>(bisections));
+}
+
+std::vector<Index> octahedral_counts(std::size_t number) {
+  std::vector<Index> counts;
+  for (std::size_t row = 0; row < 2 * number; ++row) {
+    counts.push_back(static_cast<Index>(mesh::octahedral_count(number, row)));
+  }
+  return counts;
+}
+
+// Returns the cells of a grid other than `grid:` and `F`.
+std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides sides) {
+  constexpr std::string_view pixels = "healpix:";
+  if (name.starts_with(pixels)) return healpix(name.substr(pixels.size()), name, sides);
+  const std::string_view number = name.substr(1);
+  switch (name.front()) {
+    case 'R': return triangles(name);
+    case 'C':
+      return grids::cubed_sphere_grid(static_cast<unsigned>(
+          number_in(number, 1, max_cube_side, name, "the number of cells along a face")));
+    case 'O':
+      return grids::reduced_gaussian_grid(octahedral_counts(
+          number_in(number, 1, max_gaussian, name, "the number of latitudes of a hemisphere")));
+    default: {
+      std::vector<Index> counts = grids::counts_of_reduced(static_cast<unsigned>(
+          number_in(number, 1, max_gaussian, name, "the number of latitudes of a hemisphere")));
+      if (counts.empty()) refuse(name, "N is one of " + grids::numbers_of_reduced());
+      return grids::reduced_gaussian_grid(std::move(counts));
+    }
+  }
+}
+
+bool is_digits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+bool NamedGrid::is_name(std::string_view text) {
+  if (text.starts_with("grid:") || text.starts_with("healpix:")) return true;
+  if (text.size() < 2) return false;
+  const std::string_view rest = text.substr(1);
+  if (text.front() == 'R') {
+    const std::size_t b = rest.find('B');
+    return b != std::string_view::npos && is_digits(rest.substr(0, b)) &&
+           is_digits(rest.substr(b + 1));
+  }
+  return std::string_view("FNOC").find(text.front()) != std::string_view::npos && is_digits(rest);
+}
+
+NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), sides_(sides) {
+  const system::ArithmeticScope arithmetic;
+  if (!is_name(name)) {
+    refuse(name,
+           "grids are grid:DEG, grid:NLONxNLAT, healpix:7, healpix:7:ring, F320, N320, O320, C384 "
+           "and R2B6, with any numbers");
+  }
+  constexpr std::string_view global = "grid:";
+  if (name.starts_with(global)) {
+    const GlobalGrid grid = global_grid(name.substr(global.size()), name);
+    if (grid.num_lon >= no_index / grid.num_lat) refuse(name, "it has too many cells");
+    lines_ = grid.lines();
+    axes_ = grid.centers();
+  } else if (name.front() == 'F') {
+    std::tie(lines_, axes_) = gaussian_grid(number_in(
+        name.substr(1), 1, max_gaussian, name, "the number of latitudes of a hemisphere"));
+  } else {
+    formula_ = formula_of(name, sides);
+  }
+  if (axes_) shape_ = {axes_->lat_deg.size(), axes_->lon_deg.size()};
+  if (formula_) shape_ = formula_->shape();
+  num_cells_ = 1;
+  for (const std::uint64_t length : shape_) num_cells_ *= length;
+}
+
+std::vector<LonLat> NamedGrid::centers() const {
+  const system::ArithmeticScope arithmetic;
+  if (axes_) return axes_->places();
+  std::vector<LonLat> centers(num_cells_);
+  for (std::size_t i = 0; i < num_cells_; ++i) {
+    centers[i] = formula_->center(static_cast<Index>(i));
+  }
+  return centers;
+}
+
+CellSet NamedGrid::cells(const Execution& execution) const {
+  const system::Call call(execution);
+  if (!lines_) {
+    std::vector<Index> all(num_cells_);
+    std::iota(all.begin(), all.end(), Index{0});
+    CellSet cells = grids::cells_of(*formula_, all, execution);
+    return cells.with_facts({.name = name_, .centers = centers(), .shape = shape_});
+  }
+  const CellSet cells = CellSet::lonlat_grid(*lines_, sides_, execution);
+  CellFacts facts = cells.facts();
+  facts.name = name_;
+  facts.axes = *axes_;
+  return cells.with_facts(std::move(facts));
+}
+
+}  // namespace rondel

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "exact/vector.h"
+#include "grids/grid_formula.h"
+#include "meshing/scvt_levels.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::grids {
+namespace {
+
+using Corners = std::array<Point, 3>;
+
+// The faces of the icosahedron as corners of mesh::icosahedron(), counterclockwise.
+using Face = std::array<Index, 3>;
+std::vector<Face> faces_of(const std::vector<Point>& corners) {
+  std::vector<Face> faces;
+  constexpr double between_neighbors = 0.3;  // the cosine of the angle is 1 / sqrt(5)
+  const auto are_near = [&](Index a, Index b) { return dot(corners[a], corners[b]) > between_neighbors; };
+  for (Index a = 0; a < corners.size(); ++a) {
+    for (Index b = a + 1; b < corners.size(); ++b) {
+      for (Index c = b + 1; c < corners.size(); ++c) {
+        if (!are_near(a, b) || !are_near(b, c) || !are_near(c, a)) continue;
+        const bool is_left = dot(cross(corners[a], corners[b]), corners[c]) > 0;
+        faces.push_back(is_left ? Face{a, b, c} : Face{a, c, b});
+      }
+    }
+  }
+  return faces;
+}
+
+// Returns the middle of an arc; the same for both directions.
+Point middle_of(const Point& a, const Point& b) { return normalized(a + b); }
+
+class TriangleGrid : public GridFormula {
+ public:
+  TriangleGrid(Index root, unsigned bisections)
+      : root_(root), bisections_(bisections), corners_(mesh::icosahedron()),
+        faces_(faces_of(corners_)) {}
+
+  [[nodiscard]] Index num_cells() const override {
+    return static_cast<Index>(faces_.size()) * root_ * root_ << (2 * bisections_);
+  }
+
+  [[nodiscard]] LonLat center(Index cell) const override {
+    const Corners corners = corners_of(cell);
+    return lonlats(std::vector<Point>{normalized(corners[0] + corners[1] + corners[2])})[0];
+  }
+
+  void append_ring(Index cell, std::vector<Point>& ring) const override {
+    const Corners corners = corners_of(cell);
+    ring.insert(ring.end(), corners.begin(), corners.end());
+  }
+
+ private:
+  [[nodiscard]] Corners corners_of(Index cell) const {
+    Corners at = root_triangle(cell >> (2 * bisections_));
+    for (unsigned level = bisections_; level-- > 0;) {
+      const auto& [a, b, c] = at;
+      const Point bc = middle_of(b, c);
+      const Point ca = middle_of(c, a);
+      const Point ab = middle_of(a, b);
+      switch (cell >> (2 * level) & 3U) {
+        case 0: at = {bc, ca, ab}; break;
+        case 1: at = {a, ab, ca}; break;
+        case 2: at = {b, bc, ab}; break;
+        default: at = {c, ca, bc}; break;
+      }
+    }
+    return at;
+  }
+
+  // Returns one of the root^2 triangles of each face: strips along the side between its first two
+  // corners, each with triangles that point to the third one and others between them.
+  [[nodiscard]] Corners root_triangle(Index triangle) const {
+    const Face& face = faces_[triangle / (root_ * root_)];
+    Index rest = triangle % (root_ * root_);
+    Index row = 0;
+    while (rest >= 2 * (root_ - row) - 1) rest -= 2 * (root_ - row++) - 1;
+    const Index i = rest / 2;
+    if (rest % 2 == 0) {
+      return {root_point(face, i, row), root_point(face, i + 1, row), root_point(face, i, row + 1)};
+    }
+    return {root_point(face, i + 1, row), root_point(face, i + 1, row + 1),
+            root_point(face, i, row + 1)};
+  }
+  // Returns the point i steps toward the second corner of a face and j steps toward the third one.
+  // Terms of 0 leave the sums as they are, so that two faces agree on their common side.
+  [[nodiscard]] Point root_point(const Face& face, Index i, Index j) const {
+    const auto part = [&](Index steps, Index corner) {
+      return static_cast<double>(steps) * corners_[face[corner]];
+    };
+    return normalized(part(root_ - i - j, 0) + part(i, 1) + part(j, 2));
+  }
+
+  Index root_;
+  unsigned bisections_;
+  std::vector<Point> corners_;
+  std::vector<Face> faces_;
+};
+
+}  // namespace
+
+std::unique_ptr<GridFormula> triangle_grid(unsigned root, unsigned bisections) {
+  return std::make_unique<TriangleGrid>(root, bisections);
+}
+
+}  // namespace rondel::grids

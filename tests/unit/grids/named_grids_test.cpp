@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Named grids: cells that cover the sphere, areas, numbers and centers that others have published.
+
+#include "rondel/named_grids.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "rondel/delaunay.h"
+#include "rondel/point_sets.h"
+#include "rondel/predicates.h"
+#include "support/thrown.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double sphere_area = 4 * std::numbers::pi;
+
+std::vector<std::string> small_grids() {
+  return {"grid:30",   "grid:7x5",      "F8",          "N32", "O1", "O2",   "O16",
+          "C1",        "C2",            "C7",          "R1B0", "R1B3", "R2B2", "R3B1", "R7B0",
+          "healpix:0", "healpix:0:ring", "healpix:1", "healpix:2:ring", "healpix:4", "healpix:5:ring"};
+}
+
+TEST(named_grids, cells_cover_the_sphere) {
+  for (const std::string& name : small_grids()) {
+    for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
+      if (name == "grid:7x5" && sides == GridSides::great_circles) continue;
+      const NamedGrid grid(name, sides);
+      const CellSet cells = grid.cells();
+      EXPECT_EQ(cells.num_cells(), grid.num_cells()) << name;
+      EXPECT_TRUE(cells.covers_sphere()) << name;
+      const auto areas = cells.areas();
+      EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), sphere_area, 1e-11) << name;
+      EXPECT_EQ(cells.facts().name, name);
+      std::uint64_t product = 1;
+      for (const std::uint64_t length : grid.shape()) product *= length;
+      EXPECT_EQ(product, grid.num_cells()) << name;
+    }
+  }
+}
+
+// Each center is to the left of each side that is an arc, up to the bulge of a chain.
+TEST(named_grids, centers_are_in_their_cells) {
+  for (const std::string& name : small_grids()) {
+    const CellSet cells = NamedGrid(name, GridSides::great_circles).cells();
+    if (name == "grid:30" || name == "grid:7x5") continue;
+    const CellRings rings = cells.rings();
+    const std::vector<LonLat> centers = NamedGrid(name).centers();
+    for (std::size_t i = 0; i < centers.size(); ++i) {
+      const Point center = unit_vector(centers[i]);
+      const auto ring = rings.corners_of(rings.cells[i]);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point& from = rings.points[ring[k]];
+        const Point& to = rings.points[ring[(k + 1) % ring.size()]];
+        EXPECT_EQ(orientation(from, to, center), Sign::positive) << name << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(named_grids, pixels_have_equal_areas) {
+  for (const unsigned order : {0U, 1U, 2U, 3U, 4U, 6U}) {
+    const NamedGrid grid("healpix:" + std::to_string(order));
+    const CellSet cells = grid.cells();
+    const double wanted = sphere_area / static_cast<double>(grid.num_cells());
+    double worst = 0;
+    for (const double area : cells.areas()) worst = std::max(worst, std::abs(area / wanted - 1));
+    EXPECT_LT(worst, 1e-13 * static_cast<double>(1U << order) + 1e-12) << order;
+  }
+}
+
+// The corners of a pixel's chain are within a small part of its width of the curves
+// |z| = 1 - j^2 / 3 and the like: those between corners are moved only.
+TEST(named_grids, pixels_of_both_orders_are_the_same) {
+  for (const unsigned order : {0U, 1U, 3U}) {
+    const std::string name = "healpix:" + std::to_string(order);
+    std::set<std::vector<std::tuple<double, double, double>>> both[2];
+    for (const int k : {0, 1}) {
+      const CellRings rings = NamedGrid(k == 0 ? name : name + ":ring").cells().rings();
+      for (std::size_t i = 0; i < rings.num_cells(); ++i) {
+        std::vector<std::tuple<double, double, double>> corners;
+        for (const Index c : rings.corners_of(rings.cells[i])) {
+          const Point& p = rings.points[c];
+          corners.emplace_back(p.x + 0.0, p.y + 0.0, p.z + 0.0);
+        }
+        both[k].insert(corners);
+      }
+    }
+    EXPECT_EQ(both[0], both[1]);
+    EXPECT_EQ(both[0].size(), NamedGrid(name).num_cells());
+  }
+}
+
+void expect_centers(const std::string& name, const std::vector<Point>& points) {
+  const std::vector<LonLat> centers = NamedGrid(name).centers();
+  ASSERT_EQ(centers.size(), points.size()) << name;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point center = unit_vector(centers[i]);
+    const Point step{center.x - points[i].x, center.y - points[i].y, center.z - points[i].z};
+    EXPECT_LT(std::hypot(step.x, step.y, step.z), 1e-15) << name << ' ' << i;
+  }
+}
+
+TEST(named_grids, centers_are_the_point_sets) {
+  expect_centers("healpix:3:ring", mesh::healpix_points(8));
+  expect_centers("O8", mesh::reduced_gaussian_points(8));
+  expect_centers("C5", mesh::cubed_sphere_points(5));
+}
+
+// Numbers of points that ECMWF, Gorski et al. and ICON's documentation give.
+TEST(named_grids, have_published_numbers_of_cells) {
+  const std::map<std::string, std::size_t> numbers = {
+      {"N32", 6114},      {"N80", 35718},     {"N320", 542080},     {"N640", 2140702},
+      {"O320", 421120},   {"O1280", 6599680}, {"F320", 819200},     {"healpix:10", 12582912},
+      {"R2B4", 20480},    {"R2B10", 83886080}, {"R3B7", 2949120},   {"C384", 884736},
+      {"grid:0.01", 648000000}};
+  for (const auto& [name, number] : numbers) EXPECT_EQ(NamedGrid(name).num_cells(), number) << name;
+}
+
+TEST(named_grids, names_are_told_from_files) {
+  for (const char* name : {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4"}) {
+    EXPECT_TRUE(NamedGrid::is_name(name)) << name;
+  }
+  for (const char* name : {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32"}) {
+    EXPECT_FALSE(NamedGrid::is_name(name)) << name;
+  }
+}
+
+TEST(named_grids, refuse_what_is_none) {
+  const auto why = [](const char* name) { return thrown_message<InvalidInput>([&] { return NamedGrid(name); }); };
+  EXPECT_EQ(why("N33"),
+            "'N33' is no grid: N is one of 32, 48, 64, 80, 96, 128, 160, 200, 256, 320, 400, 512, "
+            "640, 1024, 1280, 2000");
+  EXPECT_EQ(why("healpix:14"), "'healpix:14' is no grid: the level of HEALPix is from 0 to 13");
+  EXPECT_EQ(why("healpix:3:rings"), "'healpix:3:rings' is no grid: the order is nested or ring");
+  EXPECT_EQ(why("grid:7"),
+            "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has "
+            "NLON by NLAT cells");
+  EXPECT_EQ(why("R2B15"), "'R2B15' is no grid: it has too many cells");
+  EXPECT_EQ(why("C0"), "'C0' is no grid: the number of cells along a face is from 1 to 20000");
+}
+
+}  // namespace
+}  // namespace rondel::test

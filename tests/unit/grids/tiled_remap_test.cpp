@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Weights by tiles: the rows that remap() computes for whole sides, bit by bit, for any tiles.
+
+#include "rondel/tiled_remap.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "rondel/error.h"
+#include "rondel/remap.h"
+#include "support/thrown.h"
+
+namespace rondel::test {
+namespace {
+
+// Compares all tiles with the remapping of whole sides; returns the number of tiles.
+std::size_t expect_rows_of(const Remap& whole, const TiledRemap& tiled, const std::string& what) {
+  std::vector<int> times(tiled.num_targets(), 0);
+  for (std::size_t t = 0; t < tiled.num_tiles(); ++t) {
+    const RemapTile tile = tiled.tile(t);
+    EXPECT_EQ(tile.weights.num_rows(), tile.targets.size());
+    for (std::size_t r = 0; r < tile.targets.size(); ++r) {
+      const Index target = tile.targets[r];
+      ++times[target];
+      const std::uint64_t begin = whole.weights.offsets[target];
+      const std::uint64_t size = whole.weights.offsets[target + std::size_t{1}] - begin;
+      const std::uint64_t own = tile.weights.offsets[r];
+      if (tile.weights.offsets[r + 1] - own != size) {
+        ADD_FAILURE() << what << ": row " << target << " has "
+                      << tile.weights.offsets[r + 1] - own << " entries, not " << size;
+        return 0;
+      }
+      for (std::uint64_t k = 0; k < size; ++k) {
+        EXPECT_EQ(tile.weights.columns[own + k] + tile.first_source,
+                  whole.weights.columns[begin + k])
+            << what;
+        EXPECT_EQ(tile.weights.values[own + k], whole.weights.values[begin + k])
+            << what << ": row " << target;
+      }
+      EXPECT_EQ(tile.areas[r], whole.target_areas[target]) << what;
+      EXPECT_EQ(tile.fractions[r], whole.target_fractions[target]) << what;
+    }
+  }
+  EXPECT_EQ(times, std::vector<int>(tiled.num_targets(), 1)) << what;
+  return tiled.num_tiles();
+}
+
+TEST(tiled_remap, rows_are_those_of_whole_sides) {
+  const std::vector<std::string> grids = {"grid:6",    "F12", "N32", "O20", "C9", "R2B2",
+                                          "R3B1",      "healpix:3:ring", "healpix:4"};
+  for (const std::string& source : grids) {
+    for (const std::string& target : grids) {
+      const Remap whole = remap(NamedGrid(source).cells(), NamedGrid(target).cells());
+      std::size_t most = 0;
+      for (const std::size_t cells : {100, 1500, 1 << 20}) {
+        const TiledRemap tiled(TiledCells(NamedGrid(source)), TiledCells(NamedGrid(target)),
+                               {.cells_per_tile = cells});
+        most = std::max(most, expect_rows_of(whole, tiled, source + " to " + target));
+      }
+      EXPECT_GT(most, 3U);
+    }
+  }
+}
+
+TEST(tiled_remap, sides_in_memory_are_divided_as_well) {
+  const CellSet source = CellSet::polygons(NamedGrid("R2B2").cells().rings());
+  const CellSet target = NamedGrid("grid:9x6", GridSides::great_circles).cells();
+  const Remap whole = remap(source, target);
+  const TiledRemap tiled(TiledCells(source), TiledCells(target), {.cells_per_tile = 60});
+  EXPECT_GT(expect_rows_of(whole, tiled, "sets"), 3U);
+}
+
+TEST(tiled_remap, masks_and_norms_are_those_of_remap) {
+  std::mt19937 random(5);
+  const auto mask_of = [&](std::size_t n) {
+    std::vector<std::int32_t> mask(n);
+    for (std::int32_t& value : mask) value = random() % 3 == 0 ? 0 : 1;
+    return mask;
+  };
+  for (const auto& [from, to] : {std::pair{"grid:10", "healpix:3"}, {"O10", "grid:8x9"},
+                                 {"C5", "R2B1"}, {"F6", "grid:9"}}) {
+    const NamedGrid source(from);
+    const NamedGrid target(to);
+    const auto source_mask = mask_of(source.num_cells());
+    const auto target_mask = mask_of(target.num_cells());
+    for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+      const Remap whole = remap(source.cells(), target.cells(),
+                                {.norm = norm, .source_mask = source_mask, .target_mask = target_mask});
+      const TiledRemap tiled(TiledCells(source), TiledCells(target),
+                             {norm, source_mask, target_mask, 200});
+      expect_rows_of(whole, tiled, std::string(from) + " to " + to);
+    }
+  }
+}
+
+TEST(tiled_remap, refuses_what_is_no_cover) {
+  CellRings one;
+  one.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  one.append_ring(std::vector<Index>{0, 1, 2});
+  one.end_cell();
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledCells(CellSet::polygons(one)); }),
+            "the cells do not cover the sphere");
+  const TiledCells grid{NamedGrid("grid:30")};
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledRemap(grid, grid, {.source_mask = {1, 0}}); }),
+            "the mask of the source has 2 values for 72 cells");
+}
+
+}  // namespace
+}  // namespace rondel::test
