@@ -62,6 +62,7 @@ Command add_info_command(CLI::App& tool);
 Command add_locate_command(CLI::App& tool);
 Command add_nearest_command(CLI::App& tool);
 Command add_interpolate_command(CLI::App& tool);
+Command add_regrid_command(CLI::App& tool);
 Command add_remap_command(CLI::App& tool);
 Command add_apply_command(CLI::App& tool);
 Command add_check_weights_command(CLI::App& tool);

@@ -44,8 +44,9 @@ std::vector<Command> add_commands(CLI::App& tool) {
         add_plot_command(tool),
 #endif
         add_generate_command(tool), add_info_command(tool), add_locate_command(tool),
-        add_nearest_command(tool), add_interpolate_command(tool), add_remap_command(tool),
-        add_apply_command(tool), add_check_weights_command(tool), add_mesh_command(tool)
+        add_nearest_command(tool), add_interpolate_command(tool), add_regrid_command(tool),
+        add_remap_command(tool), add_apply_command(tool), add_check_weights_command(tool),
+        add_mesh_command(tool)
   };
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
 #include "validate.h"
 
@@ -40,7 +41,7 @@ CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
 
 // Returns true if the command line says how to read this file: it is no netCDF and no grid.
 bool may_be_table(const FileName& file) {
-  return !file.path.empty() && !file.path.starts_with("grid:") &&
+  return !file.path.empty() && !NamedGrid::is_name(file.path) &&
          !is_netcdf_file(file_and_variable(file).first);
 }
 

@@ -2,27 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "targets.h"
 
-#include <cmath>
 #include <optional>
 
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
 #include "rondel/interpolate.h"
 #include "rondel/read_cells.h"
-#include "validate.h"
 
 namespace rondel::cli {
 namespace {
-
-// A grid has at most this many cells along a meridian, and twice as many along a parallel.
-constexpr std::uint64_t max_parallels = 1'000'000;
-
-// Throws UsageError with what a grid is.
-[[noreturn]] void refuse(const std::string& text) {
-  throw UsageError("'" + text +
-                   "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
-                   "has NLON by NLAT cells");
-}
 
 Weights bilinear_from(const NetcdfSites& grid, const Targets& targets) {
   const std::string& name = grid.table.name;
@@ -54,38 +43,21 @@ Weights given_to_nearest(Job& job, const NetcdfSites& grid, const Targets& targe
 
 }  // namespace
 
-GlobalGrid grid_of(const std::string& text) {
-  const std::string numbers = text.substr(text.find(':') + 1);
-  const std::size_t cross = numbers.find('x');
-  if (cross != std::string::npos) {
-    const std::string lon = numbers.substr(0, cross);
-    const std::string lat = numbers.substr(cross + 1);
-    if (!whole_error(lon, 1, 2 * max_parallels).empty() ||
-        !whole_error(lat, 1, max_parallels).empty()) {
-      refuse(text);
-    }
-    return {std::stoull(lon), std::stoull(lat)};
+NamedGrid grid_of(const std::string& name, GridSides sides) {
+  try {
+    return NamedGrid(name, sides);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
   }
-  if (!positive_error(numbers).empty()) refuse(text);
-  const double count = 180 / std::stod(numbers);
-  const double whole = std::round(count);
-  // The quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the
-  // division.
-  if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
-      whole > static_cast<double>(max_parallels)) {
-    refuse(text);
-  }
-  const auto num_lat = static_cast<std::uint64_t>(whole);
-  return {2 * num_lat, num_lat};
 }
 
 Targets read_targets(const FileName& target, const ReadOptions& read) {
   Targets targets;
   const std::string& name = target.path;
-  if (name.starts_with("grid:")) {
-    const GlobalGrid grid = grid_of(name);
-    targets.side.points = grid.centers().places();
-    targets.side.shape = {grid.num_lat, grid.num_lon};
+  if (NamedGrid::is_name(name)) {
+    const NamedGrid grid = grid_of(name);
+    targets.side.points = grid.centers();
+    if (grid.shape().size() > 1) targets.side.shape = grid.shape();
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);

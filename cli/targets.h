@@ -14,14 +14,14 @@
 
 #include "job.h"
 #include "rondel/cell_set.h"
+#include "rondel/named_grids.h"
 #include "rondel/regrid.h"
 #include "rondel/weight_files.h"
 
 namespace rondel::cli {
 
 /// The targets that --to names: a file of points; a netCDF file with cells, a grid or values at
-/// places; or "grid:DEG" or "grid:NLONxNLAT", which are the centers of the cells of a grid, from
-/// -180 eastward and from the south pole northward, longitudes varying fastest.
+/// places; or the name of a grid, whose centers they are.
 struct Targets {
   SiteTable table;  ///< the points, and where they come from
   WeightSide side;
@@ -29,9 +29,8 @@ struct Targets {
 /// Reads the targets of a command. `read` says how tables are read.
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read
 Targets read_targets(const FileName& target, const ReadOptions& read);
-/// Returns the grid that "grid:DEG" or "grid:NLONxNLAT" names. \throws UsageError for an impossible
-/// grid
-GlobalGrid grid_of(const std::string& text);
+/// Returns the grid of this name. \throws UsageError for an impossible grid
+NamedGrid grid_of(const std::string& name, GridSides sides = GridSides::parallels);
 
 /// Returns the indices of the sites that are not masked.
 std::vector<Index> unmasked_sites(const NetcdfSites& grid);

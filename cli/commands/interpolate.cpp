@@ -191,9 +191,10 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
   file.source.mask = grid.mask;
   file.target = std::move(targets.side);
-  if (options.target.starts_with("grid:")) {
-    file.target.corners = CellSet::lonlat_grid(grid_of(options.target)).corners();
-    file.target.areas = grid_of(options.target).areas();
+  if (NamedGrid::is_name(options.target)) {
+    const CellSet cells = grid_of(options.target).cells();
+    file.target.corners = cells.corners();
+    file.target.areas.assign(cells.areas().begin(), cells.areas().end());
   }
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
     if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
@@ -337,8 +338,8 @@ Command add_interpolate_command(CLI::App& tool) {
   add_input_file(
       *parser, "--to", options->target,
       "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
-      "or values at places, or the centers of the cells of a grid, grid:DEG or\n"
-      "grid:NLONxNLAT")
+      "or values at places, or the centers of the cells of a grid: grid:1, healpix:7,\n"
+      "F320, O320 ... (see rondel regrid)")
       ->type_name("TARGET");
   parser
       ->add_option(

@@ -45,17 +45,16 @@ enum class CellForm { grid, netcdf, polygons, sites };
 
 // Returns the form of INPUT or TARGET, by its name and, for netCDF, its first bytes.
 CellForm form_of(const FileName& file) {
-  if (file.path.starts_with("grid:")) return CellForm::grid;
+  if (NamedGrid::is_name(file.path)) return CellForm::grid;
   if (can_read_cells(file)) return CellForm::netcdf;
   const std::string format = format_of(file);
   return format == "geojson" || format == "json" ? CellForm::polygons : CellForm::sites;
 }
 
-// Returns the cells of grid:DEG or grid:NLONxNLAT, longitudes varying fastest. Throws UsageError
-// for a grid that is not possible.
+// Returns the cells of a named grid. Throws UsageError for a grid that is not possible.
 CellSet cells_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
   try {
-    return CellSet::lonlat_grid(grid_of(name), options.cells.sides, job.execution());
+    return grid_of(name, options.cells.sides).cells(job.execution());
   } catch (const InvalidInput& error) {
     throw UsageError(name + ": " + error.what());
   }
@@ -195,8 +194,8 @@ Command add_remap_command(CLI::App& tool) {
   CLI::App* parser = tool.add_subcommand("remap", "Make conservative weights between cells");
   add_input_options(
       *parser, options->common,
-      "The cells that have the values: netCDF with those of a model or a grid, grid:DEG or\n"
-      "grid:NLONxNLAT, .geojson with polygons, or a file of sites, whose Voronoi cells\n"
+      "The cells that have the values: netCDF with those of a model or a grid, the name\n"
+      "of a grid (below), .geojson with polygons, or a file of sites, whose Voronoi cells\n"
       "they are: .csv .tsv .xyz .txt .npy, or - for standard input",
       [given = options.get()] {
         std::vector<FileName> sites = {given->source_file(), given->target_file()};
@@ -239,7 +238,9 @@ Command add_remap_command(CLI::App& tool) {
   add_report_options(*parser, options->common);
   parser->footer(
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the\n"
-      "library netCDF-C. Cells that the file masks take no part.\n\n"
+      "library netCDF-C. Cells that the file masks take no part. Grids: grid:0.25,\n"
+      "grid:1440x720, healpix:7, healpix:7:ring, F320, N320, O320, C384, R2B6 (see rondel\n"
+      "regrid).\n\n"
       "Examples:\n"
       "  rondel remap ocean.nc grid:1 -o weights.nc\n"
       "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"

@@ -96,6 +96,10 @@ struct CellFacts {
   /// The centers of a grid along lines, if `centers` is empty. Without both, the center of a cell
   /// is its center of mass.
   LonLatAxes axes = {};
+  /// Returns the centers, also those of axes; nothing if neither is known.
+  [[nodiscard]] std::vector<LonLat> given_centers() const {
+    return centers.empty() ? axes.places() : centers;
+  }
   std::vector<std::int32_t> mask = {};  ///< 0: the cell takes no part; empty: all cells do
   /// The shape of a grid, whose last dimension changes fastest: nlat, nlon.
   std::vector<std::uint64_t> shape = {};

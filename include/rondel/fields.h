@@ -29,7 +29,11 @@ struct FieldArray {
   std::vector<std::string> dimensions;
   std::vector<std::uint64_t> shape;
   std::vector<double> values;  ///< the points change fastest; NaN is missing
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< units, long_name ...
+  /// units, long_name ...: attributes of netCDF that still hold for values at other points
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<std::pair<std::string, std::vector<double>>> numbers;  ///< flag_values, flag_masks
+  /// True if single precision holds the values: netCDF has floats, or packed integers.
+  bool is_single = false;
 
   /// Returns the number of fields at the points: the product of `shape`.
   [[nodiscard]] RONDEL_API std::size_t num_fields() const;
@@ -46,6 +50,10 @@ struct FieldSet {
   std::size_t num_points = 0;
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
+  /// Arrays of netCDF that have no points, such as bounds of times, with their values; only if
+  /// FieldExtras ask for them.
+  std::vector<FieldArray> others;
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< of the file: title, history ...
   /// netCDF with longitudes and latitudes of the points: unit vectors; else empty
   std::vector<Point> points;
   std::vector<LonLat> positions;  ///< the same places in degrees, as in the file
@@ -104,6 +112,15 @@ struct WantedPlaces {
   double max_apart_deg = 1e-4;  ///< how far the coordinates of the file may be from them
 };
 
+/// What a FieldFile knows of netCDF beside the fields.
+struct FieldExtras {
+  /// Whether FieldSet::others has the arrays without points, unless they are texts or have more than
+  /// 2^20 values. Otherwise a remark names them.
+  bool has_others = false;
+  /// Whether FieldSet::points and positions have the places. They take 40 bytes for each.
+  bool has_positions = true;
+};
+
 /// A file of fields whose values are read in slices, so that it may be larger than the memory if it
 /// is netCDF. Files of other formats are read whole.
 class FieldFile {
@@ -113,13 +130,20 @@ class FieldFile {
   ///                error if they are named
   RONDEL_API FieldFile(const FileName& file, std::span<const std::string> names,
                        std::uint64_t num_points, const ReadOptions& options = {},
-                       std::span<const std::uint64_t> shape = {}, const WantedPlaces& places = {});
+                       std::span<const std::uint64_t> shape = {}, const WantedPlaces& places = {},
+                       const FieldExtras& extras = {});
   RONDEL_API ~FieldFile();
   FieldFile(const FieldFile&) = delete;
   FieldFile& operator=(const FieldFile&) = delete;
 
   /// Returns the result of read_fields() without the values of the arrays.
   [[nodiscard]] RONDEL_API const FieldSet& fields() const;
+
+  /// Reads the values of consecutive points of one field, as many as `out` has room for.
+  /// \param first_point  where they begin; values of netCDF are read from the file if they are
+  ///                     contiguous there, and otherwise those of the whole field are
+  RONDEL_API void read_points(std::size_t array, std::size_t field, std::size_t first_point,
+                              std::span<double> out) const;
 
   /// Reads consecutive fields of an array, beginning with field `first`, as many as `out` has room
   /// for.

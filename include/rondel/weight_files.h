@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rondel/cell_rings.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
@@ -21,6 +22,8 @@ namespace rondel {
 /// The sources or the targets of weights, as a file describes them. Any of the arrays may be empty.
 struct WeightSide {
   std::vector<LonLat> points;      ///< centers of cells, or sites; NaN for a cell without a place
+  /// The axes of a grid along axes, in place of `points`; only files of fields take them.
+  LonLatAxes axes;
   std::vector<double> areas;       ///< steradians
   std::vector<double> fractions;   ///< the share of each cell that takes part
   std::vector<std::int32_t> mask;  ///< 0: the cell takes no part

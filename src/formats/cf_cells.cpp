@@ -360,11 +360,15 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
   mesh.shape = {lat.num_values, lon.num_values};
   const std::vector<double> lons = degrees_of(file, lon, UsualUnits::of_name, {lon_bounds, &lat});
   const std::vector<double> lats = degrees_of(file, lat, UsualUnits::of_name, {lat_bounds, &lon});
-  const std::string name = io::in_quotes(lat.name);
   tell_of_outside(lon, lon_bounds, lons, mesh.grid->lon_deg, mesh.remarks);
   tell_of_outside(lat, lat_bounds, lats, mesh.grid->lat_deg, mesh.remarks);
   for (std::size_t j = 0; j < lats.size(); ++j) {
-    for (const double at : lons) mesh.centers.push_back(require_position(name, j, {at, lats[j]}));
+    mesh.axes.lat_deg.push_back(
+        require_position(io::in_quotes(lat.name), j, {lons.front(), lats[j]}).lat_deg);
+  }
+  for (std::size_t i = 0; i < lons.size(); ++i) {
+    mesh.axes.lon_deg.push_back(
+        require_position(io::in_quotes(lon.name), i, {lons[i], lats.front()}).lon_deg);
   }
   return mesh;
 }

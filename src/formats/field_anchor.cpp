@@ -32,9 +32,9 @@ namespace rondel::formats {
 namespace {
 
 // True if both lists have the same places in the same order.
-bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double max_apart_deg) {
-  return std::ranges::equal(
-      a, b, [&](const LonLat& x, const LonLat& y) { return is_same_place(x, y, max_apart_deg); });
+bool are_near(const PlaceList& a, const PlaceList& b, double max_apart_deg) {
+  return a.is_same(
+      b, [&](const LonLat& x, const LonLat& y) { return is_same_place(x, y, max_apart_deg); });
 }
 
 }  // namespace
@@ -42,8 +42,7 @@ bool are_near(std::span<const LonLat> a, std::span<const LonLat> b, double max_a
 // Places in one file are the same if they are the same numbers, but for the rounding of single
 // precision.
 bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
-                                         std::span<const LonLat> a,
-                                         std::span<const LonLat> b) const {
+                                         const PlaceList& a, const PlaceList& b) const {
   const bool is_single = file_.variables()[lon_a].type == io::NetcdfType::float32 ||
                          file_.variables()[lon_b].type == io::NetcdfType::float32;
   return are_near(a, b, is_single ? 1e-4 : 1e-9);
@@ -63,7 +62,7 @@ bool FieldDimensionFinder::is_at_anchor(const PossiblePlaces& candidate) const {
 // coordinates.
 bool FieldDimensionFinder::choose_wanted(const io::VariableInFile& variable) {
   for (PossiblePlaces& candidate : candidates(variable)) {
-    if (!are_near(candidate.layout.places, wanted_.positions, wanted_.max_apart_deg)) continue;
+    if (!are_near(candidate.layout.places, wanted_places_, wanted_.max_apart_deg)) continue;
     anchor_ = {candidate.lon, candidate.lat, variable.name, std::move(candidate.layout.places)};
     return true;
   }
@@ -83,14 +82,14 @@ void FieldDimensionFinder::choose_places(std::span<const io::VariableInFile* con
       }
       std::vector<PossiblePlaces> found = candidates(*variable);
       if (found.size() != 1) continue;
-      std::vector<LonLat>& places = found.front().layout.places;
+      const PlaceList& places = found.front().layout.places;
       // Where the number of points is not given, places with a missing or wrong coordinate do not
       // decide.
-      const bool are_places = std::ranges::all_of(places, [](const LonLat& place) {
+      const bool are_places = places.first_not([](const LonLat& place) {
         return std::abs(place.lat_deg) <= 90 && std::isfinite(place.lon_deg);
-      });
+      }) == places.size();
       if (num_points_ == 0 && (places.empty() || !are_places)) continue;
-      anchor_ = {found.front().lon, found.front().lat, variable->name, std::move(places)};
+      anchor_ = {found.front().lon, found.front().lat, variable->name, places};
       if (num_points_ == 0) num_points_ = anchor_->places.size();
       break;
     } catch (const io::BadValue&) {
@@ -102,8 +101,7 @@ void FieldDimensionFinder::choose_places(std::span<const io::VariableInFile* con
   name_wanted_places();
   other_pairs_.clear();
   if (!anchor_) {
-    anchor_ = {CoordinatePair::none, CoordinatePair::none, std::string(),
-               std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end())};
+    anchor_ = {CoordinatePair::none, CoordinatePair::none, std::string(), wanted_places_};
   }
 }
 

@@ -76,10 +76,11 @@ struct FieldFile::OpenFields {
 
 FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
                      std::uint64_t num_points, const ReadOptions& options,
-                     std::span<const std::uint64_t> shape, const WantedPlaces& places)
+                     std::span<const std::uint64_t> shape, const WantedPlaces& places,
+                     const FieldExtras& extras)
     : content_(std::make_unique<OpenFields>(file)) {
   OpenFields& content = *content_;
-  const formats::FieldsToRead wanted{names, num_points, options, shape, places};
+  const formats::FieldsToRead wanted{names, num_points, options, shape, places, extras};
   if (is_netcdf_file(file, content.bytes)) {
     io::in_file(content.bytes.name(), [&] {
       content.netcdf.emplace(content.bytes);
@@ -112,6 +113,18 @@ void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out
   const auto begin = content_->values[array].begin() +
                      static_cast<std::ptrdiff_t>(first * content_->fields.num_points);
   std::copy_n(begin, out.size(), out.begin());
+}
+
+void FieldFile::read_points(std::size_t array, std::size_t field, std::size_t first_point,
+                            std::span<double> out) const {
+  if (content_->slices) {
+    io::in_file(content_->bytes.name(),
+                [&] { content_->slices->read_points(array, field, first_point, out); });
+    return;
+  }
+  const std::size_t begin = field * content_->fields.num_points + first_point;
+  std::copy_n(content_->values[array].begin() + static_cast<std::ptrdiff_t>(begin), out.size(),
+              out.begin());
 }
 
 FieldSet read_fields(const FileName& file, std::span<const std::string> names,

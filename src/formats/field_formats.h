@@ -28,6 +28,7 @@ struct FieldsToRead {
   const ReadOptions& options;
   std::span<const std::uint64_t> shape;  // of the points' grid; empty: not known
   WantedPlaces places = {};
+  FieldExtras extras = {};
 };
 // Each of these reads the content of a file. They throw BadValue if it is not as the format says.
 // They return the fields with values; `wanted.names` are columns of tables, and .npy has no names.

@@ -39,6 +39,7 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       parts_of_grids_(parts_of_grids(headers_)) {
   // Places that are not as many as the points cannot be compared with them.
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
+  wanted_places_ = PlaceList(std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end()));
   std::vector<const io::VariableInFile*> fields(variables.begin(), variables.end());
   // Coordinates are fields only if they are named.
   if (wanted.names.empty()) {
@@ -59,20 +60,25 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   if (pair.are_axes) {
     known.dimensions = {lat.dimensions[0], lon.dimensions[0]};
     known.shape = {lat.shape[0], lon.shape[0]};
-    const std::vector<double> lons = degrees_of(file_, lon, UsualUnits::of_name, {nullptr, &lat});
-    for (const double y : degrees_of(file_, lat, UsualUnits::of_name, {nullptr, &lon})) {
-      for (const double x : lons) known.places.push_back({x, y});
-    }
+    known.places =
+        PlaceList(LonLatAxes{degrees_of(file_, lon, UsualUnits::of_name, {nullptr, &lat}),
+                             degrees_of(file_, lat, UsualUnits::of_name, {nullptr, &lon})});
   } else {
     const PlaceArrays arrays = places_of(file_, lon, lat);
     known.dimensions = arrays.dimensions;
     known.shape = arrays.shape;
+    std::vector<LonLat> places;
     for (std::size_t i = 0; i < arrays.lon.size(); ++i) {
-      known.places.push_back({arrays.lon[i], arrays.lat[i]});
+      places.push_back({arrays.lon[i], arrays.lat[i]});
     }
+    known.places = PlaceList(std::move(places));
   }
-  known.num_known = known.places.size() -
-                    static_cast<std::size_t>(std::ranges::count_if(known.places, has_no_place));
+  known.num_known = known.places.size();
+  const std::size_t first_missing =
+      known.places.first_not([](const LonLat& place) { return !has_no_place(place); });
+  for (std::size_t i = first_missing; i < known.places.size(); ++i) {
+    if (has_no_place(known.places[i])) --known.num_known;
+  }
   known_.push_back(std::move(known));
   return known_.back();
 }
@@ -90,14 +96,8 @@ FieldDimensions FieldDimensionFinder::layout_along(const io::VariableInFile& var
   const std::vector<std::size_t> before = found.points;
   if (!fit_lengths(shape_, variable, found.points)) return {};
   found.places = known.places;
-  if (found.points != before) {
-    const std::size_t row = known.shape.back();
-    const std::size_t num_rows = known.places.size() / row;
-    // Only two dimensions can fit in reverse, but for others of length 1.
-    for (std::size_t i = 0; i < known.places.size(); ++i) {
-      found.places[i] = known.places[i % num_rows * row + i / num_rows];
-    }
-  }
+  // Only two dimensions can fit in reverse, but for others of length 1.
+  if (found.points != before) found.places = known.places.by_column(known.shape.back());
   leave_out_missing(known, found);
   take_other_dimensions(variable, found);
   return found;
@@ -113,7 +113,7 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
     places.push_back(layout.places[i]);
     layout.kept.push_back(i);
   }
-  layout.places = std::move(places);
+  layout.places = PlaceList(std::move(places));
 }
 
 // Returns the places at which a variable may be, all of the best rank; sets why_not_ if it has
@@ -198,7 +198,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
                        ", the name of a coordinate, says where");
   }
   // Only the order of the values is needed, which is known.
-  if (found.front().layout.kept.empty()) found.front().layout.places.clear();
+  if (found.front().layout.kept.empty()) found.front().layout.places = {};
   return std::move(found.front().layout);
 }
 

@@ -34,6 +34,7 @@
 
 #include "formats/cf_names.h"
 #include "formats/field_formats.h"
+#include "formats/place_list.h"
 #include "io/bad_value.h"
 #include "io/netcdf_reader.h"
 #include "rondel/conventions.h"
@@ -49,7 +50,7 @@ struct FieldDimensions {
   // Positions of the points' dimensions, the one that varies fastest last.
   std::vector<std::size_t> points;
   // The places in degrees, by point; empty if the file has none for the variable, or several pairs.
-  std::vector<LonLat> places;
+  PlaceList places;
   // Indices of the points that have a place, if others are left out; `places` are theirs.
   std::vector<std::size_t> kept;
   // True if the lengths alone say that the order is reversed: no name or axis says it.
@@ -103,7 +104,7 @@ class FieldDimensionFinder {
     std::size_t lat;
     std::vector<std::size_t> dimensions;
     std::vector<std::uint64_t> shape;
-    std::vector<LonLat> places;
+    PlaceList places;
     std::size_t num_known;  // number of places with both coordinates present
   };
   // Places at which a variable may be, with the dimensions that follow from them.
@@ -117,7 +118,7 @@ class FieldDimensionFinder {
     std::size_t lon = CoordinatePair::none;  // none: the file has no such coordinates
     std::size_t lat = CoordinatePair::none;
     std::string variable;  // the variable that has them
-    std::vector<LonLat> places;
+    PlaceList places;
   };
   using DimensionSet = std::set<std::size_t>;
   // The dimensions, longer than 1, of all pairs of coordinates that are as many as the points.
@@ -137,8 +138,8 @@ class FieldDimensionFinder {
   // points. Several results are different places of the same rank.
   [[nodiscard]] std::vector<PossiblePlaces> candidates(const io::VariableInFile& variable);
   // True if the places of two pairs are the same, up to the precision of their variables.
-  [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, std::span<const LonLat> a,
-                                   std::span<const LonLat> b) const;
+  [[nodiscard]] bool are_one_place(std::size_t lon_a, std::size_t lon_b, const PlaceList& a,
+                                   const PlaceList& b) const;
   // True if the places of a candidate are those that all fields are at.
   [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
   // Sets the anchor, and with it the number of points if that is not given.
@@ -193,6 +194,7 @@ class FieldDimensionFinder {
   // The lengths of the points' grid; empty if they are not known.
   std::vector<std::uint64_t> shape_;
   WantedPlaces wanted_;
+  PlaceList wanted_places_;
   std::vector<VariableHeader> headers_;
   // The headers are by variable of the file, and so are these: true for parts of grids and meshes.
   std::vector<bool> parts_of_grids_;

@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "formats/cf_names.h"
@@ -24,19 +26,50 @@
 namespace rondel::formats {
 namespace {
 
-// Returns the attributes that still hold for values at other points.
+// Attributes that say how a file stores its numbers, or which other variables belong to them.
+constexpr std::string_view attributes_of_the_file[] = {"coordinates",
+                                                       "bounds",
+                                                       "climatology",
+                                                       "cell_measures",
+                                                       "grid_mapping",
+                                                       "formula_terms",
+                                                       "ancillary_variables",
+                                                       "mesh",
+                                                       "location",
+                                                       "compress",
+                                                       "interpolation",
+                                                       "grid",
+                                                       "CDI_grid_type",
+                                                       "_Unsigned",
+                                                       "_FillValue",
+                                                       "missing_value"};
+
+// Returns the texts that still hold for values at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(
-    const io::VariableInFile& variable) {
+    std::span<const io::NetcdfAttribute> attributes) {
   std::vector<std::pair<std::string, std::string>> kept;
-  for (const io::NetcdfAttribute& attribute : variable.attributes) {
-    for (const char* name :
-         {"units", "long_name", "standard_name", "calendar", "positive", "axis"}) {
-      if (attribute.name == name && !attribute.text.empty()) {
-        kept.emplace_back(name, attribute.text);
-      }
-    }
+  for (const io::NetcdfAttribute& attribute : attributes) {
+    const bool is_kept = std::ranges::find(attributes_of_the_file, attribute.name) ==
+                         std::ranges::end(attributes_of_the_file);
+    if (is_kept && !attribute.text.empty()) kept.emplace_back(attribute.name, attribute.text);
   }
   return kept;
+}
+
+// Returns the numbers that still hold: what flags mean.
+std::vector<std::pair<std::string, std::vector<double>>> kept_numbers(
+    std::span<const io::NetcdfAttribute> attributes) {
+  std::vector<std::pair<std::string, std::vector<double>>> kept;
+  for (const io::NetcdfAttribute& attribute : attributes) {
+    const bool is_kept = attribute.name == "flag_values" || attribute.name == "flag_masks";
+    if (is_kept && !attribute.numbers.empty()) kept.emplace_back(attribute.name, attribute.numbers);
+  }
+  return kept;
+}
+
+// True if floats hold the values of a variable: it has floats, or small integers.
+bool is_of_floats(io::NetcdfType type) {
+  return io::size_of(type) < 4 || type == io::NetcdfType::float32;
 }
 
 // Returns a name that a file can have: the name of a variable of a group has a slash.
@@ -54,7 +87,9 @@ FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& vari
     array.dimensions.push_back(written_name(file.dimensions()[variable.dimensions[d]].name));
     array.shape.push_back(variable.shape[d]);
   }
-  array.attributes = kept_attributes(variable);
+  array.attributes = kept_attributes(variable.attributes);
+  array.numbers = kept_numbers(variable.attributes);
+  array.is_single = is_of_floats(variable.type);
   return array;
 }
 
@@ -64,13 +99,13 @@ bool is_place(const LonLat& place) {
 }
 
 // Throws BadValue for the first point of the variable that is no place.
-void require_places(const io::VariableInFile& variable, std::span<const LonLat> places) {
-  const auto bad = std::ranges::find_if_not(places, is_place);
-  if (bad == places.end()) return;
-  throw io::BadValue("place " + std::to_string(bad - places.begin()) + " of variable " +
+void require_places(const io::VariableInFile& variable, const PlaceList& places) {
+  const std::size_t bad = places.first_not(is_place);
+  if (bad == places.size()) return;
+  throw io::BadValue("place " + std::to_string(bad) + " of variable " +
                      io::in_quotes(variable.name) + " is at longitude " +
-                     system::shortest_text(bad->lon_deg) + " and latitude " +
-                     system::shortest_text(bad->lat_deg) + ", which is no place");
+                     system::shortest_text(places[bad].lon_deg) + " and latitude " +
+                     system::shortest_text(places[bad].lat_deg) + ", which is no place");
 }
 
 // Throws BadValue that names the lengths of a variable in which the points are not found.
@@ -94,9 +129,11 @@ void require_places(const io::VariableInFile& variable, std::span<const LonLat> 
 FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
                          std::size_t max_per_block)
     : file_(file),
+      extras_(wanted.extras),
       max_per_block_(max_per_block),
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
+  fields_.attributes = kept_attributes(file.attributes());
   for (const std::string& given : wanted.names) {
     const std::string name = io::full_name(file.variables(), given);
     const io::VariableInFile* const variable = file.find(name);
@@ -112,6 +149,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
                        remark_on_units(headers_of(file)));
   }
   if (wanted.names.empty()) add_all();
+  name_bounds();
   if (fields_.arrays.empty()) {
     std::string why;
     if (fields_.num_points == 0) why = remark_on_units(headers_of(file));
@@ -175,17 +213,20 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
   if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
   fields_.arrays.push_back(array_of(file_, variable, layout.leading));
   // All arrays are at the places of the first one that has some.
-  if (fields_.points.empty() && std::ranges::all_of(layout.places, is_place)) {
-    fields_.points = unit_vectors(layout.places);
-    fields_.positions = std::move(layout.places);
+  if (fields_.shape.empty() && fields_.points.empty() &&
+      layout.places.first_not(is_place) == layout.places.size()) {
+    if (extras_.has_positions) {
+      fields_.positions = layout.places.list();
+      fields_.points = unit_vectors(fields_.positions);
+    }
     if (layout.kept.empty()) {
       for (const std::size_t d : layout.points) fields_.shape.push_back(variable.shape[d]);
     } else {
       fields_.num_without_place = num_points - layout.kept.size();
     }
+    if (fields_.num_points == 0) fields_.num_points = layout.places.size();
   }
-  if (fields_.num_points == 0) fields_.num_points = fields_.points.size();
-  layout.places.clear();
+  layout.places = {};
   FieldBlocks blocks(file_, variable, layout, max_per_block_);
   sources_.push_back(
       {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
@@ -197,7 +238,7 @@ void FieldSlices::add_all() {
   NameList elsewhere;
   std::vector<std::string> refused;
   for (const io::VariableInFile& variable : file_.variables()) {
-    if (layouts_.is_lost(variable)) without_points.add(variable.name);
+    if (layouts_.is_lost(variable) && !keep_other(variable)) without_points.add(variable.name);
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
       if (add(variable)) continue;
@@ -208,7 +249,7 @@ void FieldSlices::add_all() {
       continue;
     }
     if (layouts_.other_places().empty()) {
-      without_points.add(variable.name);
+      if (!keep_other(variable)) without_points.add(variable.name);
     } else {
       elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
     }
@@ -231,6 +272,33 @@ void FieldSlices::add_all() {
   fields_.remarks.push_back("left out, as they are at other places than " +
                             (names.empty() ? "those that are wanted" : names) + ": " +
                             elsewhere.text());
+}
+
+bool FieldSlices::keep_other(const io::VariableInFile& variable) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 20U;
+  if (!extras_.has_others || variable.type == io::NetcdfType::text || variable.num_values > most) {
+    return false;
+  }
+  std::vector<std::size_t> all(variable.shape.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  FieldArray array = array_of(file_, variable, all);
+  bool is_rounded = false;
+  array.values = file_.rounded_numbers(variable, is_rounded);
+  ValueRules(variable).apply(array.values);
+  fields_.others.push_back(std::move(array));
+  return true;
+}
+
+void FieldSlices::name_bounds() {
+  for (FieldArray& axis : fields_.axes) {
+    const io::VariableInFile* const variable = file_.find(axis.name);
+    if (variable == nullptr) continue;
+    for (const char* const role : {"bounds", "climatology"}) {
+      const std::string name = io::netcdf_text(variable->attributes, role);
+      if (std::ranges::count(fields_.others, name, &FieldArray::name) == 0) continue;
+      axis.attributes.emplace_back(role, name);
+    }
+  }
 }
 
 // Adds the coordinates along the leading dimensions, unless they are known already.
@@ -272,6 +340,24 @@ void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> o
   }
 }
 
+void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t first_point,
+                              std::span<double> out) const {
+  const SlicedVariable& source = sources_[array];
+  if (source.layout.kept.empty() && source.blocks.are_apart()) {
+    const std::size_t begin = (field + source.first) * source.num_points + first_point;
+    file_.read_numbers(*source.variable, begin, out);
+    unpack(source, out, first_point);
+    return;
+  }
+  if (whole_.empty() || array_of_whole_ != array || field_of_whole_ != field) {
+    whole_.resize(fields_.num_points);
+    read(array, field, whole_);
+    array_of_whole_ = array;
+    field_of_whole_ = field;
+  }
+  std::copy_n(whole_.begin() + static_cast<std::ptrdiff_t>(first_point), out.size(), out.begin());
+}
+
 // Fields that are contiguous in the file are read directly; others in blocks, of which the last one
 // is kept.
 void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
@@ -307,7 +393,8 @@ void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& blo
 
 // Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
 // as in tables.
-void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values) {
+void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
+                         std::size_t first_point) {
   source.rules.apply(values);
   const auto infinite =
       std::ranges::find_if(values, [](double value) { return std::isinf(value); });
@@ -315,7 +402,8 @@ void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values)
   throw io::BadValue(
       "variable " + io::in_quotes(source.variable->name) + ": value " +
       (*infinite > 0 ? "inf" : "-inf") + " at point " +
-      std::to_string(static_cast<std::size_t>(infinite - values.begin()) % source.num_points) +
+      std::to_string((first_point + static_cast<std::size_t>(infinite - values.begin())) %
+                     source.num_points) +
       " is not finite");
 }
 

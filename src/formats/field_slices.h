@@ -35,6 +35,9 @@ class FieldSlices {
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
   // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
   void read(std::size_t array, std::size_t first, std::span<double> out) const;
+  // Reads points `first_point` ... of one field, like FieldFile::read_points().
+  void read_points(std::size_t array, std::size_t field, std::size_t first_point,
+                   std::span<double> out) const;
 
  private:
   // A variable with what is needed to read its fields.
@@ -55,6 +58,10 @@ class FieldSlices {
   void add_with_layout(const io::VariableInFile& variable, FieldDimensions layout);
   // Adds all fields of the file, with remarks on the variables that are left out.
   void add_all();
+  // Adds a variable that has no points to `others`; returns false if it is left out.
+  bool keep_other(const io::VariableInFile& variable);
+  // Names the bounds of axes that are among `others`.
+  void name_bounds();
   // Adds to `axes` the coordinates along the leading dimensions of a variable.
   void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                 std::vector<FieldArray>& axes);
@@ -65,11 +72,13 @@ class FieldSlices {
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
   // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.
-  static void unpack(const SlicedVariable& source, std::span<double> values);
+  static void unpack(const SlicedVariable& source, std::span<double> values,
+                     std::size_t first_point = 0);
   // Reads a block into block_, unless it is there.
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;
+  FieldExtras extras_;
   std::size_t max_per_block_;
   FieldDimensionFinder layouts_;
   FieldSet fields_;
@@ -78,6 +87,10 @@ class FieldSlices {
   mutable std::vector<double> block_;
   mutable const SlicedVariable* source_of_block_ = nullptr;
   mutable std::size_t first_of_block_ = 0;
+  // The last field that read_points() had to read as a whole.
+  mutable std::vector<double> whole_;
+  mutable std::size_t array_of_whole_ = 0;
+  mutable std::size_t field_of_whole_ = 0;
 };
 
 }  // namespace rondel::formats

@@ -4,6 +4,8 @@
 // Writes a FieldSet as netCDF by the CF conventions: leading dimensions with their coordinates (CF
 // section 5), the places of the points as `lat` and `lon`, then each array with its attributes,
 // `_FillValue`, and `coordinates` where the points are no grid along axes.
+#include <algorithm>
+#include <deque>
 #include <set>
 
 #include "formats/field_columns.h"
@@ -16,11 +18,18 @@ namespace {
 
 using io::NetcdfType;
 
-// Returns the attributes of an array, all of them texts, as netCDF has them.
+NetcdfType type_of(const FieldArray& array) {
+  return array.is_single ? NetcdfType::float32 : NetcdfType::float64;
+}
+
+// Returns the attributes of an array, as netCDF has them.
 std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
   std::vector<io::NetcdfAttribute> attributes;
   for (const auto& [name, text] : array.attributes) {
     attributes.push_back({name, NetcdfType::text, text, {}});
+  }
+  for (const auto& [name, numbers] : array.numbers) {
+    attributes.push_back({name, type_of(array), {}, numbers});
   }
   return attributes;
 }
@@ -32,7 +41,8 @@ class PointsOut {
   // latitude for each row and a longitude for each column.
   PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
     const std::vector<LonLat>& points = side.points;
-    is_grid_ = side.shape.size() == 2 && !points.empty();
+    has_axes_ = !side.axes.lon_deg.empty();
+    is_grid_ = side.shape.size() == 2 && (has_axes_ || !points.empty());
     const std::size_t row = is_grid_ ? side.shape[1] : 1;
     for (std::size_t i = 0; is_grid_ && i < points.size(); ++i) {
       is_grid_ = points[i].lon_deg == points[i % row].lon_deg &&
@@ -45,7 +55,7 @@ class PointsOut {
   // Returns the names that its dimensions and coordinates take.
   [[nodiscard]] std::set<std::string> names() const {
     std::set<std::string> names;
-    if (is_grid_ || !side_.points.empty()) names = {"lat", "lon"};
+    if (has_places()) names = {"lat", "lon"};
     if (is_grid_) return names;
     for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert("axis_" + std::to_string(d));
     if (side_.shape.size() <= 1) names.insert("point");
@@ -62,7 +72,7 @@ class PointsOut {
     } else {
       dimensions_ = {out.add_dimension("point", num_points_)};
     }
-    if (side_.points.empty()) return;
+    if (!has_places()) return;
     const auto of = [&](std::size_t d) {
       return is_grid_ ? std::vector<std::size_t>{dimensions_[d]} : dimensions_;
     };
@@ -73,7 +83,12 @@ class PointsOut {
   }
   // Writes the coordinates, in the order of define().
   void write(io::NetcdfWriter& out) const {
-    if (side_.points.empty()) return;
+    if (!has_places()) return;
+    if (has_axes_) {
+      out.write(std::span<const double>(side_.axes.lat_deg));
+      out.write(std::span<const double>(side_.axes.lon_deg));
+      return;
+    }
     const std::size_t step = is_grid_ ? num_lon_ : 1;
     out.write_values<double>(is_grid_ ? side_.shape[0] : num_points_,
                              [&](std::size_t i) { return side_.points[i * step].lat_deg; });
@@ -87,7 +102,10 @@ class PointsOut {
   [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
 
  private:
+  [[nodiscard]] bool has_places() const { return has_axes_ || !side_.points.empty(); }
+
   const WeightSide& side_;
+  bool has_axes_ = false;
   bool is_grid_ = false;
   std::size_t num_lon_ = 0;
   std::size_t num_points_ = 0;
@@ -108,10 +126,29 @@ class NetcdfSink : public FieldSink {
     for (const FieldArray& axis : job.fields.axes) {
       out_.write(std::span<const double>(axis.values));
     }
+    for (const FieldArray& other : job.fields.others) {
+      out_.write(std::span<const double>(other.values));
+    }
     points_.write(out_);
     columns_.write(out_);
   }
-  void write(std::span<const double> values) override { out_.write(values); }
+  void write(std::span<const double> values) override {
+    while (!values.empty()) {
+      if (sizes_.front().left == 0) {
+        sizes_.pop_front();
+        continue;
+      }
+      const std::size_t count = std::min<std::uint64_t>(values.size(), sizes_.front().left);
+      const std::span<const double> part = values.first(count);
+      if (sizes_.front().is_single) {
+        out_.write_values<float>(count, [&](std::size_t i) { return part[i]; });
+      } else {
+        out_.write(part);
+      }
+      sizes_.front().left -= count;
+      values = values.subspan(count);
+    }
+  }
   void finish() override { out_.finish(); }
 
  private:
@@ -119,6 +156,9 @@ class NetcdfSink : public FieldSink {
   void define(const FieldsToWrite& job) {
     const FieldSet& fields = job.fields;
     out_.add_attribute("Conventions", "CF-1.8");
+    for (const auto& [name, text] : fields.attributes) {
+      if (name != "Conventions") out_.add_attribute(name, text);
+    }
     taken_ = points_.names();
     std::vector<std::vector<std::size_t>> leading;
     for (const FieldArray& array : fields.arrays) {
@@ -132,6 +172,14 @@ class NetcdfSink : public FieldSink {
       out_.add_variable(
           {along.own_name, NetcdfType::float64, {along.number}, with_attributes(axis)});
     }
+    for (const FieldArray& other : fields.others) {
+      std::vector<std::size_t> dimensions;
+      for (std::size_t d = 0; d < other.shape.size(); ++d) {
+        dimensions.push_back(dimension(other.dimensions[d], other.shape[d]).number);
+      }
+      out_.add_variable({take_name(netcdf_name(other.name), taken_), NetcdfType::float64,
+                         std::move(dimensions), with_attributes(other)});
+    }
     points_.define(out_);
     std::vector<std::string> names;
     for (const FieldArray& array : fields.arrays)
@@ -143,12 +191,13 @@ class NetcdfSink : public FieldSink {
       dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
       std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
       if (fields.is_fill_marked) {
-        attributes.push_back({"_FillValue", NetcdfType::float64, {}, {fields.fill}});
+        attributes.push_back({"_FillValue", type_of(array), {}, {fields.fill}});
       }
       if (points_.needs_coordinates()) {
         attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
       }
-      out_.add_variable({names[a], NetcdfType::float64, std::move(dimensions), attributes});
+      out_.add_variable({names[a], type_of(array), std::move(dimensions), attributes});
+      sizes_.push_back({array.num_fields() * fields.num_points, array.is_single});
     }
   }
 
@@ -171,7 +220,14 @@ class NetcdfSink : public FieldSink {
     return known_.back();
   }
 
+  // The values of an array that are still to come.
+  struct ValuesToCome {
+    std::uint64_t left;
+    bool is_single;
+  };
+
   io::NetcdfWriter out_;
+  std::deque<ValuesToCome> sizes_;
   PointsOut points_;
   ColumnsOut columns_;
   // Names of variables and dimensions that are in use.

@@ -66,14 +66,15 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
       return formats::cells_in(reader, bytes.name(), variable);
     });
     CellFacts& cells = table.facts;
-    if (cells.centers.empty() || cells.centers.size() != table.num_cells()) return std::nullopt;
+    std::vector<LonLat> centers = cells.given_centers();
+    if (centers.empty() || centers.size() != table.num_cells()) return std::nullopt;
     for (std::size_t i = 0; i < cells.mask.size(); ++i) {
       // read_cells() puts missing centers to (0, 0).
-      if (cells.mask[i] == 0 && cells.centers[i] == LonLat{0, 0}) return std::nullopt;
+      if (cells.mask[i] == 0 && centers[i] == LonLat{0, 0}) return std::nullopt;
     }
     NetcdfSites sites;
     sites.remarks = std::move(cells.remarks);
-    sites.table.positions = std::move(cells.centers);
+    sites.table.positions = std::move(centers);
     sites.shape = std::move(cells.shape);
     // With other conventions the mask only marks cells with missing corners.
     for (const std::string_view convention : {"SCRIP", "ESMF", "OASIS"}) {

@@ -60,7 +60,8 @@ constexpr double largest_density = 1e100;
 // Returns the places of the cells of a mesh: the centers that its file has, or else the directions
 // of the sums of their corners.
 std::vector<Point> places_of_cells(const CellTable& table) {
-  if (!table.facts.centers.empty()) return unit_vectors(table.facts.centers);
+  const std::vector<LonLat> centers = table.facts.given_centers();
+  if (!centers.empty()) return unit_vectors(centers);
   const CellRings& cells = table.cells;
   std::vector<Point> places;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {

@@ -23,6 +23,7 @@
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "overlay/prepared_grid.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/job.h"
 
@@ -40,7 +41,13 @@ class StoredCells : public grids::GridFormula {
   explicit StoredCells(CellSet cells) : cells_(std::move(cells)), rings_(cells_.given_rings()) {}
 
   [[nodiscard]] Index num_cells() const override { return static_cast<Index>(cells_.num_cells()); }
-  [[nodiscard]] LonLat center(Index cell) const override { return cells_.facts().centers[cell]; }
+  [[nodiscard]] LonLat center(Index cell) const override {
+    Point sum{};
+    for (const Index corner : rings_.corners_of(rings_.cells[cell])) {
+      sum = sum + rings_.points[corner];
+    }
+    return lonlats(std::vector<Point>{sum})[0];
+  }
   void append_ring(Index cell, std::vector<Point>& ring) const override {
     for (const Index corner : rings_.corners_of(rings_.cells[cell])) {
       ring.push_back(rings_.points[corner]);

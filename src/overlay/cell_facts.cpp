@@ -122,8 +122,7 @@ CellSet CellSet::with_facts(CellFacts facts) const {
 }
 
 std::vector<LonLat> CellSet::places() const {
-  if (!facts_->centers.empty()) return facts_->centers;
-  std::vector<LonLat> places = facts_->axes.places();
+  std::vector<LonLat> places = facts_->given_centers();
   return places.empty() ? lonlats(centers()) : places;
 }
 

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel regrid: all fields of a file at the places or cells of another grid.
+// in    netCDF with fields; a target: a named grid, netCDF with cells, or polygons
+// out   the same fields at the target
+// index places and cells in the order of their file or grid
+#include "rondel/regrid_files.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "job.h"
+#include "process.h"
+#include "report.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/named_grids.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+// The options of `rondel regrid`.
+struct RegridCommandOptions {
+  CommonOptions common;       // INPUT: the fields; output and threads
+  std::string target;         // TARGET
+  std::string source;         // --source
+  RegridFileOptions regrid;
+};
+
+std::string history_of(const RegridCommandOptions& options) {
+  std::string text = "rondel regrid " + options.common.input + " " + options.target;
+  if (options.regrid.method) text += " --method " + word_of(name_of(*options.regrid.method));
+  return text;
+}
+
+// Regrids, and reports the numbers. Throws UsageError for a format in which no fields are written,
+// FileError for files that cannot be read or do not fit the method.
+ExitStatus run_regrid(const RegridCommandOptions& options) {
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_fields(common.target()), ".nc .nc4 .csv .tsv .npy",
+                 {{"TARGET", options.target}, {"--source", options.source}});
+  Job job(common);
+  RegridFileOptions regrid = options.regrid;
+  if (!options.source.empty()) regrid.source = FileName{options.source, {}};
+  regrid.history = history_of(options);
+  RegridFileReport done_work;
+  job.time(Stage::query, [&] {
+    done_work = regrid_file(common.source(), {options.target, {}}, common.target(), regrid,
+                            job.execution());
+  });
+  tell(common.input, done_work.remarks);
+  const nlohmann::ordered_json json = {{"sources", done_work.sources},
+                                       {"targets", done_work.targets},
+                                       {"fields", done_work.fields},
+                                       {"missing", done_work.missing},
+                                       {"tiles", done_work.tiles},
+                                       {"seconds", {{"total", job.seconds().total}}},
+                                       {"peak_memory_bytes", peak_memory_bytes()}};
+  job.report(json.dump(2) + '\n',
+             count(done_work.fields, "field", "fields") + " from " +
+                 count(done_work.sources, "place", "places") + " to " +
+                 std::to_string(done_work.targets) +
+                 "; values missing: " + std::to_string(done_work.missing) + '\n');
+  return done;
+}
+
+// Adds how values are computed.
+void add_methods(CLI::App& parser, RegridCommandOptions& options) {
+  parser
+      .add_option_function<std::string>(
+          "--method",
+          [&options](const std::string& text) {
+            options.regrid.method = named_values<FieldMethod>().at(text);
+          },
+          "conservative (default): means over cells; conservative-2nd: with gradients;\n"
+          "largest-share: the most frequent value (default for fields with flag_values or\n"
+          "flag_meanings); nearest, linear, laplace, sibson, hermite, cubic: between the\n"
+          "centers; bilinear: on a grid along axes")
+      ->check([](const std::string& text) {
+        return named_values<FieldMethod>().contains(text) ? std::string()
+                                                          : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+  const auto is_of_cells = [&options] {
+    const auto& method = options.regrid.method;
+    return !method || *method <= FieldMethod::largest_share;
+  };
+  const CLI::Option* const norm = add_word<RemapNorm>(
+      parser, "--norm", options.regrid.norm, named_values<RemapNorm>(),
+      "What sums are divided by: fracarea (default: the part that sources cover, so\n"
+      "constants are kept) or destarea (the target's area, so integrals are)");
+  parser
+      .add_option("--max-missing", options.regrid.max_missing,
+                  "The share of a target that may lack values, from 0 to 1 (default 0.5)")
+      ->check([](const std::string& text) { return range_error(text, 0, 1); })
+      ->type_name("SHARE");
+  const CLI::Option* const overlap = add_word<CellOverlap>(
+      parser, "--overlap", options.regrid.overlap, named_values<CellOverlap>(),
+      "Cells of one side that overlap: error (default), first or share");
+  for (const CLI::Option* const option : {norm, overlap}) {
+    require_effect(options.common, option, is_of_cells, "with a method between places");
+  }
+}
+
+void add_cells(CLI::App& parser, RegridCommandOptions& options) {
+  CellFileOptions& cells = options.regrid.cells;
+  add_word<GridSides>(parser, "--sides", cells.sides, named_values<GridSides>(),
+                      "What cells of grids have in the north and south: parallels (default) or\n"
+                      "great-circles (ESMF's)");
+  const CLI::Option* const edges = add_word<PolygonEdges>(
+      parser, "--edges", cells.edges, named_values<PolygonEdges>(),
+      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
+  const CLI::Option* const invalid = add_invalid_option(parser, cells.invalid);
+  for (const CLI::Option* const option : {edges, invalid}) {
+    require_effect(
+        options.common, option,
+        [&options] {
+          return options.target.ends_with("json") || options.source.ends_with("json");
+        },
+        "without polygons in .geojson");
+  }
+}
+
+void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
+  parser
+      .add_option_function<std::string>(
+          "--memory",
+          [&options](const std::string& text) { options.regrid.memory = bytes_of(text); },
+          "About how many bytes may be in use, such as 500M (default 2G). Larger grids that\n"
+          "cover the sphere are regridded tile by tile, with the same values")
+      ->check(bytes_error)
+      ->type_name("BYTES");
+  parser
+      .add_option("--tile", options.regrid.cells_per_tile,
+                  "The number of cells of a tile (default: as --memory says)")
+      ->check([](const std::string& text) { return whole_error(text, 1, 1'000'000'000); })
+      ->type_name("N");
+  add_netcdf_options(parser, options.common, options.regrid.netcdf, [&options] {
+    return if_of_format(options.common.target(), {"nc", "nc4"});
+  });
+}
+
+}  // namespace
+
+Command add_regrid_command(CLI::App& tool) {
+  auto options = std::make_shared<RegridCommandOptions>();
+  CLI::App* parser = tool.add_subcommand("regrid", "Bring the fields of a file to another grid");
+  parser
+      ->add_option("INPUT", options->common.input,
+                   "netCDF with fields; FILE.nc:NAME is one of them, or one of several grids")
+      ->required()
+      ->type_name("");
+  parser
+      ->add_option("TARGET", options->target,
+                   "The name of a grid (below), netCDF with cells, or .geojson with polygons")
+      ->required()
+      ->type_name("");
+  add_output_option(*parser, options->common,
+                    "Where to write the fields: .nc .nc4 .csv .tsv .npy")
+      ->required();
+  parser
+      ->add_option("--value", options->regrid.names,
+                   "A variable (default: all at the places of the source); may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  parser
+      ->add_option("--source", options->source,
+                   "Where the fields are, if INPUT does not say it: the name of a grid, or a file\n"
+                   "with cells")
+      ->type_name("GRID");
+  add_methods(*parser, *options);
+  add_cells(*parser, *options);
+  add_amounts(*parser, *options);
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "Grids: grid:0.25 and grid:1440x720 (between meridians and parallels), healpix:7 and\n"
+      "healpix:7:ring (12 * 4^7 pixels), F320, N320, O320 (Gaussian: regular, reduced,\n"
+      "octahedral), C384 (cubed sphere), R2B6 (triangles of an icosahedron).\n\n"
+      "All times and levels are carried, with attributes, axes, and variables without places. A\n"
+      "target of which sources with values cover less than half is missing (--max-missing).\n\n"
+      "Examples:\n"
+      "  rondel regrid temperature.nc healpix:4 -o pixels.nc\n"
+      "  rondel regrid temperature.nc grid:1 --method linear -o one-degree.nc\n"
+      "  rondel regrid temperature.nc countries.geojson -o means.csv");
+  return {parser, [options] { return run_regrid(*options); }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Regridding of files: all fields of a netCDF file to another grid, in one call (target
+/// rondel::geo). Every function throws FileError with one line that names the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondel/cell_set.h"
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/remap.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// How the values of a field at one side become those at the other one.
+enum class FieldMethod : std::uint8_t {
+  conservative,      ///< the mean over the target cell of a field that is constant in each source
+  conservative_2nd,  ///< the same of a field with a gradient in each source (RemapOptions::order)
+  /// The value that the largest part of the target cell has, for categories: flags, types of soil.
+  /// Of values with equal parts the smallest counts.
+  largest_share,
+  nearest,   ///< the value of the nearest place; the others are those of Interpolator
+  linear,    ///< in the triangles of the places' Delaunay triangulation
+  laplace,   ///< of natural neighbors
+  sibson,    ///< of natural neighbors
+  hermite,   ///< cubic along edges, with gradients
+  cubic,     ///< with continuous gradients
+  bilinear,  ///< on a grid along axes (rondel/regrid.h)
+};
+
+/// Returns the name of a value, "conservative_2nd"; empty for other numbers.
+RONDEL_API std::string_view name_of(FieldMethod method) noexcept;
+
+struct RegridFileOptions {
+  std::vector<std::string> names = {};  ///< the variables; empty: all that are at the places
+  /// Where the fields are: the name of a grid (NamedGrid) or a file with cells. Without it, it is
+  /// the file of the fields.
+  std::optional<FileName> source = std::nullopt;
+  /// Without a method, fields with the attribute `flag_values` or `flag_meanings` get largest_share,
+  /// and all others conservative.
+  std::optional<FieldMethod> method = std::nullopt;
+  /// What conservative sums are divided by. With fracarea constants are kept where sources cover a
+  /// part of a target; with destarea integrals are.
+  RemapNorm norm = RemapNorm::fracarea;
+  /// The share of a target that may lack values: that no source covers, or whose sources have none.
+  /// With 0 any lack is too much, with 1 any value is enough.
+  double max_missing = 0.5;
+  CellFileOptions cells = {};                ///< of both sides
+  CellOverlap overlap = CellOverlap::error;  ///< of both sides
+  /// About how many bytes may be in use. Above, conservative weights of grids that cover the sphere
+  /// are computed tile by tile, and again for each group of fields; the values are the same.
+  std::uint64_t memory = std::uint64_t{2} << 30U;
+  /// The number of cells of a tile; 0: as `memory` says.
+  std::size_t cells_per_tile = 0;
+  NetcdfOptions netcdf = {};
+  std::string history = {};  ///< a line for the attribute `history` of the output
+};
+
+/// What regrid_file() did.
+struct RegridFileReport {
+  std::size_t sources = 0;
+  std::size_t targets = 0;
+  std::size_t fields = 0;
+  std::size_t missing = 0;  ///< values of targets that are missing
+  std::size_t tiles = 0;    ///< 0 if all weights were in memory
+  std::vector<std::string> remarks = {};  ///< what was left out, and why
+};
+
+/// Regrids the fields of a file.
+///
+/// in      netCDF: all variables at the places of the source, for all times and levels
+/// target  the name of a grid (NamedGrid), netCDF with cells, or .geojson with polygons
+/// out     netCDF with the same variables at the target: float if the source has floats or packed
+///         integers, otherwise double; with the attributes, the axes, the variables without places
+///         (bounds of times) and the attributes of the file. Or .csv, .tsv, .npy, as write_fields()
+///         writes them: means over polygons with their properties.
+///
+/// Values are the same bytes for any number of threads, memory and tiles. The output appears when
+/// it is complete.
+/// \throws FileError also for a method that the sides do not admit: conservative methods need cells
+///         on both, bilinear a source along axes; and InvalidInput as remap() does
+RONDEL_API RegridFileReport regrid_file(const FileName& in, const FileName& target,
+                                        const FileName& out, const RegridFileOptions& options = {},
+                                        const Execution& execution = {});
+
+}  // namespace rondel

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "formats/regrid_side.h"
+
+#include <utility>
+
+#include "rondel/error.h"
+#include "rondel/regrid.h"
+
+namespace rondel::formats {
+
+RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
+                       const Execution& execution)
+    : name_(file.path), options_(options) {
+  if (!NamedGrid::is_name(file.path)) {
+    read_file(file, has_cells, execution);
+    return;
+  }
+  try {
+    named_.emplace(file.path, options.sides);
+  } catch (const InvalidInput& error) {
+    throw FileError(error.what());
+  }
+  shape_ = named_->shape();
+  if (named_->axes() != nullptr) axes_ = *named_->axes();
+}
+
+void RegridSide::read_file(const FileName& file, bool has_cells, const Execution& execution) {
+  if (!has_cells) {
+    NetcdfSites sites = read_netcdf_sites(file, {}, false);
+    places_ = std::move(sites.table.positions);
+    shape_ = std::move(sites.shape);
+    mask_ = std::move(sites.mask);
+    remarks_ = std::move(sites.remarks);
+    axes_ = axes_of_grid(places_, shape_);
+    return;
+  }
+  if (!can_read_cells(file)) {
+    const std::string format = format_of(file);
+    if (format != "geojson" && format != "json") {
+      throw FileError(file.path +
+                      ": it is neither the name of a grid, nor netCDF with cells, nor .geojson "
+                      "with polygons");
+    }
+    cells_ = CellSet::read(file, options_, execution);
+  } else {
+    CellTable table = read_cells(file);
+    if (table.grid && options_.sides == GridSides::parallels) {
+      lines_ = std::move(table.grid);
+      shape_ = table.facts.shape;
+      mask_ = table.facts.mask;
+      remarks_ = table.facts.remarks;
+      axes_ = std::move(table.facts.axes);
+      return;
+    }
+    cells_ = CellSet::of(std::move(table), options_.sides, execution);
+  }
+  const CellFacts& facts = cells_->facts();
+  shape_ = facts.shape;
+  mask_ = facts.mask;
+  remarks_ = facts.remarks;
+  columns_ = facts.columns;
+  places_ = cells_->places();
+  if (!facts.axes.lon_deg.empty()) axes_ = facts.axes;
+  if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
+}
+
+std::size_t RegridSide::num_places() const {
+  if (named_) return named_->num_cells();
+  return axes_ ? axes_->lon_deg.size() * axes_->lat_deg.size() : places_.size();
+}
+
+std::vector<LonLat> RegridSide::places() const {
+  if (named_) return named_->centers();
+  return places_.empty() && axes_ ? axes_->places() : places_;
+}
+
+const CellSet& RegridSide::cells(const Execution& execution) {
+  if (!cells_ && named_) cells_ = named_->cells(execution);
+  if (!cells_ && lines_) {
+    const CellSet grid = CellSet::lonlat_grid(*lines_, options_.sides, execution);
+    CellFacts facts = grid.facts();
+    facts.name = name_;
+    facts.mask = mask_;
+    cells_ = grid.with_facts(std::move(facts));
+  }
+  return *cells_;
+}
+
+std::optional<TiledCells> RegridSide::tiled(const Execution& execution) {
+  if (named_) return TiledCells(*named_);
+  if (lines_) return TiledCells(*lines_);
+  if (cells(execution).covers_sphere() && cells_->facts().mask.empty()) {
+    return TiledCells(*cells_);
+  }
+  return std::nullopt;
+}
+
+WeightSide RegridSide::description(bool has_axes) const {
+  WeightSide side;
+  side.shape = shape_;
+  side.columns = columns_;
+  if (axes_ && has_axes) {
+    side.axes = *axes_;
+  } else {
+    side.points = places();
+  }
+  return side;
+}
+
+}  // namespace rondel::formats

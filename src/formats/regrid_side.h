@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A side of a regridding of files.
+//
+// in    the name of a grid, or a file
+// out   places, cells, and what a file of fields needs to know of them
+// index cells, in the order of the grid or the file
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondel/cell_set.h"
+#include "rondel/named_grids.h"
+#include "rondel/read_cells.h"
+#include "rondel/tiled_remap.h"
+#include "rondel/weight_files.h"
+
+namespace rondel::formats {
+
+class RegridSide {
+ public:
+  // Reads a side. With `has_cells` false its places are enough.
+  RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
+             const Execution& execution);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] std::size_t num_places() const;
+  [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
+  [[nodiscard]] const std::vector<std::int32_t>& mask() const { return mask_; }
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  // Returns the axes of a grid along axes, or null.
+  [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
+  [[nodiscard]] std::vector<LonLat> places() const;
+  // Returns the cells of a side that was read with cells. They are computed by the first call.
+  [[nodiscard]] const CellSet& cells(const Execution& execution);
+  // Returns the cells for tiles, or nothing if they do not cover the sphere.
+  [[nodiscard]] std::optional<TiledCells> tiled(const Execution& execution);
+  // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no
+  // list of places.
+  [[nodiscard]] WeightSide description(bool has_axes) const;
+
+ private:
+  void read_file(const FileName& file, bool has_cells, const Execution& execution);
+
+  std::string name_;
+  CellFileOptions options_;
+  std::optional<NamedGrid> named_;
+  std::optional<LonLatGrid> lines_;  // of a file with a grid along axes
+  std::optional<CellSet> cells_;
+  std::optional<LonLatAxes> axes_;
+  std::vector<LonLat> places_;  // of a file without axes
+  std::vector<std::uint64_t> shape_;
+  std::vector<std::int32_t> mask_;
+  std::vector<Column> columns_;
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace rondel::formats
