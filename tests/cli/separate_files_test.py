@@ -52,6 +52,7 @@ COMMANDS = {
         ["INPUT", "--to"],
         {"--output": ".nc", "--weights": ".nc"},
     ),
+    "regrid": ("{INPUT} {TARGET}", ["INPUT", "TARGET"], {"--output": ".nc"}),
     "remap": ("{INPUT} {TARGET}", ["INPUT", "TARGET"], {"--output": ".nc"}),
     "apply": ("{WEIGHTS} {VALUES}", ["WEIGHTS", "VALUES"], {"--output": ".nc"}),
     "check-weights": ("{WEIGHTS}", ["WEIGHTS"], {}),

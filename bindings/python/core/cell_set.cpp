@@ -25,6 +25,7 @@
 #include "module.h"
 #include "named.h"
 #include "rondel/geometries.h"
+#include "rondel/named_grids.h"
 #include "rondel/polygon_files.h"
 #include "rondel/read_cells.h"
 
@@ -171,6 +172,14 @@ void add_makers(nb::class_<CellSet>& cells) {
             });
           },
           nb::arg("nlon"), nb::arg("nlat"), nb::arg("sides").none(), nb::arg("threads"))
+      .def_static(
+          "named",
+          [](const std::string& name, nb::handle sides, unsigned threads) {
+            const auto grid_sides = named<GridSides>("sides", sides);
+            return unlocked(
+                [&] { return NamedGrid(name, grid_sides).cells({.threads = threads}); });
+          },
+          nb::arg("name"), nb::arg("sides").none(), nb::arg("threads"))
       .def_static(
           "polygons",
           [](const CellRings& rings, unsigned threads) {

@@ -111,5 +111,6 @@ NB_MODULE(_core, module) {
   rondel::python::add_geometries(module);
   rondel::python::add_constrained(module);
   rondel::python::add_dynamic_constrained(module);
+  rondel::python::add_regrid_files(module);
   rondel::python::add_weight_files(module);
 }

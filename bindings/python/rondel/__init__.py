@@ -125,6 +125,7 @@ from ._relations import (
     touches,
     within,
 )
+from ._regrid_files import RegridReport, regrid_file
 from ._remap import Remap, remap
 from ._simplify import simplify
 from ._validity import is_valid, make_valid, validity_reason
@@ -198,6 +199,7 @@ __all__ = [
     "read_weights",
     "relate",
     "relate_pattern",
+    "regrid_file",
     "remap",
     "simplify",
     "symmetric_difference",

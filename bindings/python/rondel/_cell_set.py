@@ -194,6 +194,48 @@ class CellSet(Described):
         return cls._of(_core.CellSet.lonlat_grid(*lines, sides, as_threads(threads)))
 
     @classmethod
+    def named(
+        cls, name: str, *, sides: Sides = "parallels", threads: int | None = None
+    ) -> CellSet:
+        """Makes the cells of a grid of the whole sphere from its name.
+
+        Parameters
+        ----------
+        name : str
+            ``'grid:0.25'`` and ``'grid:1440x720'``: between meridians and parallels, from longitude
+            -180 eastward and from the south pole northward. ``'healpix:7'`` and
+            ``'healpix:7:ring'``: the 12 * 4**7 pixels of HEALPix, in nested or in ring order.
+            ``'F320'``, ``'N320'`` and ``'O320'``: ECMWF's Gaussian grids, regular, reduced and
+            octahedral. ``'C384'``: the equiangular cubed sphere, of the shape (6, 384, 384).
+            ``'R2B6'``: the triangles of an icosahedron whose sides are divided by 2 and then 6
+            times by halves, as ICON's before its points are moved.
+        sides : {'parallels', 'great_circles'}, optional
+            Those of ``'grid:'``, ``'F'`` and ``'healpix:'``. With 'great_circles' a pixel has four
+            sides, which changes its area; otherwise chains that keep it.
+        threads
+            As in `voronoi`.
+
+        Returns
+        -------
+        CellSet
+            The cells, in the order that files of such grids have.
+
+        Raises
+        ------
+        InvalidInput
+            If there is no such grid.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> pixels = rondel.CellSet.named("healpix:1")
+        >>> pixels.shape, float(pixels.areas.min() * 48 / 3.141592653589793).__round__(9)
+        ((48,), 4.0)
+
+        """
+        return cls._of(_core.CellSet.named(name, sides, as_threads(threads)))
+
+    @classmethod
     def lonlat_centers(
         cls,
         lon: ArrayLike,

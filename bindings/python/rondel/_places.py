@@ -46,6 +46,8 @@ class Places:
         are_pairs: bool = False,
         are_targets: bool = False,
     ) -> None:
+        if isinstance(data, str):
+            data = CellSet.named(data)
         given = data
         self._cells = data if isinstance(data, CellSet) else None
         if self._cells is not None:

@@ -53,8 +53,8 @@ class Regridder(Described):
 
     Parameters
     ----------
-    ds_in, ds_out : Dataset, DataArray, dict, tuple or CellSet
-        The source and the target grid. Longitudes and latitudes are found by their attributes or
+    ds_in, ds_out : Dataset, DataArray, dict, tuple, CellSet or str
+        The source and the target grid; a text is the name of one (`CellSet.named`). Longitudes and latitudes are found by their attributes or
         names (docs/guide/formats.md); they are axes of a grid, curvilinear coordinates, or those of
         points, in degrees, or in radians if the attribute `units` says so. Conservative methods
         take the cells from the coordinates' attribute `bounds`, or from `lon_b` and `lat_b`; cells

@@ -121,9 +121,9 @@ def remap(
 
     Parameters
     ----------
-    source, target : CellSet, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
+    source, target : CellSet, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh, Regions or str
         The n source cells and the m target cells, which cover the sphere or parts of it. The cells
-        of a triangulation are its triangles.
+        of a triangulation are its triangles; a text is the name of a grid (`CellSet.named`).
     order : {1, 2}, optional
         The order of the reconstruction. 1 (default): the field is constant in each source cell.
         2: it has a gradient, which is estimated by least squares over the neighbors; across
@@ -203,6 +203,8 @@ def _as_cell_set(cells: Any, threads: int | None) -> CellSet:
     """The cells of what has cells: of diagrams, the faces of triangulations, those of meshes."""
     if isinstance(cells, CellSet):
         return cells
+    if isinstance(cells, str):
+        return CellSet.named(cells, threads=threads)
     if isinstance(cells, Mesh):
         each = np.arange(len(cells.offsets))
         points = cells.vertex_points / cells.radius

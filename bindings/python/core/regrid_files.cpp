@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/regrid_files.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interrupt.h"
+#include "module.h"
+#include "named.h"
+#include "rondel/names.h"
+
+namespace rondel::python {
+
+void add_regrid_files(nb::module_& module) {
+  nb::class_<RegridFileReport>(module, "RegridFileReport")
+      .def_ro("sources", &RegridFileReport::sources)
+      .def_ro("targets", &RegridFileReport::targets)
+      .def_ro("fields", &RegridFileReport::fields)
+      .def_ro("missing", &RegridFileReport::missing)
+      .def_ro("tiles", &RegridFileReport::tiles)
+      .def_ro("remarks", &RegridFileReport::remarks);
+  module.def(
+      "regrid_file",
+      [](const std::string& in, const std::string& target, const std::string& out,
+         const std::vector<std::string>& names, const std::optional<std::string>& source,
+         const nb::object& method, nb::handle norm, double max_missing, nb::handle sides,
+         nb::handle edges, nb::handle invalid, nb::handle overlap, std::uint64_t memory,
+         std::size_t cells_per_tile, int deflate, const std::string& history, unsigned threads,
+         const nb::object& progress) {
+        RegridFileOptions options;
+        options.names = names;
+        if (source) options.source = FileName{*source, {}};
+        if (!method.is_none()) options.method = named<FieldMethod>("method", method);
+        options.norm = named<RemapNorm>("norm", norm);
+        options.max_missing = max_missing;
+        options.cells = {.sides = named<GridSides>("sides", sides),
+                         .edges = named<PolygonEdges>("edges", edges),
+                         .invalid = named<InvalidPolygons>("invalid", invalid)};
+        options.overlap = named<CellOverlap>("overlap", overlap);
+        options.memory = memory;
+        options.cells_per_tile = cells_per_tile;
+        options.netcdf.deflate = deflate;
+        options.history = history;
+        constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
+        return watched(many, threads, progress, [&](const Execution& execution) {
+          return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
+        });
+      },
+      nb::arg("path"), nb::arg("target"), nb::arg("out"), nb::arg("names"),
+      nb::arg("source").none(), nb::arg("method").none(), nb::arg("norm").none(),
+      nb::arg("max_missing"), nb::arg("sides").none(), nb::arg("edges").none(),
+      nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
+      nb::arg("deflate"), nb::arg("history"), nb::arg("threads"), nb::arg("progress").none());
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Regridding of files, as the command `rondel regrid` does it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from . import _core
+from ._arrays import as_threads
+from ._geo import Path
+from ._geometries import Edges, Invalid, Sides
+from ._types import Progress
+
+FieldMethod: TypeAlias = Literal[
+    "conservative",
+    "conservative_2nd",
+    "largest_share",
+    "nearest",
+    "linear",
+    "laplace",
+    "sibson",
+    "hermite",
+    "cubic",
+    "bilinear",
+]
+
+
+@dataclass(frozen=True)
+class RegridReport:
+    """What `regrid_file` did.
+
+    Attributes
+    ----------
+    sources, targets : int
+        The numbers of places of both sides.
+    fields : int
+        The number of fields: variables times their times and levels.
+    missing : int
+        The number of values of targets that are missing.
+    tiles : int
+        The number of tiles in which weights were computed, or 0 if all were in memory.
+    remarks : tuple of str
+        What was left out, and why.
+
+    """
+
+    sources: int
+    targets: int
+    fields: int
+    missing: int
+    tiles: int
+    remarks: tuple[str, ...]
+
+
+def regrid_file(
+    path: Path,
+    target: Path,
+    out: Path,
+    *,
+    names: str | Iterable[str] = (),
+    source: Path | None = None,
+    method: FieldMethod | None = None,
+    norm: Literal["destarea", "fracarea"] = "fracarea",
+    max_missing: float = 0.5,
+    sides: Sides = "parallels",
+    edges: Edges = "lonlat",
+    invalid: Invalid = "error",
+    overlap: Literal["error", "first", "share"] = "error",
+    memory: int = 2 << 30,
+    tile: int = 0,
+    deflate: int = 1,
+    history: str = "",
+    threads: int | None = None,
+    progress: Progress = None,
+) -> RegridReport:
+    """Brings the fields of a file to another grid.
+
+    All variables at the places of the source are carried, for all times and levels, with their
+    attributes, their axes, and variables without places such as the bounds of times. Files may be
+    larger than memory.
+
+    Parameters
+    ----------
+    path : path-like
+        netCDF with fields; ``"FILE.nc:NAME"`` is one of them, or one of several grids.
+    target : path-like
+        The name of a grid (`CellSet.named`), netCDF with cells, or .geojson with polygons.
+    out : path-like
+        Ends in .nc or .nc4 (netCDF-4), .csv, .tsv or .npy. The file appears when it is complete.
+    names : str or iterable of str, optional
+        The variables; by default all that are at the places of the source.
+    source : path-like, optional
+        Where the fields are: the name of a grid, or a file with cells; by default `path`.
+    method : str, optional
+        'conservative', 'conservative_2nd' (with gradients), 'largest_share' (the most frequent
+        value), 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic', or 'bilinear' on a
+        grid along axes. By default fields with the attribute `flag_values` or `flag_meanings` get
+        'largest_share', and all others 'conservative'.
+    norm : {'fracarea', 'destarea'}, optional
+        What conservative sums are divided by: the part that sources cover, so that constants are
+        kept (default), or the target's area, so that integrals are.
+    max_missing : float, optional
+        The share of a target that may lack values, from 0 to 1; by default 0.5.
+    sides : {'parallels', 'great_circles'}, optional
+        The northern and southern sides of cells of grids, as in `CellSet.lonlat_grid`.
+    edges, invalid
+        How polygons are read, as in `CellSet.read`.
+    overlap : {'error', 'first', 'share'}, optional
+        What becomes of cells of one side that overlap, as in `remap`.
+    memory : int, optional
+        About how many bytes may be in use; by default 2 GiB. Conservative weights of larger grids
+        are computed tile by tile, with the same values.
+    tile : int, optional
+        The number of cells of a tile; by default as `memory` says.
+    deflate : int, optional
+        The effort of compression in netCDF-4, from 0 to 9; by default 1.
+    history : str, optional
+        A line for the attribute `history` of the file.
+    threads : int, optional
+        The largest number of threads; by default one for each core.
+    progress : callable, optional
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+
+    Returns
+    -------
+    RegridReport
+        The numbers of places, fields and missing values.
+
+    Raises
+    ------
+    OSError
+        If a file cannot be read or written.
+    ValueError
+        If there is no such grid, the file has no fields at the source's places, or the method does
+        not fit it; `InvalidInput` if cells overlap.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> report = rondel.regrid_file("era5.nc", "healpix:7", "pixels.nc")  # doctest: +SKIP
+    >>> report.fields  # doctest: +SKIP
+    365
+
+    """
+    made = _core.regrid_file(
+        os.fspath(path),
+        os.fspath(target),
+        os.fspath(out),
+        [names] if isinstance(names, str) else list(names),
+        None if source is None else os.fspath(source),
+        method,
+        norm,
+        max_missing,
+        sides,
+        edges,
+        invalid,
+        overlap,
+        memory,
+        tile,
+        deflate,
+        history,
+        as_threads(threads),
+        progress,
+    )
+    return RegridReport(
+        made.sources, made.targets, made.fields, made.missing, made.tiles, tuple(made.remarks)
+    )

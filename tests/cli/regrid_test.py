@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files that are regridded, against sums that NumPy computes: of packed numbers, in chunks, with times and levels.
+
+Without netCDF4-python ctest says "Skipped".
+"""
+
+import importlib.util
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if importlib.util.find_spec("netCDF4") is None:
+    sys.exit(77)
+import netCDF4
+import numpy as np
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+
+
+def lines(centers, least, most):
+    """The lines between cells of evenly spaced centers."""
+    middles = (centers[1:] + centers[:-1]) / 2
+    return np.concatenate([[least], middles, [most]])
+
+
+def shares(source, target, period=None):
+    """How much of each interval of the target each one of the source has, (target, source)."""
+    found = np.zeros((len(target) - 1, len(source) - 1))
+    for shift in (-period, 0, period) if period else (0,):
+        low = np.maximum(target[:-1, None], source[None, :-1] + shift)
+        high = np.minimum(target[1:, None], source[None, 1:] + shift)
+        found += np.maximum(high - low, 0)
+    return found
+
+
+class Regrid(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        generator = np.random.default_rng(1)
+        self.lat = np.linspace(90, -90, 31)
+        self.lon = np.arange(0, 360, 6.0)
+        self.air = np.round(generator.uniform(250, 310, (4, 2, 31, 60)), 2)
+        self.sea = generator.uniform(0, 30, (4, 31, 60)).astype("f4")
+        self.sea[:, 5:15, 10:30] = np.nan
+
+    def write(self, name, kind, chunks):
+        with netCDF4.Dataset(self.folder / name, "w", format=kind) as file:
+            for dimension, size in (("time", 4), ("level", 2), ("latitude", 31), ("longitude", 60), ("bnds", 2)):
+                file.createDimension(dimension, size)
+            file.setncatts({"title": "made", "history": "yesterday: made", "Conventions": "CF-1.7"})
+            time = file.createVariable("time", "f8", ("time",))
+            time.setncatts({"units": "hours since 2000-01-01", "bounds": "time_bnds", "calendar": "standard"})
+            time[:] = np.arange(4) * 6
+            file.createVariable("time_bnds", "f8", ("time", "bnds"))[:] = np.arange(8).reshape(4, 2)
+            level = file.createVariable("level", "i4", ("level",))
+            level.units = "hPa"
+            level[:] = [850, 500]
+            for axis, values, units in (("latitude", self.lat, "degrees_north"), ("longitude", self.lon, "degrees_east")):
+                variable = file.createVariable(axis, "f4", (axis,))
+                variable.units = units
+                variable[:] = values
+            options = {"chunksizes": (1, 1, 7, 9), "zlib": True} if chunks else {}
+            air = file.createVariable("t", "i2", ("time", "level", "latitude", "longitude"), fill_value=-32767, **options)
+            air.setncatts({"scale_factor": 0.01, "add_offset": 280.0, "units": "K", "cell_methods": "time: mean"})
+            air[:] = self.air
+            file.createVariable("sst", "f4", ("time", "latitude", "longitude"), fill_value=-9)[:] = np.ma.masked_invalid(self.sea)
+            crs = file.createVariable("crs", "i4", ())
+            crs.grid_mapping_name = "latitude_longitude"
+
+    def regrid(self, *arguments, status=0):
+        done = subprocess.run([TOOL, "regrid", *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done
+
+    def sums(self, nlon, nlat):
+        """The means over a grid by NumPy, and the share of each cell that has values."""
+        east = shares(lines(self.lon, -3, 357), np.linspace(-180, 180, nlon + 1), 360)
+        height = [np.sin(np.radians(edge)) for edge in (lines(self.lat[::-1], -90, 90), np.linspace(-90, 90, nlat + 1))]
+        north = shares(*height)[:, ::-1]
+        weights = np.einsum("aj,bi->abji", north, east)
+        weights /= weights.sum((2, 3), keepdims=True)
+        air = np.einsum("abji,tlji->tlab", weights, self.air)
+        known = np.isfinite(self.sea)
+        share = np.einsum("abji,tji->tab", weights, known.astype(float))
+        sea = np.einsum("abji,tji->tab", weights, np.where(known, self.sea.astype(float), 0))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return air, np.where(share >= 0.5 - 1e-9, sea / share, np.nan), share
+
+    def test_values_are_those_of_numpy(self):
+        air, sea, share = self.sums(12, 6)
+        self.assertGreater(np.isnan(sea).sum(), 0)
+        for kind, chunks in (("NETCDF3_64BIT_OFFSET", False), ("NETCDF4", False), ("NETCDF4", True)):
+            self.write("in.nc", kind, chunks)
+            self.regrid("in.nc", "grid:12x6", "-o", "out.nc")
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                self.assertEqual(out["t"].dtype, np.float32)
+                self.assertEqual(out["t"].dimensions, ("time", "level", "lat", "lon"))
+                np.testing.assert_allclose(out["t"][:].filled(np.nan), air, rtol=2e-7)
+                found = out["sst"][:].filled(np.nan)
+                clear = np.abs(share - 0.5) > 1e-6
+                np.testing.assert_allclose(found[clear], sea[clear], rtol=1e-6)
+
+    def test_what_is_known_of_the_fields_is_kept(self):
+        self.write("in.nc", "NETCDF4", True)
+        said = self.regrid("in.nc", "healpix:2", "-o", "out.nc")
+        self.assertEqual(said.stderr, "")
+        with netCDF4.Dataset(self.folder / "out.nc") as out:
+            self.assertEqual(out["t"].cell_methods, "time: mean")
+            self.assertEqual(out["t"].units, "K")
+            self.assertNotIn("scale_factor", out["t"].ncattrs())
+            self.assertEqual(out["time"].bounds, "time_bnds")
+            self.assertEqual(out["time"].calendar, "standard")
+            np.testing.assert_array_equal(out["time_bnds"][:], np.arange(8).reshape(4, 2))
+            np.testing.assert_array_equal(out["level"][:], [850, 500])
+            self.assertEqual(out.title, "made")
+            self.assertEqual(out.history, "rondel regrid in.nc healpix:2\nyesterday: made")
+
+    def test_tiles_have_the_same_bytes(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        for target in ("healpix:3", "grid:7.5", "O8"):
+            self.regrid("in.nc", target, "-o", "whole.nc", "--json")
+            for options in (("--tile", "200"), ("--tile", "900", "--memory", "1", "--threads", "1")):
+                said = self.regrid("in.nc", target, "-o", "tiles.nc", "--json", *options)
+                self.assertGreater(json.loads(said.stdout)["tiles"], 2)
+                self.assertEqual((self.folder / "tiles.nc").read_bytes(), (self.folder / "whole.nc").read_bytes())
+
+    def test_nothing_is_left_of_what_fails(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        data = (self.folder / "in.nc").read_bytes()
+        (self.folder / "cut.nc").write_bytes(data[: len(data) // 2])
+        before = sorted(path.name for path in self.folder.iterdir())
+        for arguments in (("cut.nc", "grid:12x6"), ("in.nc", "healpix:99"), ("in.nc", "missing.nc")):
+            done = self.regrid(*arguments, "-o", "out.nc", status=1)
+            self.assertEqual(len(done.stderr.splitlines()), 1)
+            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Laws of named grids, of weights by tiles, and of files that are regridded.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "fuzz/scratch_folder.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/named_grids.h"
+#include "rondel/regrid_files.h"
+#include "rondel/remap.h"
+#include "rondel/tiled_remap.h"
+
+namespace rondel::fuzz {
+namespace {
+
+// The name of a small grid, or at times any text.
+std::string next_name(ByteSource& source) {
+  const auto number = [&](std::size_t most) { return std::to_string(source.below(most + 1)); };
+  switch (source.below(9)) {
+    case 0: return "grid:" + number(12) + "x" + number(9);
+    case 1: return "grid:" + std::to_string(10 + source.below(60));
+    case 2: return "healpix:" + number(3);
+    case 3: return "healpix:" + number(2) + ":ring";
+    case 4: return "F" + number(5);
+    case 5: return "O" + number(4);
+    case 6: return "C" + number(5);
+    case 7: return "R" + number(3) + "B" + number(2);
+    default: break;
+  }
+  std::string text;
+  while (!source.is_empty() && text.size() < 12) text += static_cast<char>(source.byte());
+  return text;
+}
+
+// Returns the grid of a name, or nothing: a name of a grid is told by its form.
+std::optional<NamedGrid> grid_of(const std::string& name, GridSides sides) {
+  try {
+    NamedGrid grid(name, sides);
+    require(NamedGrid::is_name(name), "a grid has a name of their form");
+    if (grid.num_cells() > 3000) return std::nullopt;
+    return grid;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+// The cells of a grid, or nothing where rows of one or two cells have no great circles.
+std::optional<CellSet> cells_of(const NamedGrid& grid) {
+  try {
+    return grid.cells();
+  } catch (const InvalidInput&) {
+    require(grid.axes() != nullptr, "cells of formulas are cells");
+    return std::nullopt;
+  }
+}
+
+void test_grid(const NamedGrid& grid, const CellSet& cells) {
+  require(cells.covers_sphere() && cells.num_cells() == grid.num_cells(), "cells cover the sphere");
+  require(grid.centers().size() == grid.num_cells(), "a cell has a center");
+  std::uint64_t product = 1;
+  for (const std::uint64_t length : grid.shape()) product *= length;
+  require(product == grid.num_cells(), "the shape has all cells");
+  require(!grid.name().empty(), "a grid has its name");
+}
+
+std::vector<std::int32_t> next_mask(ByteSource& source, std::size_t n) {
+  if (source.below(2) == 0) return {};
+  std::vector<std::int32_t> mask(n);
+  const std::size_t share = 1 + source.below(5);
+  for (std::size_t i = 0; i < n; ++i) mask[i] = (i * 7 + source.below(3)) % 6 < share ? 1 : 0;
+  return mask;
+}
+
+void test_tiles(ByteSource& source, const CellSet& from, const CellSet& to, const TiledCells& source_cells,
+                const TiledCells& target_cells) {
+  TiledRemapOptions options;
+  options.norm = source.below(2) == 0 ? RemapNorm::destarea : RemapNorm::fracarea;
+  options.source_mask = next_mask(source, from.num_cells());
+  options.target_mask = next_mask(source, to.num_cells());
+  options.cells_per_tile = 1 + source.below(256) * 8;
+  require(source_cells.num_cells() == from.num_cells() &&
+              source_cells.has_parallels() == from.has_parallels(),
+          "sides have their cells");
+  const Remap whole = remap(from, to, {1, options.norm, options.source_mask, options.target_mask});
+  const TiledRemap tiled(source_cells, target_cells, options);
+  require(tiled.num_sources() == from.num_cells() && tiled.num_targets() == to.num_cells(),
+          "both sides are there");
+  std::vector<int> times(to.num_cells(), 0);
+  for (std::size_t t = 0; t < tiled.num_tiles(); ++t) {
+    const RemapTile tile = tiled.tile(t);
+    for (std::size_t r = 0; r < tile.targets.size(); ++r) {
+      const Index target = tile.targets[r];
+      ++times[target];
+      const std::uint64_t begin = whole.weights.offsets[target];
+      const std::uint64_t size = whole.weights.offsets[target + std::size_t{1}] - begin;
+      require(tile.weights.offsets[r + 1] - tile.weights.offsets[r] == size, "a row has its size");
+      for (std::uint64_t k = 0; k < size; ++k) {
+        const std::uint64_t own = tile.weights.offsets[r] + k;
+        require(tile.weights.columns[own] + tile.first_source == whole.weights.columns[begin + k] &&
+                    tile.weights.values[own] == whole.weights.values[begin + k],
+                "a row is that of the whole");
+      }
+      require(tile.areas[r] == whole.target_areas[target] &&
+                  tile.fractions[r] == whole.target_fractions[target],
+              "areas are those of the whole");
+    }
+  }
+  require(std::ranges::all_of(times, [](int n) { return n == 1; }), "a target is in one tile");
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A field that is constant stays so, one with gaps stays between its bounds, and tiles change
+// nothing.
+void test_files(ByteSource& source, const NamedGrid& from, const std::string& target) {
+  static const ScratchFolder folder;
+  const std::string in = folder.file("in.nc");
+  const std::string out = folder.file("out.nc");
+  const std::string tiles = folder.file("tiles.nc");
+  FieldSet fields;
+  fields.num_points = from.num_cells();
+  fields.arrays = {{"one", {}, {}, std::vector<double>(from.num_cells(), 3), {}, {}},
+                   {"any", {}, {}, {}, {}, {}}};
+  const std::size_t gaps = 1 + source.below(9);
+  for (std::size_t i = 0; i < from.num_cells(); ++i) {
+    fields.arrays[1].values.push_back(i % gaps == 1 ? std::numeric_limits<double>::quiet_NaN()
+                                                    : static_cast<double>(i % 11));
+  }
+  WeightSide side;
+  side.points = from.centers();
+  write_fields({in, {}}, fields, side);
+  RegridFileOptions options;
+  options.source = FileName{from.name(), {}};
+  options.max_missing = static_cast<double>(source.below(5)) / 4;
+  constexpr FieldMethod methods[] = {FieldMethod::conservative, FieldMethod::conservative,
+                                     FieldMethod::largest_share, FieldMethod::nearest};
+  options.method = methods[source.below(4)];
+  const RegridFileReport report = regrid_file({in, {}}, {target, {}}, {out, {}}, options);
+  require(report.fields == 2 && report.sources == from.num_cells(), "all fields are carried");
+  options.cells_per_tile = 1 + source.below(256) * 4;
+  options.memory = 1 + source.below(256) * 1024;
+  regrid_file({in, {}}, {target, {}}, {tiles, {}}, options);
+  require(bytes_of(out) == bytes_of(tiles), "tiles have the same bytes");
+  const FieldSet found = read_fields({out, {}}, {}, report.targets);
+  for (const double value : found.arrays[0].values) {
+    require(std::abs(value - 3) < 1e-12, "a constant is kept");
+  }
+  for (const double value : found.arrays[1].values) {
+    require(std::isnan(value) || (value > -1e-9 && value < 10 + 1e-9), "means are between bounds");
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;  // NOLINT(google-build-using-namespace)
+  fuzz::ByteSource source(data, size);
+  const auto sides = source.below(4) == 0 ? GridSides::great_circles : GridSides::parallels;
+  const std::string first = fuzz::next_name(source);
+  const std::string second = fuzz::next_name(source);
+  const auto from = fuzz::grid_of(first, sides);
+  const auto to = fuzz::grid_of(second, sides);
+  if (!from || !to) return 0;
+  const auto sources = fuzz::cells_of(*from);
+  const auto targets = fuzz::cells_of(*to);
+  if (!sources || !targets) return 0;
+  fuzz::test_grid(*from, *sources);
+  if (source.below(3) == 0) {
+    fuzz::test_files(source, *from, second);
+  } else {
+    fuzz::test_tiles(source, *sources, *targets,
+                     source.below(4) == 0 ? TiledCells(*sources) : TiledCells(*from),
+                     TiledCells(*to));
+  }
+  return 0;
+}
