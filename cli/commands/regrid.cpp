@@ -103,6 +103,20 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
   const CLI::Option* const overlap = add_word<CellOverlap>(
       parser, "--overlap", options.regrid.overlap, named_values<CellOverlap>(),
       "Cells of one side that overlap: error (default), first or share");
+  const CLI::Option* const limiter = parser.add_option_function<std::string>(
+      "--limiter", [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
+      "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
+      "and the integral is kept");
+  parser.get_option("--limiter")
+      ->check([](const std::string& text) {
+        return text == "none" || text == "bounds" ? std::string()
+                                                  : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+  require_effect(
+      options.common, limiter,
+      [&options] { return options.regrid.method == FieldMethod::conservative_2nd; },
+      "without --method conservative-2nd");
   for (const CLI::Option* const option : {norm, overlap}) {
     require_effect(options.common, option, is_of_cells, "with a method between places");
   }

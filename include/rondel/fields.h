@@ -31,7 +31,8 @@ struct FieldArray {
   std::vector<double> values;  ///< the points change fastest; NaN is missing
   /// units, long_name ...: attributes of netCDF that still hold for values at other points
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::vector<std::pair<std::string, std::vector<double>>> numbers;  ///< flag_values, flag_masks
+  std::vector<std::pair<std::string, std::vector<double>>> numbers =
+      {};  ///< flag_values, flag_masks
   /// True if single precision holds the values: netCDF has floats, or packed integers.
   bool is_single = false;
 
@@ -52,8 +53,9 @@ struct FieldSet {
   std::vector<FieldArray> axes;
   /// Arrays of netCDF that have no points, such as bounds of times, with their values; only if
   /// FieldExtras ask for them.
-  std::vector<FieldArray> others;
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< of the file: title, history ...
+  std::vector<FieldArray> others = {};
+  std::vector<std::pair<std::string, std::string>> attributes =
+      {};  ///< of the file: title, history ...
   /// netCDF with longitudes and latitudes of the points: unit vectors; else empty
   std::vector<Point> points;
   std::vector<LonLat> positions;  ///< the same places in degrees, as in the file

@@ -51,6 +51,9 @@ struct RegridFileOptions {
   /// What conservative sums are divided by. With fracarea constants are kept where sources cover a
   /// part of a target; with destarea integrals are.
   RemapNorm norm = RemapNorm::fracarea;
+  /// Whether values of conservative_2nd are limited to the bounds of their sources
+  /// (apply_limited()).
+  bool is_limited = false;
   /// The share of a target that may lack values: that no source covers, or whose sources have none.
   /// With 0 any lack is too much, with 1 any value is enough.
   double max_missing = 0.5;

@@ -118,6 +118,17 @@ RONDEL_API WeightFile weight_file(Remap remap);
 RONDEL_API void write_weights(const FileName& file, const Remap& remap,
                               const NetcdfOptions& netcdf = {});
 
+/// Multiplies fields by the weights, as apply() does, and limits the result of order 2: no value is
+/// outside of the bounds of the sources that its target touches, and the integral stays that of the
+/// weights (clip and assured sum: Bradley et al., SIAM J. Sci. Comput. 41, 2019). What clipping takes
+/// away is given to all targets, in proportion to the room that their bounds leave.
+/// \param in  shape (num_fields, sources); NaN is missing
+/// \param out  shape (num_fields, targets)
+/// \throws InvalidInput as apply() does
+RONDEL_API void apply_limited(const Remap& remap, std::span<const double> in, std::span<double> out,
+                              std::size_t num_fields = 1, const ApplyOptions& options = {},
+                              const Execution& execution = {});
+
 /// Computes the target means of order 2 with given gradients, for which linear fields are
 /// reproduced up to rounding.
 /// \param means  one for each source cell

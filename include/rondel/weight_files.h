@@ -22,8 +22,6 @@ namespace rondel {
 /// The sources or the targets of weights, as a file describes them. Any of the arrays may be empty.
 struct WeightSide {
   std::vector<LonLat> points;      ///< centers of cells, or sites; NaN for a cell without a place
-  /// The axes of a grid along axes, in place of `points`; only files of fields take them.
-  LonLatAxes axes;
   std::vector<double> areas;       ///< steradians
   std::vector<double> fractions;   ///< the share of each cell that takes part
   std::vector<std::int32_t> mask;  ///< 0: the cell takes no part
@@ -33,6 +31,8 @@ struct WeightSide {
   std::vector<LonLat> corners;
   /// Texts and numbers for each cell, such as the properties of polygons.
   std::vector<Column> columns;
+  /// The axes of a grid along axes, in place of `points`; only files of fields take them.
+  LonLatAxes axes = {};
 };
 
 /// Weights, and what a file says about them.

@@ -180,7 +180,10 @@ class RegridJob {
     for (const double fraction : made.target_fractions) {
       is_covered.push_back(is_enough(fraction) ? 1 : 0);
     }
-    return with_rows(made.weights, is_covered);
+    made.weights = with_rows(made.weights, is_covered);
+    Weights weights = made.weights;
+    if (options.order == 2 && options_.is_limited) second_ = std::move(made);
+    return weights;
   }
   [[nodiscard]] bool is_enough(double fraction) const {
     constexpr double rounding = 1e-9;
@@ -238,6 +241,9 @@ class RegridJob {
                               std::span(carried).subspan(f * report_.targets, report_.targets),
                               options_.max_missing, execution_);
         }
+      } else if (second_ && method == FieldMethod::conservative_2nd) {
+        apply_limited(*second_, values, carried, count,
+                      {.fill = missing, .max_missing = options_.max_missing}, execution_);
       } else {
         apply(weights, values, carried, count, {.fill = missing, .max_missing = options_.max_missing},
               execution_);
@@ -366,6 +372,7 @@ class RegridJob {
   std::vector<LonLat> places_;
   std::unique_ptr<FieldFile> fields_;
   std::map<FieldMethod, Weights> weights_;
+  std::optional<Remap> second_;  // of order 2, if its values are limited
   std::optional<TiledCells> tiled_source_;
   std::optional<TiledCells> tiled_target_;
   std::optional<TiledRemap> tiles_;

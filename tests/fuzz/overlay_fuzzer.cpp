@@ -74,6 +74,12 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   for (const double value : out) {
     require(std::isnan(value) || std::abs(value - 1) < 1e-14, "a constant comes back");
   }
+  std::vector<double> marks(source.num_cells());
+  for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = i % 3 == 0 ? 1 : 0;
+  apply_limited(second, marks, out);
+  for (const double value : out) {
+    require(std::isnan(value) || (value >= 0 && value <= 1), "limited values are within bounds");
+  }
   const Remap same = remap(source, source, covered);
   for (std::size_t j = 0; j < source.num_cells(); ++j) {
     if (!(source.areas()[j] > 1e-24)) continue;  // no wider than rounding

@@ -10,6 +10,7 @@ rondel_add_test(overlay_test
   overlay/hostile_test.cpp
   overlay/inside_test.cpp
   overlay/inside_plane_test.cpp
+  overlay/limiter_test.cpp
   overlay/measure_test.cpp
   formats/arrow_test.cpp
   formats/mesh_blocks_test.cpp

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Values of order 2 that are limited: bounds of the sources, the integral of before, and no change
+// where nothing is out of bounds.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "rondel/remap.h"
+#include "unit/overlay/support.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// The integral over what sources cover of the targets that have values.
+long double integral_of(const Remap& remap, const std::vector<double>& values) {
+  long double sum = 0;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    if (std::isnan(values[j])) continue;
+    const long double area =
+        remap.norm == RemapNorm::fracarea
+            ? static_cast<long double>(remap.target_areas[j]) * remap.target_fractions[j]
+            : remap.target_areas[j];
+    sum += area * values[j];
+  }
+  return sum;
+}
+
+struct BoundsOfTarget {
+  double low;
+  double high;
+};
+BoundsOfTarget bounds_of(const Remap& remap, const std::vector<double>& sources, std::size_t j) {
+  BoundsOfTarget bounds{1e300, -1e300};
+  for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+    const double value = sources[remap.pieces.values[k]];
+    if (std::isnan(value)) continue;
+    bounds = {std::min(bounds.low, value), std::max(bounds.high, value)};
+  }
+  return bounds;
+}
+
+void expect_limited(const Remap& remap, const std::vector<double>& sources, double max_missing) {
+  const ApplyOptions options{.max_missing = max_missing};
+  std::vector<double> plain(remap.target_areas.size());
+  std::vector<double> limited(remap.target_areas.size());
+  apply(remap.weights, sources, plain, 1, options);
+  apply_limited(remap, sources, limited, 1, options);
+  double largest = 1;
+  std::size_t num_beyond = 0;
+  for (std::size_t j = 0; j < limited.size(); ++j) {
+    ASSERT_EQ(std::isnan(plain[j]), std::isnan(limited[j])) << j;
+    if (std::isnan(limited[j])) continue;
+    const double share = remap.norm == RemapNorm::fracarea ? 1 : remap.target_fractions[j];
+    const auto [low, high] = bounds_of(remap, sources, j);
+    const double rounding = 4e-16 * std::max(std::abs(low), std::abs(high));
+    EXPECT_GE(limited[j], low * share - rounding) << j;
+    EXPECT_LE(limited[j], high * share + rounding) << j;
+    if (plain[j] < low * share || plain[j] > high * share) ++num_beyond;
+    largest = std::max(largest, std::abs(limited[j]));
+  }
+  EXPECT_GT(num_beyond, 0U);
+  EXPECT_NEAR(static_cast<double>(integral_of(remap, limited) - integral_of(remap, plain)), 0,
+              1e-14 * 4 * 3.2 * largest);
+}
+
+TEST(overlay_limiter, bounds_and_integrals_are_kept) {
+  std::mt19937 random(3);
+  for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+    const CellSet source = CellSet::voronoi(triangulation_of("uniform", 300, 1));
+    const CellSet target = CellSet::voronoi(triangulation_of("uniform", 2000, 2));
+    const Remap remap = rondel::remap(source, target, {.order = 2, .norm = norm});
+    std::vector<double> step(300);
+    for (double& value : step) value = random() % 2 == 0 ? 0 : 1;
+    expect_limited(remap, step, 0);
+    for (double& value : step) value = std::uniform_real_distribution<double>(-5, 9)(random);
+    expect_limited(remap, step, 0);
+    for (std::size_t i = 0; i < 300; i += 7) step[i] = nan;
+    expect_limited(remap, step, 0.5);
+  }
+}
+
+TEST(overlay_limiter, parts_of_the_sphere_are_limited_as_well) {
+  std::vector<double> lines;
+  for (int k = 0; k <= 20; ++k) lines.push_back(3.0 * k);
+  const CellSet source = CellSet::lonlat_grid({lines, {-20, -10, 0, 10, 20, 30}});
+  const CellSet target = CellSet::voronoi(triangulation_of("uniform", 3000, 5));
+  std::mt19937 random(8);
+  std::vector<double> values(source.num_cells());
+  for (double& value : values) value = random() % 3 == 0 ? 4 : 1;
+  for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+    expect_limited(rondel::remap(source, target, {.order = 2, .norm = norm}), values, 0);
+  }
+}
+
+TEST(overlay_limiter, values_within_bounds_stay) {
+  const CellSet source = CellSet::voronoi(triangulation_of("uniform", 500, 1));
+  const CellSet target = CellSet::voronoi(triangulation_of("uniform", 200, 2));
+  const Remap remap = rondel::remap(source, target, {.order = 1});
+  std::vector<double> values(500);
+  std::mt19937 random(8);
+  for (double& value : values) value = std::uniform_real_distribution<double>(0, 1)(random);
+  std::vector<double> plain(200);
+  std::vector<double> limited(200);
+  apply(remap.weights, values, plain);
+  apply_limited(remap, values, limited);
+  for (std::size_t j = 0; j < 200; ++j) EXPECT_NEAR(limited[j], plain[j], 1e-15);
+}
+
+// All fields of a call are limited by themselves, for any number of threads.
+TEST(overlay_limiter, fields_do_not_touch_each_other) {
+  const CellSet source = CellSet::voronoi(triangulation_of("uniform", 200, 1));
+  const CellSet target = CellSet::voronoi(triangulation_of("uniform", 900, 2));
+  const Remap remap = rondel::remap(source, target, {.order = 2});
+  std::mt19937 random(8);
+  std::vector<double> values(600);
+  for (double& value : values) value = random() % 2 == 0 ? 0 : 1;
+  std::vector<double> all(2700);
+  apply_limited(remap, values, all, 3, {}, {.threads = 3});
+  for (std::size_t f = 0; f < 3; ++f) {
+    const auto first = static_cast<std::ptrdiff_t>(200 * f);
+    const std::vector<double> one(values.begin() + first, values.begin() + first + 200);
+    std::vector<double> limited(900);
+    apply_limited(remap, one, limited, 1, {}, {.threads = 1});
+    EXPECT_TRUE(std::equal(limited.begin(), limited.end(), all.begin() + static_cast<std::ptrdiff_t>(900 * f)));
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
