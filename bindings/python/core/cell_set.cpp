@@ -24,6 +24,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "polygon_rules.h"
 #include "rondel/geometries.h"
 #include "rondel/named_grids.h"
 #include "rondel/polygon_files.h"
@@ -56,10 +57,11 @@ FeatureChoice chosen(const std::optional<IndicesIn>& groups) {
 CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb::handle overlap,
                       nb::handle invalid, const std::optional<IndicesIn>& groups,
                       unsigned threads) {
+  const PolygonOptions rules = polygon_rules(edges, overlap, invalid);
   const CellFileOptions options{.sides = named<GridSides>("sides", sides),
-                                .edges = named<PolygonEdges>("edges", edges),
-                                .invalid = named<InvalidPolygons>("invalid", invalid),
-                                .overlap = named<PolygonOverlap>("overlap", overlap),
+                                .edges = rules.edges,
+                                .invalid = rules.invalid,
+                                .overlap = rules.overlap,
                                 .is_taken = chosen(groups)};
   return read_from(path, [&](const FileName& file) {
     return unlocked([&] { return CellSet::read(file, options, {.threads = threads}); });
@@ -70,10 +72,8 @@ CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb
 CellSet cells_of_geometries(const LonLatGeometries& geometries, nb::handle edges,
                             nb::handle overlap, nb::handle invalid,
                             const std::optional<IndicesIn>& groups, unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                               .invalid = named<InvalidPolygons>("invalid", invalid),
-                               .overlap = named<PolygonOverlap>("overlap", overlap),
-                               .is_taken = chosen(groups)};
+  PolygonOptions options = polygon_rules(edges, overlap, invalid);
+  options.is_taken = chosen(groups);
   return unlocked([&] {
     const Execution execution{.threads = threads};
     return CellSet::of(cells_of_polygons(geometries.polygons, options, execution),

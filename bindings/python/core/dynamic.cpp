@@ -97,7 +97,7 @@ void add_sites(nb::class_<SharedDynamic>& type) {
       .def_prop_ro("num_vertices", number_getter<&DynamicTriangulation::num_vertices>())
       .def_prop_ro("num_faces", number_getter<&DynamicTriangulation::num_faces>())
       .def_prop_ro("dimension", number_getter<&DynamicTriangulation::dimension>())
-      .def("ids",
+      .def("site_ids",
            [](const SharedDynamic& self) {
              return indices_out(self.ask([](const DynamicTriangulation& t) { return t.ids(); }));
            })

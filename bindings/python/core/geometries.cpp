@@ -21,6 +21,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "polygon_rules.h"
 #include "rondel/regions.h"
 #include "rondel/simplify.h"
 
@@ -31,8 +32,7 @@ namespace {
 std::tuple<Geometries, std::vector<std::string>> geometries_of(const GeometriesIn& given,
                                                                nb::handle edges, nb::handle invalid,
                                                                unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                               .invalid = named<InvalidPolygons>("invalid", invalid)};
+  const PolygonOptions options = polygon_rules(edges, invalid);
   return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
       FeatureTable table = features_in(geometries, options, execution);
@@ -65,8 +65,7 @@ geometry_pieces_of(const Geometries& first, const Geometries& second, nb::handle
 std::tuple<Geometries, std::vector<std::string>, bool> simplified_in(
     const GeometriesIn& given, double tolerance, bool drop_small, bool keep_boundary,
     double read_deg, nb::handle edges, nb::handle invalid, unsigned threads) {
-  PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                         .invalid = named<InvalidPolygons>("invalid", invalid)};
+  PolygonOptions options = polygon_rules(edges, invalid);
   options.tolerance_deg = std::min(options.tolerance_deg, read_deg);
   const SimplifyOptions how{
       .tolerance = tolerance, .drop_small = drop_small, .keep_boundary = keep_boundary};

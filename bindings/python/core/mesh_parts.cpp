@@ -19,7 +19,7 @@
 #include "interrupt.h"
 #include "mesh_sizes.h"
 #include "module.h"
-#include "named.h"
+#include "polygon_rules.h"
 #include "rondel/cell_set.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/mesh_lines.h"
@@ -91,7 +91,7 @@ LonLatRegions mesh_polygons(const VoronoiMesh& arrays, double tolerance_deg) {
 template <auto read>
 std::vector<ArrayOut<double>> lines_of_file(const PathIn& path, nb::handle edges,
                                             unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
+  const PolygonOptions options = polygon_rules(edges);
   std::vector<std::vector<Point>> found = read_from(path, [&](const FileName& file) {
     return watched_quietly(
         0, threads, [&](const Execution& execution) { return read(file, options, execution); });

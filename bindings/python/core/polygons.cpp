@@ -18,6 +18,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "polygon_rules.h"
 #include "rondel/buffer.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
@@ -32,8 +33,7 @@ namespace {
 std::tuple<CellRings, std::vector<std::string>> cells_of(const GeometriesIn& given,
                                                          nb::handle edges, nb::handle invalid,
                                                          unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                               .invalid = named<InvalidPolygons>("invalid", invalid)};
+  const PolygonOptions options = polygon_rules(edges, invalid);
   return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
       CellTable table = cells_in(geometries, options, execution);
@@ -44,7 +44,7 @@ std::tuple<CellRings, std::vector<std::string>> cells_of(const GeometriesIn& giv
 
 // Returns what is wrong with each polygon.
 std::vector<std::string> faults_of(const GeometriesIn& given, nb::handle edges, unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges)};
+  const PolygonOptions options = polygon_rules(edges);
   return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
       return faults_in(geometries, options, execution);
@@ -146,8 +146,7 @@ std::tuple<CellRings, std::vector<std::string>> buffers_in(const GeometriesIn& g
                                                            double distance, double tolerance,
                                                            nb::handle edges, nb::handle invalid,
                                                            unsigned threads) {
-  const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                               .invalid = named<InvalidPolygons>("invalid", invalid)};
+  const PolygonOptions options = polygon_rules(edges, invalid);
   return read_geometries(given, [&](const auto& geometries) {
     return watched_quietly(0, threads, [&](const Execution& execution) {
       FeatureTable table = features_in(geometries, options, execution);

@@ -19,6 +19,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "polygon_rules.h"
 #include "rondel/cell_set.h"
 #include "rondel/feature_cells.h"
 #include "rondel/geometries.h"
@@ -63,9 +64,7 @@ void add_region_functions(nb::module_& module) {
       "feature_cells",
       [](const PathIn& path, double tolerance, nb::handle edges, nb::handle overlap,
          nb::handle invalid, const CellSet* within, unsigned threads, const nb::object& listener) {
-        const PolygonOptions options{.edges = named<PolygonEdges>("edges", edges),
-                                     .invalid = named<InvalidPolygons>("invalid", invalid),
-                                     .overlap = named<PolygonOverlap>("overlap", overlap)};
+        const PolygonOptions options = polygon_rules(edges, overlap, invalid);
         return read_from(path, [&](const FileName& file) {
           return watched(0, threads, listener, [&](const Execution& execution) {
             FeatureTable table = read_features(file, options, execution);

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
 from typing import Any, NamedTuple, overload
 
@@ -23,9 +22,9 @@ from ._arrays import (
     unit_vectors,
 )
 from ._delaunay import SphericalDelaunay
-from ._errors import InvalidInput
+from ._dynamic_sites import DynamicSites, as_id
 from ._queries import Queries
-from ._repr import Described, count
+from ._repr import count
 from ._types import ArrayLike, FloatArray, IntArray, Model
 
 
@@ -36,14 +35,7 @@ class Snapshot(NamedTuple):
     delaunay: SphericalDelaunay
 
 
-def _as_id(site: int) -> int:
-    site = operator.index(site)
-    if not 0 <= site < 2**31:
-        raise InvalidInput(f"there is no site {site}", 0)
-    return site
-
-
-class DynamicTriangulation(Described, Queries):
+class DynamicTriangulation(DynamicSites, Queries):
     """A Delaunay or regular triangulation under insertions, removals and moves.
 
     At any time it is the triangulation that `delaunay` computes for the current sites. Each site
@@ -89,6 +81,8 @@ class DynamicTriangulation(Described, Queries):
     <rondel.DynamicTriangulation: 4 sites, 4 vertices, 4 faces, projected>
 
     """
+
+    _state: _core.DynamicTriangulation
 
     def __init__(
         self,
@@ -178,7 +172,7 @@ class DynamicTriangulation(Described, Queries):
             return self._state.insert(as_points(array))
         if hint is None:
             return self._state.insert_one(tuple(array.tolist()))
-        return self._state.insert_near(tuple(array.tolist()), _as_id(hint))
+        return self._state.insert_near(tuple(array.tolist()), as_id(hint))
 
     def insert_lonlat(self, lon: ArrayLike, lat: ArrayLike, *, hint: int | None = None) -> Any:
         """Adds one site or several by longitude and latitude.
@@ -283,19 +277,11 @@ class DynamicTriangulation(Described, Queries):
             If there is no such site.
 
         """
-        return self._state.neighbors(_as_id(site))
-
-    def point(self, site: int) -> FloatArray:
-        """Returns the coordinates of a site, an ndarray of float64, shape (3,)."""
-        return np.array(self._state.site(_as_id(site)))
-
-    def representative(self, site: int) -> int:
-        """Returns the lowest id in the place of a site, which represents all sites there."""
-        return self._state.representative(_as_id(site))
+        return self._state.neighbors(as_id(site))
 
     def is_vertex(self, site: int) -> bool:
         """Tells whether the site, or its representative, is a vertex; otherwise it is hidden."""
-        return self._state.is_vertex(_as_id(site))
+        return self._state.is_vertex(as_id(site))
 
     def snapshot(self) -> Snapshot:
         """Returns the current sites and their triangulation as arrays.
@@ -312,37 +298,17 @@ class DynamicTriangulation(Described, Queries):
         )
 
     @property
-    def ids(self) -> IntArray:
-        """Ndarray of int32: the ids in use, increasing."""
-        return self._state.ids()
-
-    @property
     def model(self) -> Model:
         """str: 'projected' or 'weighted'."""
         return self._model
 
-    @property
-    def dimension(self) -> int:
-        """int: the dimension, as in `SphericalDelaunay`."""
-        return self._state.dimension
-
-    def __len__(self) -> int:
-        return self._state.num_sites
-
-    def __contains__(self, site: int) -> bool:
-        site = operator.index(site)
-        return 0 <= site < 2**31 and self._state.contains(site)
-
     def _facts(self) -> list[tuple[str, str]]:
-        facts = [
+        return [
             ("sites", count(len(self), "site")),
             ("vertices", count(self._state.num_vertices, "vertex", "vertices")),
+            self._size(),
+            ("model", self.model),
         ]
-        if self.dimension == 2:
-            facts.append(("faces", count(self._state.num_faces, "face")))
-        else:
-            facts.append(("dimension", f"dimension {self.dimension}"))
-        return [*facts, ("model", self.model)]
 
 
 # Ids that are not in use are given to duplicates, which go again.

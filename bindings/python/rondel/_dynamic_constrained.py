@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import operator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,9 +11,9 @@ import numpy as np
 from . import _core
 from ._arrays import as_center, as_floats, as_points, as_threads
 from ._constrained import ConstrainedDelaunay, as_constraints
-from ._errors import InvalidInput
+from ._dynamic_sites import DynamicSites, as_id
 from ._mesh import Lists
-from ._repr import Described, count
+from ._repr import count
 from ._types import ArrayLike, FloatArray, IntArray
 
 
@@ -29,14 +28,7 @@ class ConstrainedSnapshot(NamedTuple):
     delaunay: ConstrainedDelaunay
 
 
-def _as_id(number: int, what: str, position: int = 0) -> int:
-    number = operator.index(number)
-    if not 0 <= number < 2**31:
-        raise InvalidInput(f"{what} {number} does not exist", position)
-    return number
-
-
-class DynamicConstrainedTriangulation(Described):
+class DynamicConstrainedTriangulation(DynamicSites):
     """A constrained Delaunay triangulation under insertions and removals of sites and constraints.
 
     At any time it is the triangulation that `constrained_delaunay` computes for the current sites
@@ -86,6 +78,8 @@ class DynamicConstrainedTriangulation(Described):
 
     """
 
+    _state: _core.DynamicConstrainedTriangulation
+
     def __init__(
         self,
         points: ArrayLike | None = None,
@@ -132,7 +126,7 @@ class DynamicConstrainedTriangulation(Described):
         coordinates = tuple(array.tolist())
         if hint is None:
             return self._state.insert(coordinates)
-        return self._state.insert_near(coordinates, _as_id(hint, "site"))
+        return self._state.insert_near(coordinates, as_id(hint))
 
     def remove(self, site: int) -> None:
         """Removes a site.
@@ -150,7 +144,7 @@ class DynamicConstrainedTriangulation(Described):
             If several constraints meet in the site that would cross without it.
 
         """
-        self._state.remove(_as_id(site, "site"))
+        self._state.remove(as_id(site))
 
     def insert_constraint(self, first: int, second: int) -> int:
         """Adds the arc between two sites.
@@ -173,7 +167,7 @@ class DynamicConstrainedTriangulation(Described):
             If it crosses a constraint in the inside of both.
 
         """
-        return self._state.insert_constraint(_as_id(first, "site"), _as_id(second, "site", 1))
+        return self._state.insert_constraint(as_id(first), as_id(second, "site", 1))
 
     def remove_constraint(self, constraint: int) -> None:
         """Removes a constraint.
@@ -189,7 +183,7 @@ class DynamicConstrainedTriangulation(Described):
             If there is no such constraint.
 
         """
-        self._state.remove_constraint(_as_id(constraint, "constraint"))
+        self._state.remove_constraint(as_id(constraint, "constraint"))
 
     def neighbors(self, site: int) -> IntArray:
         """Returns the vertices that share an edge with a site.
@@ -211,7 +205,7 @@ class DynamicConstrainedTriangulation(Described):
             If there is no such site.
 
         """
-        return self._state.neighbors(_as_id(site, "site"))
+        return self._state.neighbors(as_id(site))
 
     def chain(self, constraint: int) -> IntArray:
         """Returns the vertices along a constraint.
@@ -232,19 +226,11 @@ class DynamicConstrainedTriangulation(Described):
             If there is no such constraint.
 
         """
-        return self._state.chain(_as_id(constraint, "constraint"))
-
-    def point(self, site: int) -> FloatArray:
-        """Returns the coordinates of a site, an ndarray of float64, shape (3,)."""
-        return np.array(self._state.site(_as_id(site, "site")))
+        return self._state.chain(as_id(constraint, "constraint"))
 
     def constraint(self, constraint: int) -> tuple[int, int]:
         """Returns the ids of the two sites of a constraint, as they were given."""
-        return self._state.constraint(_as_id(constraint, "constraint"))
-
-    def representative(self, site: int) -> int:
-        """Returns the lowest id in the place of a site, which represents all sites there."""
-        return self._state.representative(_as_id(site, "site"))
+        return self._state.constraint(as_id(constraint, "constraint"))
 
     def snapshot(self) -> ConstrainedSnapshot:
         """Returns the current sites, constraints and their triangulation as arrays.
@@ -270,37 +256,15 @@ class DynamicConstrainedTriangulation(Described):
         return ConstrainedSnapshot(ids, constraint_ids, delaunay)
 
     @property
-    def ids(self) -> IntArray:
-        """Ndarray of int32: the ids of sites in use, increasing."""
-        return self._state.site_ids()
-
-    @property
     def constraint_ids(self) -> IntArray:
         """Ndarray of int32: the ids of constraints in use, increasing."""
         return self._state.constraint_ids()
 
-    @property
-    def dimension(self) -> int:
-        """int: the dimension, as in `SphericalDelaunay`."""
-        return self._state.dimension
-
-    def __len__(self) -> int:
-        return self._state.num_sites
-
-    def __contains__(self, site: int) -> bool:
-        site = operator.index(site)
-        return 0 <= site < 2**31 and self._state.contains(site)
-
     def _facts(self) -> list[tuple[str, str]]:
-        last = (
-            ("faces", count(self._state.num_faces, "face"))
-            if self.dimension == 2
-            else ("dimension", f"dimension {self.dimension}")
-        )
         return [
             ("sites", count(len(self), "site")),
             ("constraints", count(self._state.num_constraints, "constraint")),
-            last,
+            self._size(),
         ]
 
 
