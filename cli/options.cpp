@@ -290,11 +290,12 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
   require_separate_files(read, written);
 }
 
-CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target) {
-  return add_word<InvalidPolygons>(
-      parser, "--invalid", target, named_values<InvalidPolygons>(),
-      "What becomes of polygons that are not valid: error (default) or repair (as\n"
-      "'rondel repair' does)");
+CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,
+                                const std::string& what) {
+  return add_word<InvalidPolygons>(parser, "--invalid", target, named_values<InvalidPolygons>(),
+                                   "What becomes of " + what +
+                                       " that are not valid: error (default) or repair\n"
+                                       "(as 'rondel repair' does)");
 }
 
 CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,

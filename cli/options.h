@@ -173,7 +173,8 @@ CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
       ->type_name("WORD");
 }
 
-/// Adds --invalid, the treatment of polygons that are not valid.
-CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target);
+/// Adds --invalid, the treatment of polygons that are not valid, or of what else is named.
+CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,
+                                const std::string& what = "polygons");
 
 }  // namespace rondel::cli

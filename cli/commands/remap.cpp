@@ -32,7 +32,7 @@ struct RemapCommandOptions {
   CommonOptions common;   // INPUT: the source's cells; OUTPUT: the weights
   std::string target;     // TARGET; "-": standard input
   RemapOptions remap;     // --order --norm --overlap
-  CellFileOptions cells;  // --sides --edges
+  CellFileOptions cells;  // --sides --edges --invalid
   NetcdfOptions netcdf;   // --kind --deflate
 
   // Return the two sides with their formats; --input-format is for the one on standard input.
@@ -165,7 +165,8 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       parser, "--edges", options.cells.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
-  const CLI::Option* const invalid = add_invalid_option(parser, options.cells.invalid);
+  const CLI::Option* const invalid =
+      add_invalid_option(parser, options.cells.invalid, "cells and polygons");
   const auto has_side = [&options](CellForm form) {
     return form_of(options.source_file()) == form || form_of(options.target_file()) == form;
   };
@@ -173,11 +174,13 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       options.common, sides,
       [has_side] { return has_side(CellForm::grid) || has_side(CellForm::netcdf); },
       "without a grid");
-  for (const CLI::Option* const option : {edges, invalid}) {
-    require_effect(
-        options.common, option, [has_side] { return has_side(CellForm::polygons); },
-        "without polygons in .geojson");
-  }
+  require_effect(
+      options.common, edges, [has_side] { return has_side(CellForm::polygons); },
+      "without polygons in .geojson");
+  require_effect(
+      options.common, invalid,
+      [has_side] { return has_side(CellForm::netcdf) || has_side(CellForm::polygons); },
+      "without cells in netCDF and polygons in .geojson");
   add_build_options(parser, options.common);
   // Cells of the other forms are in the files; only those of sites are computed.
   for (const char* const name : {"--model", "--center"}) {

@@ -51,7 +51,8 @@ struct GlobalGrid {
 struct CellFileOptions {
   GridSides sides = GridSides::parallels;            ///< for coordinates along axes
   PolygonEdges edges = PolygonEdges::lonlat;         ///< for polygons
-  InvalidPolygons invalid = InvalidPolygons::error;  ///< for polygons
+  /// For polygons; other cells are repaired() if they are to be.
+  InvalidPolygons invalid = InvalidPolygons::error;
   PolygonOverlap overlap = PolygonOverlap::keep;     ///< for polygons
   FeatureChoice is_taken = {};                       ///< for polygons, as in PolygonOptions
 };
@@ -126,6 +127,13 @@ class RONDEL_API CellSet {
   /// Returns the same cells with other facts.
   /// \throws InvalidInput if an array, or the shape, has not one element for each cell
   [[nodiscard]] CellSet with_facts(CellFacts facts) const;
+  /// Returns the same cells, but those that cross or overlap themselves, which areas() refuses, are
+  /// repaired: each has the places that an odd number of its sides divides from the outside, as for
+  /// repaired() of rondel/set_operations.h. Its corners do not move, and its sides get corners where
+  /// they cross; other cells stay bit by bit. facts() say what was wrong, and a remark that cells
+  /// were repaired. Cells that overlap each other still do.
+  /// \throws InvalidInput with the first cell that repaired() refuses
+  [[nodiscard]] CellSet repaired(const Execution& execution = {}) const;
   /// Returns the place of each cell in degrees: the centers of facts(), or else those of its axes,
   /// or else the centers of mass, NaN for an empty cell. \throws InvalidInput as areas() does
   [[nodiscard]] std::vector<LonLat> places() const;

@@ -245,8 +245,14 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .invalid = options.invalid,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
-  return of(are_polygons ? read_polygons(file, rules, execution) : read_cells(file), options.sides,
-            execution);
+  if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
+  const CellSet cells = of(read_cells(file), options.sides, execution);
+  if (options.invalid == InvalidPolygons::error) return cells;
+  try {
+    return cells.repaired(execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(cells.facts().name + ": " + error.what());
+  }
 }
 
 }  // namespace rondel

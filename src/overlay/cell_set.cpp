@@ -103,11 +103,16 @@ const std::vector<CrossingCells>& CellSetData::overlaps(const Execution& executi
   return overlaps_;
 }
 
-void CellSetData::require_simple_cells() const {
+const std::vector<CrossingCells>& CellSetData::cells_crossing_themselves() const {
   std::call_once(is_crossing_known_, [&] {
-    if (!are_apart_) crossing_ = first_crossing_itself(subdivision_, {.threads = 1});
+    if (!are_apart_) crossing_ = overlay::cells_crossing_themselves(subdivision_, {.threads = 1});
   });
-  if (crossing_) throw InvalidInput(message_of(*crossing_), crossing_->first);
+  return crossing_;
+}
+
+void CellSetData::require_simple_cells() const {
+  const std::vector<CrossingCells>& crossing = cells_crossing_themselves();
+  if (!crossing.empty()) throw InvalidInput(message_of(crossing.front()), crossing.front().first);
 }
 
 CellRings rings_of(const CellSetData& data) {

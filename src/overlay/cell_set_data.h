@@ -52,8 +52,10 @@ class CellSetData {
   // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
   // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
-  // Throws InvalidInput with the first cell that crosses or overlaps itself, which has no area. The
-  // first call looks for it. Several threads may call it.
+  // Returns the cells that cross or overlap themselves, each as a pair with itself, by ascending
+  // indices. The first call looks for them. Several threads may call it.
+  [[nodiscard]] const std::vector<CrossingCells>& cells_crossing_themselves() const;
+  // Throws InvalidInput with the first cell that crosses or overlaps itself, which has no area.
   void require_simple_cells() const;
   // Returns the area of each cell in steradians.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
@@ -72,7 +74,7 @@ class CellSetData {
   mutable std::once_flag are_overlaps_known_;
   mutable std::vector<CrossingCells> overlaps_;
   mutable std::once_flag is_crossing_known_;
-  mutable std::optional<CrossingCells> crossing_;
+  mutable std::vector<CrossingCells> crossing_;
   std::vector<double> areas_;
   std::vector<Point> moments_;
   std::vector<double> lengths_;

@@ -316,12 +316,11 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
   return found;
 }
 
-std::optional<CrossingCells> first_crossing_itself(const Subdivision& cells,
-                                                   const Execution& execution) {
+std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,
+                                                     const Execution& execution) {
   OverlapFinder finder(cells, execution);
   finder.find_in_themselves();
-  const std::vector<CrossingCells> found = finder.take();
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  return finder.take();
 }
 
 std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads) {
@@ -333,15 +332,27 @@ std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsign
   return pairs;
 }
 
-std::string message_of(const CrossingCells& overlap) {
+namespace {
+
+// Returns " at 12.5000 40.2500".
+std::string text_at(const Point& place) {
   std::array<char, 64> at{};
-  const LonLat position = map::lonlat_of(overlap.place, true);
+  const LonLat position = map::lonlat_of(place, true);
   std::snprintf(at.data(), at.size(), " at %.4f %.4f", position.lon_deg, position.lat_deg);
+  return at.data();
+}
+
+}  // namespace
+
+std::string fault_of(const CrossingCells& crossing) {
+  return "crosses or overlaps itself" + text_at(crossing.place);
+}
+
+std::string message_of(const CrossingCells& overlap) {
   const std::string first = std::to_string(overlap.first);
-  return (overlap.first == overlap.second
-              ? "cell " + first + " crosses or overlaps itself"
-              : "cells " + first + " and " + std::to_string(overlap.second) + " overlap") +
-         at.data();
+  if (overlap.first == overlap.second) return "cell " + first + ' ' + fault_of(overlap);
+  return "cells " + first + " and " + std::to_string(overlap.second) + " overlap" +
+         text_at(overlap.place);
 }
 
 }  // namespace rondel::overlay

@@ -26,17 +26,19 @@ namespace rondel::overlay {
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 
-// Returns the first cell of the input that crosses or overlaps itself by more than rounding, as a
-// pair of the cell with itself; or nothing if there is no such cell.
-std::optional<CrossingCells> first_crossing_itself(const Subdivision& cells,
-                                                   const Execution& execution);
+// Returns the cells that cross or overlap themselves by more than rounding, each as a pair of the
+// cell with itself, by ascending indices of the input.
+std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,
+                                                     const Execution& execution);
 
 // Returns the pairs of cells that may overlap, also by less than rounding, with the lower index of
 // the input first. Others are certainly apart.
 std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads);
 
-// Returns "cells 3 and 17 overlap at 12.5000 40.2500", or a text that says that a cell crosses or
-// overlaps itself.
+// Returns "crosses or overlaps itself at 12.5000 40.2500" for a pair of a cell with itself.
+std::string fault_of(const CrossingCells& crossing);
+// Returns "cells 3 and 17 overlap at 12.5000 40.2500", or "cell 3" and its fault for a pair of a
+// cell with itself.
 std::string message_of(const CrossingCells& overlap);
 
 // Returns some of the cells, given by their places in spatial order, in this order.

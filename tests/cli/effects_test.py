@@ -67,6 +67,7 @@ WITHOUT_EFFECT = [
     ("apply weights.nc sites.csv --value v --kind cdf5 -o x.csv", "kind", "on files"),
     ("remap grid:90 grid:60 --deflate 1 -o x.npz", "deflate", "without"),
     ("remap grid:90 grid:60 --edges geodesic -o x.nc", "edges", "without polygons"),
+    ("remap grid:90 sites.csv --invalid repair -o x.nc", "invalid", "without cells in netCDF"),
     ("remap sites.csv sites.csv --sides parallels -o x.nc", "sides", "without a grid"),
     ("remap grid:90 mesh.nc --model weighted -o x.nc", "model", "without sites"),
     ("remap grid:90 mesh.nc --center 0 0 0 -o x.nc", "center", "without sites"),

@@ -303,9 +303,20 @@ void test_shares(const Remap& there, const CellSet& cells, const CellSet& cover)
   for (const double weight : there.weights.values) require(std::isfinite(weight), "finite weights");
 }
 
+// Repaired cells do not cross themselves, and are not repaired again.
+void test_repaired(const CellSet& cells) {
+  const CellSet sound = cells.repaired();
+  require(sound.num_cells() == cells.num_cells(), "a cell for each cell");
+  for (const CrossingCells& pair : overlapping_cells(sound.rings())) {
+    require(pair.first != pair.second, "no cell crosses itself");
+  }
+  require(sound.repaired().facts().remarks == sound.facts().remarks, "nothing is left to repair");
+}
+
 void test_any_cells(const CellRings& rings, const CellSet& target) {
   try {
     const CellSet cells = CellSet::polygons(rings);
+    test_repaired(cells);
     const std::vector<CrossingCells> overlaps = overlapping_cells(rings);
     require(cells.num_cells() == rings.num_cells() && cells.areas().size() == cells.num_cells(),
             "an area for each cell");

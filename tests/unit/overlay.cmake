@@ -26,6 +26,7 @@ rondel_add_test(overlay_test
   overlay/regions_test.cpp
   overlay/remap_test.cpp
   overlay/repair_test.cpp
+  overlay/repaired_cells_test.cpp
   overlay/rings_test.cpp
   overlay/shapes.cpp
   overlay/snaps_test.cpp

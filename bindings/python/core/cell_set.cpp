@@ -217,9 +217,16 @@ void add_cell_set(nb::module_& module) {
            [](const CellSet& self) {
              return to_array<double>(unlocked([&] { return self.places(); }));
            })
-      .def("corners", [](const CellSet& self) {
-        return to_array<double>(unlocked([&] { return self.corners(); }));
-      });
+      .def("corners",
+           [](const CellSet& self) {
+             return to_array<double>(unlocked([&] { return self.corners(); }));
+           })
+      .def(
+          "repaired",
+          [](const CellSet& self, unsigned threads) {
+            return unlocked([&] { return self.repaired({.threads = threads}); });
+          },
+          nb::arg("threads"));
   module.def("corner_cells", &corner_cells, nb::arg("corners").noconvert(),
              nb::arg("corners_per_cell"), nb::arg("centers").noconvert(), nb::arg("threads"));
   module.def("corners_of_grid", &corners_of_nodes, nb::arg("nodes").noconvert(),

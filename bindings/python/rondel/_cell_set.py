@@ -397,7 +397,8 @@ class CellSet(Described):
         invalid : {'error', 'repair'}, optional
             What to do with polygons that are not valid: 'error' (default) raises an error that
             names the first one, what is wrong with it, and a place; 'repair' makes them valid, as
-            `rondel.make_valid` does, and warns of it.
+            `rondel.make_valid` does, and warns of it. The cells of netCDF that cross themselves
+            are kept by 'error' for the functions that refuse them, and `repaired` by 'repair'.
         threads
             As in `voronoi`.
 
@@ -545,6 +546,50 @@ class CellSet(Described):
 
         """
         return self._cells.rings().whole
+
+    def repaired(self, *, threads: int | None = None) -> CellSet:
+        """Repairs the cells that cross or overlap themselves, which `areas` refuses.
+
+        Parameters
+        ----------
+        threads
+            As in `voronoi`.
+
+        Returns
+        -------
+        CellSet
+            The same cells; those that cross or overlap themselves have the places that an odd
+            number of their sides divides from the outside. Other cells stay bit by bit, and cells
+            that overlap each other still do.
+
+        Raises
+        ------
+        InvalidInput
+            If a cell has a side that leads to the opposite point. Its `index` is the cell.
+
+        Warns
+        -----
+        UserWarning
+            If a cell was repaired, with the first one and what was wrong with it.
+
+        See Also
+        --------
+        rondel.make_valid : the same for polygons.
+
+        Examples
+        --------
+        >>> import rondel, warnings
+        >>> tie = rondel.CellSet.corners([[0, 2, 2, 0]], [[0, 2, 0, 2]])
+        >>> with warnings.catch_warnings(action="ignore"):
+        ...     cells = tie.repaired()
+        >>> print(f"{cells.areas[0]:.3e}")
+        6.093e-04
+
+        """
+        made = self._cells.repaired(as_threads(threads))
+        for remark in made.facts.remarks[len(self._cells.facts.remarks) :]:
+            warn_caller(remark)
+        return CellSet._of(made, self._origin)
 
     def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:
         """Hands the cells to another library as an array of geoarrow.multipolygon: polygons in

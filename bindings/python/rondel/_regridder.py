@@ -12,6 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, as_threads, point_set_hash
 from ._geo import Path
+from ._geometries import Invalid, require_rules
 from ._remap import Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
@@ -87,6 +88,9 @@ class Regridder(Described):
     overlap : {'error', 'first', 'share'}, optional
         What conservative methods do if cells of one grid overlap; as in `remap`, by default
         'error'.
+    invalid : {'error', 'repair'}, optional
+        What conservative methods do if a cell crosses or overlaps itself: 'error' (default) raises
+        `InvalidInput`, 'repair' replaces it as `CellSet.repaired` does.
     filename : path-like, optional
         The file that `to_netcdf` writes and `reuse_weights` reads, as in xESMF.
     reuse_weights : bool, optional
@@ -151,6 +155,7 @@ class Regridder(Described):
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
         overlap: Literal["error", "first", "share"] = "error",
+        invalid: Invalid = "error",
         filename: Path | None = None,
         reuse_weights: bool = False,
         threads: int | None = None,
@@ -161,6 +166,7 @@ class Regridder(Described):
 
         if method not in _METHODS:
             raise ValueError(f"method must be one of {', '.join(_METHODS)}, not {method!r}")
+        require_rules(invalid=invalid)
         if extrap_method not in (None, "nearest_s2d"):
             raise ValueError(f"extrap_method must be None or 'nearest_s2d', not {extrap_method!r}")
         for name in needless:
@@ -182,7 +188,7 @@ class Regridder(Described):
         is_nan = unmapped_to_nan or (mask is not None and not mask.all())
         self._unmapped = np.nan if is_nan else 0.0
         if weights is None:
-            found = _made(self._source, self._target, method, overlap, threads, progress)
+            found = _made(self._source, self._target, method, overlap, invalid, threads, progress)
             made = found.weights if isinstance(found, Remap) else found
             if extrap_method is None and isinstance(found, Remap):
                 self._remap = found
@@ -350,14 +356,17 @@ def _made(
     target: Places,
     method: str,
     overlap: Literal["error", "first", "share"],
+    invalid: Invalid,
     threads: int | None,
     progress: Progress,
 ) -> Weights | Remap:
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
+        sides = [side.cells(threads) for side in (source, target)]
+        if invalid == "repair":
+            sides = [side.repaired(threads=threads) for side in sides]
         return remap(
-            source.cells(threads),
-            target.cells(threads),
+            *sides,
             order=order,
             norm=norm,
             overlap=overlap,

@@ -3,6 +3,7 @@
 """Cell sets and conservative weights, against closed forms and the laws of conservation."""
 
 import json
+import warnings
 
 import clouds
 import numpy as np
@@ -239,6 +240,71 @@ def test_cells_that_overlap():
     assert union["share"].source_areas[0] < twice.areas[0] - 0.01
     masked = rondel.remap(twice, grid, source_mask=[True, False])
     assert masked.target_fractions @ grid.areas == pytest.approx(twice.areas[0], abs=1e-14)
+
+
+def planar_area(ring):
+    """The area of a polygon near the equator as shapely repairs it, in steradians."""
+    shapely = pytest.importorskip("shapely")
+    return shapely.make_valid(shapely.Polygon(ring)).area * np.radians(1) ** 2
+
+
+def test_cells_that_cross_themselves_are_repaired(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    # In a cell of a tenth of a degree, plane and sphere differ by less than a millionth.
+    shapes = 0.1 * np.array(
+        [
+            [(0, 0), (1, 0), (1, 1), (0, 1)],
+            [(2, 0), (3, 1), (3, 0), (2, 1)],
+            [(4.1, 0), (5, 0.9), (4, 0.8), (4.9, 0.1)],
+        ]
+    )
+    expected = [planar_area(ring) for ring in shapes]
+    cells = rondel.CellSet.corners(shapes[..., 0], shapes[..., 1])
+    with pytest.raises(rondel.InvalidInput, match=r"cell 1 crosses or overlaps itself at 0\.25"):
+        cells.areas  # noqa: B018
+    with pytest.warns(UserWarning, match=r"^cell 1 was repaired \(it crosses .*\), and 1 more$"):
+        sound = cells.repaired()
+    assert np.allclose(sound.areas, expected, rtol=1e-5)
+    assert sound.rings[3].shape == (4 + 5 + 5, 3)
+    with warnings.catch_warnings(action="error"):
+        assert np.array_equal(sound.repaired().areas, sound.areas)
+        assert GRID.repaired().shape == GRID.shape
+
+    path = tmp_path / "cells.nc"
+    dims = ("grid_size", "grid_corners")
+    degrees = {"units": "degrees"}
+    corners = {
+        f"grid_corner_{name}": (dims, shapes[..., k], degrees)
+        for k, name in enumerate(["lon", "lat"])
+    }
+    xarray.Dataset(corners).to_netcdf(path)
+    with pytest.warns(UserWarning, match="cell 1 was repaired"):
+        read = rondel.CellSet.read(path, invalid="repair")
+    assert np.array_equal(read.areas, sound.areas)
+    with pytest.raises(rondel.InvalidInput, match="cell 1 crosses or overlaps itself"):
+        rondel.remap(rondel.CellSet.read(path), GRID)
+    given = rondel.remap(read, GRID).target_fractions @ GRID.areas
+    assert np.isclose(given, sum(expected), rtol=1e-5)
+
+
+def test_regridders_repair_cells():
+    xarray = pytest.importorskip("xarray")
+    tie_lon, tie_lat = (
+        np.array([[0, 1, 1, 0], [2, 3, 3, 2]]),
+        np.array([[0, 0, 1, 1], [0, 1, 0, 1]]),
+    )
+    dims = ("cell", "corner")
+    source = xarray.Dataset(
+        {"lon_b": (dims, tie_lon), "lat_b": (dims, tie_lat)},
+        coords={"lon": ("cell", [0.5, 2.5]), "lat": ("cell", [0.5, 0.5])},
+    )
+    with pytest.raises(rondel.InvalidInput, match="cell 1 crosses or overlaps itself"):
+        rondel.Regridder(source, GRID, "conservative")
+    with pytest.warns(UserWarning, match="cell 1 was repaired"):
+        made = rondel.Regridder(source, GRID, "conservative", invalid="repair")
+    assert np.nansum(made(np.ones(2)).ravel() * GRID.areas) > 0.0003
+    with pytest.raises(ValueError, match="invalid must be 'error' or 'repair', not 'mend'"):
+        rondel.Regridder(source, GRID, "conservative", invalid="mend")
 
 
 def test_what_is_refused():
