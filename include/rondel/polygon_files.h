@@ -94,7 +94,8 @@ struct PolygonOptions {
 ///    neither at the pole nor between two meridians; divide the side by a position if it is meant.
 /// 6. Features that share a line of positions share the corners that it gets, bit by bit. A corner
 ///    of one feature that lies on a side of another one, up to some roundings (2^-42 degrees),
-///    becomes a corner of that one, too.
+///    becomes a corner of that one, too. Sides of a feature that cross there cross all the same: no
+///    other feature makes it valid.
 /// \throws FileError for what cannot be read, with file, line and feature; unless they are to be
 ///         repaired, for sides that cross, holes outside of their shell or in another hole, parts
 ///         that overlap, rings without an area, holes that leave nothing, with feature, ring and

@@ -147,7 +147,7 @@ class FeatureCells {
       require_turns(f);
       require_lines(features_, f, false);
     }
-    share_corners(features_, execution_.threads);
+    (void)share_corners(features_, execution_.threads);
     std::vector<PlaneSide> sides;
     std::vector<Index> owners;
     std::vector<std::size_t> turns(size);
@@ -341,13 +341,32 @@ class FeatureCells {
     return cells;
   }
 
+  // Throws FeatureFault for a feature that is not valid as it was before it shared corners: where
+  // its sides cross, they have a corner of another feature by now.
+  void require_valid_alone(std::vector<FeatureBefore> some) {
+    const bool is_alone = features_.rings.size() == 1 && features_.lines.front().empty();
+    if (is_alone) return;
+    const PolygonOptions alone{.edges = options_.edges, .tolerance_deg = options_.tolerance_deg};
+    for (FeatureBefore& before : some) {
+      if (is_faulty(before.feature)) continue;
+      map::PolygonFeatures one;
+      one.rings.push_back(std::move(before.rings));
+      one.lines.resize(1);
+      try {
+        FeatureCells(one, alone, {}, quiet()).check();
+      } catch (const FeatureFault& fault) {
+        refuse(before.feature, fault.fault());
+      }
+    }
+  }
+
   // Returns the cells of polygons whose sides are straight in longitude and latitude.
   CellRings plane_cells() {
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {
       require_turns(f);
       require_lines(features_, f, is_faulty(f));
     }
-    share_corners(features_, execution_.threads);
+    require_valid_alone(share_corners(features_, execution_.threads));
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     std::vector<PlaneSide> sides;
     std::vector<Index> owners;

@@ -63,8 +63,13 @@ std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 // all corners into lines. Sides are then straight only up to rounding, and neighbors have the same
 // corners. Positions that are equal but for the rounding of a turn of the globe become equal
 // before. A ring that is so thin that it may run to and fro after that keeps its former positions
-// in `thin_positions`.
-void share_corners(map::PolygonFeatures& features, unsigned threads);
+// in `thin_positions`. Returns the features of which sides meet in corners that were inserted, with
+// the rings that they had before: where sides cross in such a corner, they touch after that.
+struct FeatureBefore {
+  std::size_t feature;
+  std::vector<map::LonLatRing> rings;
+};
+std::vector<FeatureBefore> share_corners(map::PolygonFeatures& features, unsigned threads);
 
 // --- lines of features; a side of more than 180 degrees of longitude goes the shorter way around
 // --- the globe

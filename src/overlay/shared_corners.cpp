@@ -180,8 +180,31 @@ void share_rounding(map::PolygonFeatures& features) {
   });
 }
 
-// Inserts corners of others into the sides on which they lie.
-void insert_corners(map::PolygonFeatures& features, unsigned threads) {
+// True if sides of the rings meet in a corner that has been inserted: a place that occurs several
+// times, and more often than in `before`.
+bool has_met(const std::vector<map::LonLatRing>& before,
+             const std::vector<std::vector<LonLat>>& after) {
+  std::vector<LonLat> own;
+  std::vector<LonLat> all;
+  for (std::size_t r = 0; r < before.size(); ++r) {
+    own.insert(own.end(), before[r].positions.begin(), before[r].positions.end());
+    all.insert(all.end(), after[r].begin(), after[r].end());
+  }
+  std::ranges::sort(own, is_west_of);
+  std::ranges::sort(all, is_west_of);
+  for (auto first = all.begin(); first != all.end();) {
+    const auto past =
+        std::ranges::find_if(first, all.end(), [&](const LonLat& p) { return !(p == *first); });
+    const auto [own_first, own_past] = std::equal_range(own.begin(), own.end(), *first, is_west_of);
+    if (past - first > 1 && past - first > own_past - own_first) return true;
+    first = past;
+  }
+  return false;
+}
+
+// Inserts corners of others into the sides on which they lie. Returns the features in which sides
+// meet there.
+std::vector<FeatureBefore> insert_corners(map::PolygonFeatures& features, unsigned threads) {
   const std::size_t size = features.rings.size();
   // Corners of lines belong to none of the features, as no exact sign has judged them.
   const auto of_lines = static_cast<Index>(size);
@@ -197,31 +220,46 @@ void insert_corners(map::PolygonFeatures& features, unsigned threads) {
     }
   }
   const PlaneCorners corners(std::move(all));
+  std::vector<std::vector<map::LonLatRing>> met(size);
   system::parallel_for(threads, size, features_per_block, [&](std::size_t begin, std::size_t end) {
     SideCorners any(corners, of_lines + 1);
     for (std::size_t f = begin; f < end; ++f) {
       SideCorners others(corners, static_cast<Index>(f));
-      for (map::LonLatRing& ring : features.rings[f]) {
-        std::vector<LonLat> positions = others.along(ring.positions, true, ring.is_shorter);
-        if (positions.size() > ring.positions.size() && ring.thin_positions.empty() &&
+      std::vector<map::LonLatRing>& rings = features.rings[f];
+      std::vector<std::vector<LonLat>> made;
+      bool has_more = false;
+      for (const map::LonLatRing& ring : rings) {
+        made.push_back(others.along(ring.positions, true, ring.is_shorter));
+        has_more = has_more || made.back().size() > ring.positions.size();
+      }
+      if (has_more && has_met(rings, made)) met[f] = rings;
+      for (std::size_t r = 0; r < rings.size(); ++r) {
+        map::LonLatRing& ring = rings[r];
+        if (made[r].size() > ring.positions.size() && ring.thin_positions.empty() &&
             is_thin(ring.positions)) {
           ring.thin_positions = std::move(ring.positions);
         }
-        ring.positions = std::move(positions);
+        ring.positions = std::move(made[r]);
       }
       if (features.lines.empty()) continue;
       for (std::vector<LonLat>& line : features.lines[f]) line = any.along(line, false, true);
     }
   });
+  std::vector<FeatureBefore> found;
+  for (std::size_t f = 0; f < size; ++f) {
+    if (!met[f].empty()) found.push_back({f, std::move(met[f])});
+  }
+  return found;
 }
 
 }  // namespace
 
-void share_corners(map::PolygonFeatures& features, unsigned threads) {
+std::vector<FeatureBefore> share_corners(map::PolygonFeatures& features, unsigned threads) {
   share_rounding(features);
-  insert_corners(features, threads);
+  std::vector<FeatureBefore> met = insert_corners(features, threads);
   // Corners that were inserted on another turn are rounded again.
   share_rounding(features);
+  return met;
 }
 
 }  // namespace rondel::overlay

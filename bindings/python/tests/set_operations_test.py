@@ -389,3 +389,19 @@ def test_pieces_that_meet_share_their_positions():
     assert union.geom_type == "Polygon"
     assert len(union.interiors) == 0
     assert math.isclose(union.area, sum(piece.area for piece in pieces), rel_tol=1e-12)
+
+
+@pytest.mark.parametrize("how", ["union", "intersection", "difference", "symmetric_difference"])
+def test_an_operand_does_not_make_the_other_one_valid(how):
+    # The corner of the box is where the sides of the bow tie cross.
+    box, tie = shapely.box(0, 0, 1, 1), shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
+    combine = getattr(rondel, how)
+    for name, operands in (("b", (box, tie)), ("a", (tie, box))):
+        with pytest.raises(ValueError, match=f"^{name}: ring 0 of part 0 crosses itself at 1 1$"):
+            combine(*operands)
+        with pytest.warns(UserWarning, match="crosses itself at 1 1"):
+            found = combine(*operands, invalid="repair")
+        sound = [rondel.make_valid(shape) for shape in operands]
+        assert found.equals(combine(*sound))
+    with pytest.raises(ValueError, match="geometry 1: ring 0 of part 0 crosses itself at 1 1"):
+        rondel.union_all([box, tie])

@@ -16,11 +16,13 @@
 #include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/geometries.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
 #include "support/temporary_files.h"
+#include "support/thrown.h"
 #include "unit/overlay/planar.h"
 
 namespace rondel::test {
@@ -278,6 +280,62 @@ TEST(overlay_repair, what_has_no_meaning_stays_an_error) {
       planar_message({{planar_polygon({planar_box(4000, 0, 4001, 1)})}}, repairing),
       "feature 0 (f0): ring 0 of part 0: longitude 4000 0 is more than ten turns of the globe "
       "away");
+}
+
+// A feature of one ring on a grid, whose sides often cross in corners of the grid.
+LonLatMultiPolygons random_features(Random& random, std::size_t count) {
+  LonLatMultiPolygons features;
+  for (std::size_t f = 0; f < count; ++f) {
+    std::vector<LonLat>& positions = features.rows.rows.values;
+    const std::size_t first = positions.size();
+    for (std::uint64_t k = 3 + random.below(3); k > 0; --k) {
+      const auto lon = static_cast<double>(random.below(5));
+      positions.push_back({lon, static_cast<double>(random.below(5))});
+    }
+    positions.push_back(positions[first]);
+    features.rows.rows.end_row();
+    features.rows.end_group();
+    features.end_group();
+  }
+  return features;
+}
+
+// Corners of one feature are inserted into the sides of the others, where these may cross.
+TEST(overlay_repair, other_features_do_not_make_a_feature_valid) {
+  std::size_t num_refused = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Random random(seed);
+    const LonLatMultiPolygons features = random_features(random, 2 + random.below(2));
+    const std::vector<std::string> faults = polygon_faults(features);
+    const auto first = std::ranges::find_if(faults, [](const auto& text) { return !text.empty(); });
+    const std::string found =
+        thrown_message<InvalidInput>([&] { (void)cells_of_polygons(features); });
+    EXPECT_EQ(found.empty(), first == faults.end()) << seed << ": " << found;
+    if (found.empty() || first == faults.end()) continue;
+    ++num_refused;
+    const std::size_t named = std::stoul(found.substr(std::string("feature ").size()));
+    EXPECT_EQ(found, "feature " + std::to_string(named) + ": " + faults[named]) << seed;
+  }
+  EXPECT_GT(num_refused, 500U);
+}
+
+TEST(overlay_repair, lines_do_not_make_a_feature_valid) {
+  // A bow tie, and a line that ends where its sides cross.
+  LonLatGeometries tie;
+  tie.lines.rows.append(std::vector<LonLat>{{1, 1}, {1, 5}});
+  tie.lines.end_group();
+  tie.polygons.rows.rows.append(std::vector<LonLat>{{0, 0}, {2, 2}, {2, 0}, {0, 2}, {0, 0}});
+  tie.polygons.rows.end_group();
+  tie.polygons.end_group();
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              (void)features_of_geometries({&tie, 1});
+            }),
+            "feature 0: ring 0 of part 0 crosses itself at 1 1");
+  // A ring that has its own corner there touches itself.
+  tie.polygons.rows.rows = {};
+  tie.polygons.rows.rows.append(
+      std::vector<LonLat>{{0, 0}, {1, 1}, {2, 2}, {2, 0}, {1, 1}, {0, 2}, {0, 0}});
+  EXPECT_NO_THROW((void)features_of_geometries({&tie, 1}));
 }
 
 }  // namespace
