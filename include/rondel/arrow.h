@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Polygons from and to Apache Arrow, through its C data interface: arrays of GeoArrow, which pandas,
+/// Geometries from and to Apache Arrow, through its C data interface: arrays of GeoArrow, which pandas,
 /// Polars, DuckDB, R and GDAL exchange without a file (target rondel::geo).
 #pragma once
 
 #include <cstdint>
 
 #include "rondel/export.h"
+#include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 
 #ifndef ARROW_C_DATA_INTERFACE
@@ -70,5 +71,25 @@ RONDEL_API LonLatMultiPolygons import_arrow(const ArrowSchema& schema, const Arr
 /// \throws InvalidInput if offsets do not fit, or there are more than 2^31 - 1 positions
 RONDEL_API void export_arrow(const LonLatMultiPolygons& features, PolygonEdges edges,
                              ArrowSchema& schema, ArrowArray& array);
+
+/// Copies points, lines and polygons out of an array of one of the types geoarrow.point,
+/// geoarrow.linestring, geoarrow.polygon, and those of several of them, as import_arrow() does. An
+/// element that is null, and a point of NaN, has no part; a line of one position is a point.
+/// \throws InvalidInput as import_arrow()
+RONDEL_API LonLatGeometries import_arrow_geometries(const ArrowSchema& schema,
+                                                    const ArrowArray& array);
+
+/// The parts of geometries that an array of Arrow has.
+enum class ArrowParts : std::uint8_t {
+  points,    ///< the type geoarrow.multipoint: lines of one position
+  lines,     ///< the type geoarrow.multilinestring: the other lines
+  polygons,  ///< the type geoarrow.multipolygon
+};
+
+/// Makes an array of the points, the lines or the polygons of geometries, one element for each
+/// geometry, as export_arrow() does for polygons alone.
+/// \throws InvalidInput as export_arrow()
+RONDEL_API void export_arrow(const LonLatGeometries& geometries, ArrowParts parts,
+                             PolygonEdges edges, ArrowSchema& schema, ArrowArray& array);
 
 }  // namespace rondel

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,6 +96,39 @@ void test_repairs(const std::string& path, PolygonOptions options) {
   }
 }
 
+// Returns what becomes of geometries in an array of Arrow.
+LonLatGeometries through_arrow(const LonLatGeometries& geometries, ArrowParts parts) {
+  ArrowSchema schema = {};
+  ArrowArray array = {};
+  export_arrow(geometries, parts, PolygonEdges::lonlat, schema, array);
+  LonLatGeometries taken = import_arrow_geometries(schema, array);
+  array.release(&array);
+  schema.release(&schema);
+  require(taken.size() == geometries.size(), "a geometry for each element");
+  return taken;
+}
+
+// Positions of lines, points and polygons are in one of three arrays each.
+void test_arrow_geometries(const LonLatMultiPolygons& polygons) {
+  LonLatGeometries given;
+  given.polygons = polygons;
+  // The rings are lines, too, and the first position of each is a point.
+  for (std::size_t f = 0; f < polygons.size(); ++f) {
+    for (std::uint64_t p = polygons.offsets[f]; p < polygons.offsets[f + 1]; ++p) {
+      const std::span<const LonLat> ring = polygons.rows.rows[polygons.rows.offsets[p]];
+      given.lines.rows.append(ring);
+      given.lines.rows.append(ring.first(1));
+    }
+    given.lines.end_group();
+  }
+  const LonLatGeometries points = through_arrow(given, ArrowParts::points);
+  const LonLatGeometries lines = through_arrow(given, ArrowParts::lines);
+  require(points.lines.rows.values.size() + lines.lines.rows.values.size() ==
+              given.lines.rows.values.size(),
+          "each position once");
+  require(through_arrow(given, ArrowParts::polygons).polygons == polygons, "the same polygons");
+}
+
 // Drawn polygons come back from Arrow as they are, and are cells again.
 void test_arrow(const CellRings& cells) {
   const LonLatMultiPolygons drawn =
@@ -106,6 +140,7 @@ void test_arrow(const CellRings& cells) {
   array.release(&array);
   schema.release(&schema);
   require(taken == drawn, "polygons come back from Arrow");
+  test_arrow_geometries(drawn);
   const CellTable again = cells_of_polygons(taken, {.tolerance_deg = 1});
   require(again.cells.num_cells() == cells.num_cells(), "a cell for each feature");
 }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,87 @@ TEST(arrow, nothing_is_an_array) {
   EXPECT_EQ(import_arrow(schema, array), LonLatMultiPolygons{});
   array.release(&array);
   schema.release(&schema);
+}
+
+LonLatGeometries some_geometries() {
+  LonLatGeometries given;
+  // Two points and a line; nothing; a line; a point beside a polygon.
+  given.lines.offsets = {0, 3, 3, 4, 5};
+  given.lines.rows.offsets = {0, 1, 4, 5, 7, 8};
+  for (int i = 0; i < 8; ++i) given.lines.rows.values.push_back({i * 1.0, -i * 0.5});
+  given.polygons.offsets = {0, 0, 0, 0, 1};
+  given.polygons.rows.offsets = {0, 1};
+  given.polygons.rows.rows.offsets = {0, 4};
+  given.polygons.rows.rows.values = {{0, 0}, {10, 0}, {0, 10}, {0, 0}};
+  return given;
+}
+
+TEST(arrow, points_lines_and_polygons_go_out_and_come_back) {
+  const LonLatGeometries given = some_geometries();
+  const auto gone_through = [&](ArrowParts parts) {
+    ArrowSchema schema = {};
+    ArrowArray array = {};
+    export_arrow(given, parts, PolygonEdges::geodesic, schema, array);
+    EXPECT_EQ(array.length, 4);
+    LonLatGeometries found = import_arrow_geometries(schema, array);
+    array.release(&array);
+    schema.release(&schema);
+    EXPECT_EQ(found.polygons.size(), 4U);
+    EXPECT_EQ(found.lines.size(), 4U);
+    return found;
+  };
+  const LonLatGeometries points = gone_through(ArrowParts::points);
+  EXPECT_EQ(points.lines.offsets, (std::vector<std::uint64_t>{0, 2, 2, 2, 3}));
+  EXPECT_EQ(points.lines.rows.offsets, (std::vector<std::uint64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(points.lines.rows.values, (std::vector<LonLat>{{0, 0}, {4, -2}, {7, -3.5}}));
+  const LonLatGeometries lines = gone_through(ArrowParts::lines);
+  EXPECT_EQ(lines.lines.offsets, (std::vector<std::uint64_t>{0, 1, 1, 2, 2}));
+  EXPECT_EQ(lines.lines.rows.offsets, (std::vector<std::uint64_t>{0, 3, 5}));
+  EXPECT_EQ(lines.lines.rows.values.back(), (LonLat{6, -3}));
+  EXPECT_TRUE(lines.polygons.rows.rows.values.empty());
+  EXPECT_EQ(gone_through(ArrowParts::polygons).polygons, given.polygons);
+  LonLatGeometries wrong = given;
+  wrong.lines.offsets.back() = 9;
+  ArrowSchema schema = {};
+  ArrowArray array = {};
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              export_arrow(wrong, ArrowParts::lines, PolygonEdges::lonlat, schema, array);
+            }),
+            "the offsets of the geometries do not fit");
+}
+
+TEST(arrow, single_points_and_lines_are_taken) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  HandMade made;
+  const std::vector<double> numbers = {5, 5, 1, 2, nan, nan, 3, 4, 7, 8};
+  auto& values = made.field("g", 10, numbers.data());
+  auto& points = HandMade::with_children(made.field("+w:2", 4), {&values});
+  points.array.offset = 1;
+  // The last of the four points after the first position is null.
+  const std::uint8_t there = 0b01111;
+  points.buffers[0] = &there;
+  points.array.null_count = 1;
+  made.name(points, "geoarrow.point");
+  const LonLatGeometries found = import_arrow_geometries(points.schema, points.array);
+  EXPECT_EQ(found.lines.offsets, (std::vector<std::uint64_t>{0, 1, 1, 2, 2}));
+  EXPECT_EQ(found.lines.rows.values, (std::vector<LonLat>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(found.polygons.size(), 4U);
+
+  // A line of two positions, one without any, and one of a single position.
+  const std::vector<std::int32_t> ends = {0, 2, 2, 3};
+  auto& plain_values = made.field("g", 8, triangle_numbers.data());
+  auto& places = HandMade::with_children(made.field("+w:2", 4), {&plain_values});
+  auto& lines = HandMade::with_children(made.field("+l", 3, ends.data()), {&places});
+  made.name(lines, "geoarrow.linestring");
+  const LonLatGeometries of_lines = import_arrow_geometries(lines.schema, lines.array);
+  EXPECT_EQ(of_lines.lines.offsets, (std::vector<std::uint64_t>{0, 1, 1, 2}));
+  EXPECT_EQ(of_lines.lines.rows.offsets, (std::vector<std::uint64_t>{0, 2, 3}));
+  EXPECT_EQ(of_lines.lines.rows.values.back(), (LonLat{0, 10}));
+  made.name(lines, "geoarrow.wkb");
+  EXPECT_EQ(thrown_message<InvalidInput>(
+                [&] { (void)import_arrow_geometries(lines.schema, lines.array); }),
+            "the array of Arrow has the type geoarrow.wkb, not geoarrow.point, "
+            "geoarrow.linestring, geoarrow.polygon, or one of several of them");
 }
 
 TEST(arrow, levels_begin_where_they_say) {
