@@ -4,7 +4,7 @@
 
     clients_test.py pkg_config|c|components|distributed|geo|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
 
-Each compiles client.cpp, those in C examples/c_interface.c and c_polygons.c, those of other libraries theirs, as geo/geo.cpp, and
+Each compiles client.cpp, those in C examples/c_interface.c, c_polygons.c and c_geometries.c, those of other libraries theirs, as geo/geo.cpp, and
 compares what it prints. The libraries are those of rondel, rondel::geo and rondel::distributed.
 """
 
@@ -69,7 +69,7 @@ class Client:
         """C programs that know the package by pkg-config alone."""
         flags = self.package_flags("rondel-c")
         folders = [flag[2:] for flag in flags if flag.startswith("-L")]
-        for name in ("c_interface", "c_polygons"):
+        for name in ("c_interface", "c_polygons", "c_geometries"):
             run(["cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", self.source / f"examples/{name}.c",
                  "-o", self.work / "client", *flags, *(f"-Wl,-rpath,{folder}" for folder in folders)])
             self.expected = self.file(f"expected/{name}.txt").read_text(encoding="utf-8")

@@ -438,10 +438,11 @@ RONDEL_C_API rondel_status rondel_polygon_lengths(const rondel_polygons* polygon
 /* ---- Set operations, relations and buffers (rondel/set_operations.h, relate.h, buffer.h) ---- */
 
 enum {
-  RONDEL_UNION = 0,               /**< what is in A or in B */
-  RONDEL_INTERSECTION = 1,        /**< what is in both */
-  RONDEL_DIFFERENCE = 2,          /**< what is in A and not in B */
-  RONDEL_SYMMETRIC_DIFFERENCE = 3 /**< what is in one of the two alone */
+  RONDEL_UNION = 0,                /**< what is in A or in B */
+  RONDEL_INTERSECTION = 1,         /**< what is in both */
+  RONDEL_DIFFERENCE = 2,           /**< what is in A and not in B */
+  RONDEL_SYMMETRIC_DIFFERENCE = 3, /**< what is in one of the two alone */
+  RONDEL_IDENTITY = 4              /**< what is in A, divided by B */
 };
 
 /** Computes a set operation on two regions, of which each is the union of some polygons; the result is one polygon. Places
@@ -495,6 +496,138 @@ RONDEL_C_API rondel_status rondel_buffer(const rondel_polygons* polygons, double
 RONDEL_C_API rondel_status rondel_buffer_points(const double* points, size_t n, double distance,
                                                 double tolerance, const rondel_execution* execution,
                                                 rondel_polygons** made);
+
+/* ---- Points, lines and polygons (rondel/geometries.h, arrow.h) ---- */
+
+/** Geometries in longitude and latitude, each of any points, lines and polygons, as files and other programs have them.
+ *  A line of one position is a point. They need not be valid. */
+typedef struct rondel_lonlat_geometries rondel_lonlat_geometries;
+
+/** Makes n geometries. Geometry i has the lines groups[i] ... groups[i + 1] - 1, and line k the positions lines[k] ...
+ *  lines[k + 1] - 1. Both arrays begin with 0 and have one element more than there are geometries and lines.
+ *  `lonlat_deg` has longitude and latitude of each position in degrees, shape (number of positions, 2).
+ *  `polygons` has a feature for each geometry; NULL: no geometry has polygons.
+ *  RONDEL_INVALID_INPUT: an array does not begin with 0, or decreases (the index of the element); the number of features
+ *  is not n. */
+RONDEL_C_API rondel_status rondel_lonlat_geometries_create(const uint64_t* groups, size_t n,
+                                                           const uint64_t* lines,
+                                                           const double* lonlat_deg,
+                                                           const rondel_features* polygons,
+                                                           rondel_lonlat_geometries** made);
+/** Copies geometries out of an array of one of the types geoarrow.point, linestring, polygon, multipoint,
+ *  multilinestring and multipolygon, one for each element. Schema and array stay with the caller, who releases them.
+ *  RONDEL_INVALID_INPUT: as rondel_features_import_arrow(). */
+RONDEL_C_API rondel_status rondel_lonlat_geometries_import_arrow(const struct ArrowSchema* schema,
+                                                                 const struct ArrowArray* array,
+                                                                 rondel_lonlat_geometries** made);
+enum {
+  RONDEL_POINT_PARTS = 0,  /**< lines of one position, as geoarrow.multipoint */
+  RONDEL_LINE_PARTS = 1,   /**< the other lines, as geoarrow.multilinestring */
+  RONDEL_POLYGON_PARTS = 2 /**< polygons, as geoarrow.multipolygon */
+};
+/** Writes an array of one kind of parts, one element for each geometry, and its type, as
+ *  rondel_features_export_arrow() does. */
+RONDEL_C_API rondel_status rondel_lonlat_geometries_export_arrow(
+    const rondel_lonlat_geometries* geometries, int32_t parts, int32_t edges,
+    struct ArrowSchema* schema, struct ArrowArray* array);
+RONDEL_C_API void rondel_lonlat_geometries_free(rondel_lonlat_geometries* geometries);
+
+RONDEL_C_API size_t rondel_num_lonlat_geometries(const rondel_lonlat_geometries* geometries);
+/** The arrays of rondel_lonlat_geometries_create(), shapes (num_lonlat_geometries + 1,) and (number of lines + 1,). */
+RONDEL_C_API const uint64_t* rondel_lonlat_line_groups(const rondel_lonlat_geometries* geometries);
+RONDEL_C_API const uint64_t* rondel_lonlat_lines(const rondel_lonlat_geometries* geometries);
+/** Longitudes and latitudes in degrees, shape (number of positions, 2). */
+RONDEL_C_API const double* rondel_lonlat_line_positions(const rondel_lonlat_geometries* geometries);
+/** Returns the polygons, which belong to the geometries. */
+RONDEL_C_API const rondel_features* rondel_lonlat_polygons(
+    const rondel_lonlat_geometries* geometries);
+
+/** Geometries of points, lines and polygons on the sphere, whose lines and sides are shorter arcs of great circles. */
+typedef struct rondel_geometries rondel_geometries;
+
+/** Makes sets of geometries into geometries on the sphere, one handle for each set. Sets are read together, so that what
+ *  meets there meets on the sphere, too, and their geometries can be operands of each other.
+ *  `made` gets the handles, shape (num_sets,).
+ *  RONDEL_INVALID_INPUT: the index, counted over all sets, of a geometry that is not valid, unless they are repaired; of a
+ *  line that jumps by more than 180 degrees of longitude or leads to the opposite place. */
+RONDEL_C_API rondel_status rondel_geometries_of_lonlat(const rondel_lonlat_geometries* const* sets,
+                                                       size_t num_sets,
+                                                       const rondel_reading* reading,
+                                                       const rondel_execution* execution,
+                                                       rondel_geometries** made);
+/** Makes n geometries: as rondel_lonlat_geometries_create(), of unit vectors, shape (number of points, 3), and polygons of
+ *  arcs, of which there are n or, NULL, none.
+ *  RONDEL_INVALID_INPUT: an array does not fit, or the index of a point that is no unit vector. */
+RONDEL_C_API rondel_status rondel_geometries_create(const uint64_t* groups, size_t n,
+                                                    const uint64_t* lines, const double* points,
+                                                    const rondel_polygons* polygons,
+                                                    rondel_geometries** made);
+RONDEL_C_API void rondel_geometries_free(rondel_geometries* geometries);
+
+RONDEL_C_API size_t rondel_num_geometries(const rondel_geometries* geometries);
+/** The arrays of rondel_geometries_create(), shapes (num_geometries + 1,) and (number of lines + 1,). */
+RONDEL_C_API const uint64_t* rondel_line_groups(const rondel_geometries* geometries);
+RONDEL_C_API const uint64_t* rondel_lines(const rondel_geometries* geometries);
+/** Unit vectors, shape (number of points, 3). */
+RONDEL_C_API const double* rondel_line_points(const rondel_geometries* geometries);
+/** Returns the polygons, one for each geometry, which belong to the geometries. */
+RONDEL_C_API const rondel_polygons* rondel_geometry_polygons(const rondel_geometries* geometries);
+/** Writes the length of each geometry's lines in radians, shape (num_geometries,). */
+RONDEL_C_API rondel_status rondel_line_lengths(const rondel_geometries* geometries,
+                                               double* lengths);
+
+/** Makes geometries into valid ones within [-180, 180] x [-90, 90], cut at the antimeridian and the poles, as
+ *  rondel_features_of_polygons() does for polygons. */
+RONDEL_C_API rondel_status rondel_lonlat_of_geometries(const rondel_geometries* geometries,
+                                                       double tolerance_deg,
+                                                       const rondel_execution* execution,
+                                                       rondel_lonlat_geometries** made);
+
+/** Computes a set operation on two sets of geometries, of which each counts as its union; the result is one geometry: the
+ *  polygon, the lines that are not in it, and the points that are in neither (rondel/geometries.h: combine()).
+ *  RONDEL_INVALID_INPUT: the index of a geometry, those of B after those of A, that leads to the opposite point or has a
+ *  line without points. */
+RONDEL_C_API rondel_status rondel_combine_geometries(const rondel_geometries* a,
+                                                     const rondel_geometries* b, int32_t operation,
+                                                     const rondel_execution* execution,
+                                                     rondel_geometries** made);
+/** Computes the union of all geometries: one geometry. */
+RONDEL_C_API rondel_status rondel_unite_geometries(const rondel_geometries* geometries,
+                                                   const rondel_execution* execution,
+                                                   rondel_geometries** made);
+/** Computes a set operation on n pairs of a geometry of A and one of B, shape (n, 2): geometry k is that of pair k.
+ *  RONDEL_INVALID_INPUT: the index of a pair with a geometry that does not exist, or that is refused as above. */
+RONDEL_C_API rondel_status rondel_combine_geometry_pairs(
+    const rondel_geometries* a, const rondel_geometries* b, const uint32_t* pairs, size_t n,
+    int32_t operation, const rondel_execution* execution, rondel_geometries** made);
+
+/** The pieces into which two sets divide each other, sorted by their two owners. */
+typedef struct rondel_pieces rondel_pieces;
+
+/** Divides polygons of A and of B by each other: into what one of each has in common, and what is in one set alone. The
+ *  operation says which of these are wanted: what is in common unless it is a difference; what is in A alone unless it is
+ *  the intersection; what is in B alone for the union and the symmetric difference.
+ *  RONDEL_INVALID_INPUT: as rondel_combine(). */
+RONDEL_C_API rondel_status rondel_overlay_pieces(const rondel_polygons* a, const rondel_polygons* b,
+                                                 int32_t operation,
+                                                 const rondel_execution* execution,
+                                                 rondel_pieces** made);
+/** Divides geometries of A and of B by each other. Unless `keeps_touching` is 0, there are pieces, too, in which two
+ *  geometries only touch or cross, such as the point in which a river meets a border.
+ *  RONDEL_INVALID_INPUT: as rondel_combine_geometries(). */
+RONDEL_C_API rondel_status rondel_overlay_geometry_pieces(const rondel_geometries* a,
+                                                          const rondel_geometries* b,
+                                                          int32_t operation, int32_t keeps_touching,
+                                                          const rondel_execution* execution,
+                                                          rondel_pieces** made);
+RONDEL_C_API void rondel_pieces_free(rondel_pieces* pieces);
+
+RONDEL_C_API size_t rondel_num_pieces(const rondel_pieces* pieces);
+/** The polygon or geometry of A and that of B of each piece, RONDEL_NO_INDEX for none; shape (num_pieces,). */
+RONDEL_C_API const uint32_t* rondel_piece_owners_in_a(const rondel_pieces* pieces);
+RONDEL_C_API const uint32_t* rondel_piece_owners_in_b(const rondel_pieces* pieces);
+/** Returns the pieces as geometries, which belong to them. */
+RONDEL_C_API const rondel_geometries* rondel_piece_geometries(const rondel_pieces* pieces);
 
 /* ---- Triangles of polygons (rondel/polygon_triangles.h) ---- */
 

@@ -28,9 +28,7 @@ rondel_polygons::rondel_polygons(rondel::CellRings made) : rings(std::move(made)
 }
 
 namespace rondel::c {
-namespace {
 
-// Returns offsets of n rows, which begin with 0 and never decrease.
 std::vector<std::uint64_t> copied_offsets(const std::uint64_t* offsets, std::size_t n,
                                           const char* name) {
   if (n == 0 && offsets == nullptr) return {0};
@@ -65,15 +63,27 @@ PolygonOptions reading_of(const rondel_reading* reading) {
               reading->invalid == RONDEL_REPAIR ? InvalidPolygons::repair : InvalidPolygons::error};
 }
 
-// Throws InvalidInput if a corner is no unit vector.
-void require_unit_vectors(std::span<const Point> points) {
+void require_unit_vectors(std::span<const Point> points, const std::string& what) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
     if (!(std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) <= 2e-14)) {
-      throw InvalidInput("corner " + std::to_string(i) + " is no unit vector", i);
+      throw InvalidInput(what + " " + std::to_string(i) + " is no unit vector", i);
     }
   }
 }
+
+std::vector<LonLat> copied_positions(const double* lonlat_deg, std::size_t n) {
+  if (n > 0) require(lonlat_deg, "lonlat_deg");
+  if (n > max_sites) throw InvalidInput("lonlat_deg: more than can be", max_sites);
+  std::vector<LonLat> made;
+  made.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    made.push_back({lonlat_deg[2 * i], lonlat_deg[2 * i + 1]});
+  }
+  return made;
+}
+
+namespace {
 
 // Throws InvalidInput unless these polygons exist, increase and have no rings.
 void require_whole(std::span<const Index> whole, std::span<const std::uint64_t> cells) {
@@ -93,7 +103,7 @@ CellRings rings_of(const std::uint64_t* polygons, std::size_t n, const std::uint
   made.cells = copied_offsets(polygons, n, "polygons");
   made.rings = copied_offsets(rings, made.cells.back(), "rings");
   made.points = copied_points(corners, made.rings.back(), "corners");
-  require_unit_vectors(made.points);
+  require_unit_vectors(made.points, "corner");
   for (std::size_t i = 0; i < made.points.size(); ++i) {
     made.corners.push_back(static_cast<Index>(i));
   }
@@ -121,13 +131,7 @@ LonLatMultiPolygons features_at(const std::uint64_t* features, std::size_t n,
   made.offsets = copied_offsets(features, n, "features");
   made.rows.offsets = copied_offsets(polygons, made.offsets.back(), "polygons");
   made.rows.rows.offsets = copied_offsets(rings, made.rows.offsets.back(), "rings");
-  const std::size_t size = made.rows.rows.offsets.back();
-  if (size > 0) require(lonlat_deg, "lonlat_deg");
-  if (size > max_sites) throw InvalidInput("lonlat_deg: more than can be", max_sites);
-  made.rows.rows.values.reserve(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    made.rows.rows.values.push_back({lonlat_deg[2 * i], lonlat_deg[2 * i + 1]});
-  }
+  made.rows.rows.values = copied_positions(lonlat_deg, made.rows.rows.offsets.back());
   return made;
 }
 
@@ -271,7 +275,8 @@ rondel_status rondel_polygon_areas(const rondel_polygons* polygons, double* area
 }
 
 rondel_status rondel_polygon_lengths(const rondel_polygons* polygons, double* lengths) {
-  return rc::measure_polygons(polygons, lengths, rondel::lengths);
+  return rc::measure_polygons(
+      polygons, lengths, [](const rondel::CellRings& rings) { return rondel::lengths(rings); });
 }
 
 }  // extern "C"

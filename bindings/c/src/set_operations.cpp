@@ -21,7 +21,6 @@
 #include "rondel/relate.h"
 
 namespace rondel::c {
-namespace {
 
 SetOperation operation_of(std::int32_t operation) {
   switch (operation) {
@@ -33,6 +32,8 @@ SetOperation operation_of(std::int32_t operation) {
       return SetOperation::difference;
     case RONDEL_SYMMETRIC_DIFFERENCE:
       return SetOperation::symmetric_difference;
+    case RONDEL_IDENTITY:
+      return SetOperation::identity;
     default:
       throw InvalidInput("the set operation " + std::to_string(operation) + " is unknown");
   }
@@ -45,6 +46,8 @@ std::vector<std::array<Index, 2>> copied_pairs(const std::uint32_t* pairs, std::
   for (std::size_t k = 0; k < n; ++k) copied[k] = {given[2 * k], given[2 * k + 1]};
   return copied;
 }
+
+namespace {
 
 // Makes polygons of polygons.
 template <class Make>

@@ -321,8 +321,8 @@ TEST_F(CPolygons, that_do_not_fit_are_refused) {
   expect_refused(rondel_polygons_create(offsets, 1, three, nullptr, nullptr, 0, &made),
                  "corners is NULL", 0);
   expect_refused(rondel_combine(made_.get(), nullptr, 0, nullptr, &made), "b is NULL", 0);
-  expect_refused(rondel_combine(made_.get(), made_.get(), 4, nullptr, &made),
-                 "the set operation 4 is unknown", 0);
+  expect_refused(rondel_combine(made_.get(), made_.get(), 5, nullptr, &made),
+                 "the set operation 5 is unknown", 0);
   const std::uint32_t pair[] = {0, 9};
   EXPECT_EQ(rondel_combine_pairs(made_.get(), made_.get(), pair, 1, 0, nullptr, &made),
             RONDEL_INVALID_INPUT);
