@@ -101,7 +101,9 @@ RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
 RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
                                                         const Execution& execution = {});
 
-/// Computes the area of each cell in steradians, whatever its size and form.
+/// Computes the area of each cell in steradians, whatever its size and form. A cell that crosses or
+/// overlaps itself has none (overlapping_cells() finds it, repaired() of rondel/set_operations.h
+/// makes it valid); the result is then the sum of what its sides go around, with their directions.
 RONDEL_API std::vector<double> areas(const CellRings& cells);
 
 /// Computes the length of each cell's border in radians: the sum of the lengths of all sides of its

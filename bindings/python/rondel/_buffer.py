@@ -10,7 +10,7 @@ import numpy as np
 
 from ._arrays import as_radius, as_threads
 from ._geometries import Edges, Invalid, require_rules
-from ._operands import buffers, cell_set, like, operand_of
+from ._operands import buffers, cell_set, like, operand_of, require_sound
 from ._shapes import shapes_of
 
 
@@ -78,6 +78,7 @@ def buffer(
     require_rules(edges=edges, invalid=invalid)
     number = as_threads(threads)
     given = operand_of("geometries", geometries, edges)
+    require_sound(given, invalid, threads)
     near = 0.0 if tolerance is None else float(tolerance) / radius
     made = buffers(given, float(distance) / radius, near, edges, invalid, number)
     if given.is_of_cells:

@@ -62,6 +62,8 @@ class CellSet(Described):
     # The name of the function of the library that made cells of sites, and the object that has the
     # sites; None for other cells.
     _origin: tuple[str, Any] | None
+    # Whether it is known that no cell crosses itself.
+    _is_sound: bool = False
 
     @classmethod
     def _of(cls, cells: _core.CellSet, origin: tuple[str, Any] | None = None) -> CellSet:
@@ -589,7 +591,9 @@ class CellSet(Described):
         made = self._cells.repaired(as_threads(threads))
         for remark in made.facts.remarks[len(self._cells.facts.remarks) :]:
             warn_caller(remark)
-        return CellSet._of(made, self._origin)
+        cells = CellSet._of(made, self._origin)
+        cells._is_sound = True
+        return cells
 
     def __arrow_c_array__(self, requested_schema: Any = None) -> tuple[Any, Any]:
         """Hands the cells to another library as an array of geoarrow.multipolygon: polygons in

@@ -16,7 +16,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
-from ._errors import warn_caller
+from ._errors import InvalidInput, warn_caller
 from ._geometries import (
     Edges,
     Invalid,
@@ -60,6 +60,8 @@ class Operand:
         The encoding of the arrays of Arrow that are given.
     cells : CellRings
         The polygons as cells.
+    unchecked : CellSet or None
+        The cells that are given if some of them may cross themselves.
     shared : Geometries or None
         The geometries of all arguments if any of them has lines or points.
     first : int
@@ -75,6 +77,7 @@ class Operand:
     source: Any = None
     encoding: str | None = None
     cells: _core.CellRings = field(default_factory=_core.CellRings)
+    unchecked: CellSet | None = None
     shared: _core.Geometries | None = None
     first: int = 0
 
@@ -155,6 +158,8 @@ def operands(
                 f"{bodies[0].name} and {other.name} are on different bodies, "
                 f"{bodies[0].source.crs.name!r} and {other.source.crs.name!r}"
             )
+    for operand in made:
+        require_sound(operand, invalid, threads)
     read = [operand for operand in made if not operand.is_of_cells]
     geometries = _read(read, edges, invalid, as_threads(threads))
     has_lines = len(geometries.lines) > 1
@@ -166,11 +171,26 @@ def operands(
     return made
 
 
+def require_sound(operand: Operand, invalid: Invalid, threads: int | None) -> None:
+    """Refuses cells that cross or overlap themselves, or repairs them with a warning."""
+    if operand.unchecked is None:
+        return
+    if invalid == "repair":
+        operand.cells = operand.unchecked.repaired(threads=threads)._cells.rings()
+        return
+    try:
+        _ = operand.unchecked.areas  # looked for once
+    except InvalidInput as error:
+        raise InvalidInput(f"{operand.name}: {error}", error.index) from None
+
+
 def operand_of(name: str, given: Any, edges: Edges) -> Operand:
     """An argument whose polygons are not read yet."""
     if isinstance(given, (CellSet, Regions)):
         rings = given._rings if isinstance(given, Regions) else given._cells.rings()
-        return Operand(name, (rings.num_cells,), is_of_cells=True, cells=rings)
+        unchecked = given if isinstance(given, CellSet) and not given._is_sound else None
+        shape = (rings.num_cells,)
+        return Operand(name, shape, is_of_cells=True, cells=rings, unchecked=unchecked)
     if is_file(given):
         raise TypeError(f"{name} is the name of a file; rondel.CellSet.read() reads its polygons")
     try:
@@ -486,7 +506,10 @@ def geometries_at(made: _core.Geometries, places: IntArray, number: int) -> _cor
 
 
 def cell_set(cells: _core.CellRings, threads: int | None) -> CellSet:
-    return CellSet._of(_core.CellSet.polygons(cells, as_threads(threads)))
+    """The cells of a result, none of which crosses itself."""
+    made = CellSet._of(_core.CellSet.polygons(cells, as_threads(threads)))
+    made._is_sound = True
+    return made
 
 
 def like(operand: Operand, shapes: np.ndarray[Any, Any], rows: Any, index: Any) -> Any:

@@ -59,7 +59,8 @@ def intersection(
     invalid : {'error', 'repair'}, optional
         What to do with polygons that are not valid: 'error' (default) raises an error that names
         the first one, what is wrong with it, and a place; 'repair' makes them valid, as
-        `make_valid` does, and warns of it. It has no effect on cells.
+        `make_valid` does, and warns of it. Cells are refused, or `CellSet.repaired`, if they cross
+        or overlap themselves.
     tolerance_deg : float, optional
         The largest distance of a result's straight lines from its arcs, in degrees; by default
         0.01. Lines get positions in between until they are so near, unless edges are geodesic.

@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_radius, as_threads
 from ._geometries import Edges, Invalid, require_rules
-from ._operands import cell_set, like, operand_of, told_by_core
+from ._operands import cell_set, like, operand_of, require_sound, told_by_core
 from ._shapes import shapes_of, shapes_of_geometries
 
 DRAWN_SHARE = 1 / 16  # of the tolerance, for lines that follow arcs
@@ -86,6 +86,7 @@ def simplify(
     require_rules(edges=edges, invalid=invalid)
     number = as_threads(threads)
     given = operand_of("geometries", geometries, edges)
+    require_sound(given, invalid, threads)
     allowed = float(tolerance) / radius
     keeps = not simplify_boundary
     if given.is_of_cells:

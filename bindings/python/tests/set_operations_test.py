@@ -3,6 +3,7 @@
 """Set operations and measures of polygons: shapely and GeoPandas are right near (0, 0)."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -405,3 +406,42 @@ def test_an_operand_does_not_make_the_other_one_valid(how):
         assert found.equals(combine(*sound))
     with pytest.raises(ValueError, match="geometry 1: ring 0 of part 0 crosses itself at 1 1"):
         rondel.union_all([box, tie])
+
+
+CROSSING = rondel.CellSet.corners(
+    [[0, 2, 2, 0, 0, 0], [0, 4, 4, 1, 1, 0]], [[0, 2, 0, 2, 2, 2], [0, 0, 4, 4, -1, -1]]
+)
+OF_CELLS = {
+    "union": lambda cells, **rules: rondel.union(cells, A, **rules),
+    "intersection": lambda cells, **rules: rondel.intersection(A, cells, **rules),
+    "difference": lambda cells, **rules: rondel.difference(A, cells, **rules),
+    "symmetric_difference": lambda cells, **rules: rondel.symmetric_difference(cells, A, **rules),
+    "overlay": lambda cells, **rules: rondel.overlay(cells, cells, "union", **rules),
+    "union_all": rondel.union_all,
+    "buffer": lambda cells, **rules: rondel.buffer(cells, 1e4, **rules),
+    "simplify": lambda cells, **rules: rondel.simplify(cells, 1e4, **rules),
+    "area": rondel.area,
+    "length": rondel.length,
+    "relate": lambda cells, **rules: rondel.relate(cells, A, **rules),
+    "contains": lambda cells, **rules: rondel.contains(cells, shapely.Point(1, 0.5), **rules),
+}
+
+
+@pytest.mark.parametrize("name", OF_CELLS)
+def test_cells_that_cross_themselves_are_refused_or_repaired(name):
+    call = OF_CELLS[name]
+    with pytest.raises(rondel.InvalidInput, match="cell 0 crosses or overlaps itself at 1") as told:
+        call(CROSSING)
+    assert told.value.index == 0
+    with pytest.warns(UserWarning, match=r"cell 0 was repaired .*, and 1 more"):
+        found = call(CROSSING, invalid="repair")
+    with pytest.warns(UserWarning, match="was repaired"):
+        sound = CROSSING.repaired()
+    with warnings.catch_warnings(action="error"):
+        expected = call(sound)
+    if isinstance(expected, rondel.CellSet):
+        found, expected = found.areas, expected.areas
+    if name != "overlay":
+        assert np.all(found == expected)
+    # The even-odd reading of the tie is two triangles.
+    assert np.isclose(rondel.area(sound, radius=1)[0], 2 * np.radians(1) ** 2, rtol=1e-3)
