@@ -5,6 +5,7 @@
 // have positions; multilinestrings have lines of positions, and multipoints positions.
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -66,10 +67,13 @@ LonLatLineGroups lines_in(ArrowLevels levels, std::string_view type) {
   } else {
     // A line without positions is none.
     const std::vector<std::uint64_t> ends = levels.next();
+    const std::vector<LonLat> positions = levels.positions();
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      if (ends[i] < ends[i + 1]) features.rows.offsets.push_back(ends[i + 1]);
+      const std::span line = std::span(positions).subspan(ends[i], ends[i + 1] - ends[i]);
+      if (!line.empty()) features.rows.append(line);
       features.end_group();
     }
+    return features;
   }
   features.rows.values = levels.positions();
   return features;

@@ -430,7 +430,8 @@ RONDEL_C_API rondel_status rondel_features_of_polygons(const rondel_polygons* po
                                                        const rondel_execution* execution,
                                                        rondel_features** made);
 
-/** Writes the area of each polygon in steradians, shape (num_polygons,). */
+/** Writes the area of each polygon in steradians, shape (num_polygons,). A polygon that crosses or overlaps itself has
+ *  none; rondel_repair() makes it valid. */
 RONDEL_C_API rondel_status rondel_polygon_areas(const rondel_polygons* polygons, double* areas);
 /** Writes the length of each border in radians, shape (num_polygons,). */
 RONDEL_C_API rondel_status rondel_polygon_lengths(const rondel_polygons* polygons, double* lengths);

@@ -95,14 +95,15 @@ void require_two(const void* a, const void* b) {
 }
 
 // Returns the lines and points in longitude and latitude, in a group for each of n geometries.
-RowGroups<CompressedRows<LonLat>> grouped(LonLatLines drawn, std::size_t n) {
+RowGroups<CompressedRows<LonLat>> grouped(const LonLatLines& drawn, std::size_t n) {
   RowGroups<CompressedRows<LonLat>> made;
-  std::uint64_t part = 0;
+  std::size_t part = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    while (part < drawn.owners.size() && drawn.owners[part] == i) ++part;
-    made.offsets.push_back(part);
+    for (; part < drawn.owners.size() && drawn.owners[part] == i; ++part) {
+      made.rows.append(drawn.parts[part]);
+    }
+    made.end_group();
   }
-  made.rows = std::move(drawn.parts);
   return made;
 }
 
