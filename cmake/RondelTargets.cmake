@@ -38,6 +38,9 @@ function(rondel_library_settings target)
     DEFINE_SYMBOL ""
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  # A function and an array have a section each, so that a shared library that is linked of static ones can leave out
+  # what it does not use (-Wl,--gc-sections), although the files of a layer are one object.
+  target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL SHARED_LIBRARY)
     target_link_options(${target} PRIVATE -Wl,--no-undefined)
