@@ -62,6 +62,15 @@ RONDEL_API void apply(const Weights& weights, std::span<const double> in, std::s
                       std::size_t num_fields = 1, const ApplyOptions& options = {},
                       const Execution& execution = {});
 
+/// Gives each row the value that the largest part of its weights has, for categories: flags, land
+/// use, types of soil. Of values with equal parts the smallest counts. Missing values, empty rows
+/// and lengths are treated as by apply().
+/// \throws InvalidInput as apply() does, and for a weight that is not finite (first bad position)
+RONDEL_API void apply_largest_share(const Weights& weights, std::span<const double> in,
+                                    std::span<double> out, std::size_t num_fields = 1,
+                                    const ApplyOptions& options = {},
+                                    const Execution& execution = {});
+
 /// Returns the matrix with other numbers of rows and columns, for weights that were made for a part
 /// of the targets and sites: row r becomes row rows[r], and column c becomes column columns[c]. The
 /// order within a row is kept. The hashes are unknown.

@@ -44,34 +44,6 @@ bool is_conservative(FieldMethod method) {
          method == FieldMethod::largest_share;
 }
 
-// Returns the value of each row that the largest part of its weights has, or NaN where more than a
-// share of them lacks a value.
-void apply_largest_share(const Weights& weights, std::span<const double> in, std::span<double> out,
-                         double max_missing, const Execution& execution) {
-  constexpr std::size_t rows_per_task = 1024;
-  system::parallel_for(
-      execution.threads, weights.num_rows(), rows_per_task, [&](std::size_t begin, std::size_t end) {
-        std::map<double, double> shares;
-        for (std::size_t r = begin; r < end; ++r) {
-          shares.clear();
-          double all = 0;
-          double known = 0;
-          for (std::uint64_t k = weights.offsets[r]; k < weights.offsets[r + 1]; ++k) {
-            const double value = in[weights.columns[k]];
-            all += weights.values[k];
-            if (std::isnan(value)) continue;
-            known += weights.values[k];
-            shares[value] += weights.values[k];
-          }
-          out[r] = missing;
-          if (shares.empty() || all - known > max_missing * all) continue;
-          const auto largest = std::ranges::max_element(
-              shares, {}, [](const auto& share) { return share.second; });
-          out[r] = largest->first;
-        }
-      });
-}
-
 class RegridJob {
  public:
   RegridJob(const FileName& in, const FileName& target, const FileName& out,
@@ -235,18 +207,13 @@ class RegridJob {
       values.resize(count * report_.sources);
       carried.resize(count * report_.targets);
       fields_->read(array, first, values);
+      const ApplyOptions rules{.fill = missing, .max_missing = options_.max_missing};
       if (method == FieldMethod::largest_share) {
-        for (std::size_t f = 0; f < count; ++f) {
-          apply_largest_share(weights, std::span(values).subspan(f * report_.sources, report_.sources),
-                              std::span(carried).subspan(f * report_.targets, report_.targets),
-                              options_.max_missing, execution_);
-        }
+        apply_largest_share(weights, values, carried, count, rules, execution_);
       } else if (second_ && method == FieldMethod::conservative_2nd) {
-        apply_limited(*second_, values, carried, count,
-                      {.fill = missing, .max_missing = options_.max_missing}, execution_);
+        apply_limited(*second_, values, carried, count, rules, execution_);
       } else {
-        apply(weights, values, carried, count, {.fill = missing, .max_missing = options_.max_missing},
-              execution_);
+        apply(weights, values, carried, count, rules, execution_);
       }
       write(carried, writer);
       system::announce(execution_, "regrid", first + count, num_fields);

@@ -140,6 +140,55 @@ bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end, cons
   return is_right;
 }
 
+// Throws InvalidInput unless apply() can multiply these fields by these weights.
+void require_application(const Weights& weights, std::span<const double> in,
+                         std::span<const double> out, std::size_t num_fields,
+                         const ApplyOptions& options) {
+  require_rows(weights);
+  require_length("the input", in.size(), product(num_fields, weights.num_columns));
+  require_length("the output", out.size(), product(num_fields, weights.num_rows()));
+  if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
+    throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
+                       ", not in [0, 1]");
+  }
+}
+
+// A value, and the part of a row's weights that has it.
+struct ShareOfValue {
+  double value;
+  double weight;
+};
+
+// Returns the value that the largest part of a row's weights has. `shares` is memory.
+double value_of_largest_share(const Weights& weights, std::size_t row, std::span<const double> in,
+                              const ApplyOptions& options, std::vector<ShareOfValue>& shares) {
+  shares.clear();
+  double all = 0;
+  double lacking = 0;
+  for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
+    const double value = in[weights.columns[k]];
+    const double weight = std::abs(weights.values[k]);
+    all += weight;
+    if (std::isnan(value)) {
+      lacking += weight;
+      continue;
+    }
+    const auto known = std::ranges::find(shares, value, &ShareOfValue::value);
+    if (known == shares.end()) {
+      shares.push_back({value, weight});
+    } else {
+      known->weight += weight;
+    }
+  }
+  if (shares.empty() || lacking > options.max_missing * all) return options.fill;
+  return std::ranges::max_element(shares,
+                                  [](const ShareOfValue& a, const ShareOfValue& b) {
+                                    return a.weight != b.weight ? a.weight < b.weight
+                                                                : a.value > b.value;
+                                  })
+      ->value;
+}
+
 // Throws InvalidInput for a number that is not below `limit`.
 void require_numbers(std::string_view name, std::span<const Index> numbers, std::size_t limit) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -171,13 +220,7 @@ std::uint64_t point_set_hash(std::span<const Point> points) {
 void apply(const Weights& weights, std::span<const double> in, std::span<double> out,
            std::size_t num_fields, const ApplyOptions& options, const Execution& execution) {
   const system::Call call(execution);
-  require_rows(weights);
-  require_length("the input", in.size(), product(num_fields, weights.num_columns));
-  require_length("the output", out.size(), product(num_fields, weights.num_rows()));
-  if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
-    throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
-                       ", not in [0, 1]");
-  }
+  require_application(weights, in, out, num_fields, options);
   if (num_fields == 0) require_finite_weights(weights);
   std::atomic<bool> are_right = true;
   // All fields of some rows, as long as these rows are in the cache.
@@ -191,6 +234,25 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
                          }
                        });
   if (!are_right) require_finite_weights(weights);
+}
+
+void apply_largest_share(const Weights& weights, std::span<const double> in, std::span<double> out,
+                         std::size_t num_fields, const ApplyOptions& options,
+                         const Execution& execution) {
+  const system::Call call(execution);
+  require_application(weights, in, out, num_fields, options);
+  require_finite_weights(weights);
+  const std::size_t num_rows = weights.num_rows();
+  system::parallel_for(
+      execution.threads, num_rows, rows_per_piece, [&](std::size_t begin, std::size_t end) {
+        std::vector<ShareOfValue> shares;
+        for (std::size_t f = 0; f < num_fields; ++f) {
+          const auto values = in.subspan(f * weights.num_columns, weights.num_columns);
+          for (std::size_t r = begin; r < end; ++r) {
+            out[f * num_rows + r] = value_of_largest_share(weights, r, values, options, shares);
+          }
+        }
+      });
 }
 
 Weights renumbered(const Weights& weights, std::span<const Index> rows, std::size_t num_rows,

@@ -142,6 +142,27 @@ void test_parts(const Weights& weights, std::size_t left_out) {
   }
 }
 
+// The value of a row is that of one of its columns, whose weights are together the largest.
+void test_largest_share(const Weights& weights) {
+  std::vector<double> values(weights.num_columns);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 3);
+  std::vector<double> found(weights.num_rows());
+  apply_largest_share(weights, values, found);
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    double shares[3] = {0, 0, 0};
+    for (std::uint64_t k = weights.offsets[r]; k < weights.offsets[r + 1]; ++k) {
+      shares[weights.columns[k] % 3] += std::abs(weights.values[k]);
+    }
+    if (weights.offsets[r] == weights.offsets[r + 1]) {
+      require(std::isnan(found[r]), "a row without entries has no value");
+      continue;
+    }
+    for (const double share : shares) {
+      require(share <= shares[static_cast<std::size_t>(found[r])], "no share is larger");
+    }
+  }
+}
+
 // Each source is in the row of its nearest target.
 void test_nearest_d2s(ByteSource& source) {
   const Scales scales = next_scales(source);
@@ -166,6 +187,7 @@ void test_nearest_d2s(ByteSource& source) {
   if (num_targets == 0 || sources.empty()) return;
   test_parts(nearest, places.size());
   test_parts(given, places.size());
+  test_largest_share(given);
 }
 
 }  // namespace

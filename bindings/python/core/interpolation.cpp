@@ -53,13 +53,15 @@ auto vector_getter() {
   };
 }
 
+// Returns the sums of rows, or with `has_largest` the values of the largest part of each.
 ArrayOut<double> apply_weights(const Weights& weights, const FieldsIn& fields, double fill,
-                               double max_missing, unsigned threads) {
+                               double max_missing, bool has_largest, unsigned threads) {
   const std::size_t count = fields.shape(0) * weights.num_rows();
   return to_array<double>(watched_quietly(count, threads, [&](const Execution& execution) {
     std::vector<double> out(count);
-    apply(weights, numbers_of(fields), out, fields.shape(0),
-          {.fill = fill, .max_missing = max_missing}, execution);
+    const ApplyOptions options{.fill = fill, .max_missing = max_missing};
+    (has_largest ? apply_largest_share : apply)(weights, numbers_of(fields), out, fields.shape(0),
+                                                options, execution);
     return out;
   }));
 }
@@ -113,7 +115,7 @@ void add_weights(nb::module_& module) {
       .def("with_rows", &weights_with_rows, nb::arg("mask").noconvert(), nb::arg("others").none())
       .def("without_columns", &weights_without_columns, nb::arg("mask").noconvert())
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
-           nb::arg("max_missing"), nb::arg("threads"));
+           nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"));
   module.def("bilinear_weights", &bilinear_of_axes, nb::arg("lon").noconvert(),
              nb::arg("lat").noconvert(), nb::arg("targets").noconvert(), nb::arg("are_single"));
 }

@@ -60,6 +60,8 @@ SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
 CellSet
     Cells of diagrams, grids, models and polygons, for `remap`.
+regrid, regrid_file
+    Datasets and files on another grid, which may be a name such as "healpix:7".
 Regridder
     In place of `xesmf.Regridder`.
 Regions
@@ -110,6 +112,8 @@ from ._polygons import (
 from ._power import PowerDiagram, power_diagram
 from ._queries import Location, Where
 from ._regions import Regions, feature_cells
+from ._regrid import regrid
+from ._regrid_files import RegridReport, regrid_file
 from ._regridder import Regridder
 from ._relations import (
     contains,
@@ -125,7 +129,6 @@ from ._relations import (
     touches,
     within,
 )
-from ._regrid_files import RegridReport, regrid_file
 from ._remap import Remap, remap
 from ._simplify import simplify
 from ._validity import is_valid, make_valid, validity_reason
@@ -160,6 +163,7 @@ __all__ = [
     "LonLatTriangles",
     "PowerDiagram",
     "Regions",
+    "RegridReport",
     "Regridder",
     "Remap",
     "Snapshot",
@@ -197,9 +201,10 @@ __all__ = [
     "polygons",
     "power_diagram",
     "read_weights",
+    "regrid",
+    "regrid_file",
     "relate",
     "relate_pattern",
-    "regrid_file",
     "remap",
     "simplify",
     "symmetric_difference",

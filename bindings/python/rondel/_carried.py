@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import xarray
@@ -14,6 +14,9 @@ from ._errors import warn_caller
 from ._places import Places
 from ._values import OF_VALUES, missing_marker, unpacked
 from ._weights import Weights
+
+# Sums, the value of the largest part of a target, or the latter for flags alone.
+How: TypeAlias = Literal["sum", "largest_share", "by_kind"]
 
 _AWAY = "as their longitudes and latitudes are not those of the source"
 
@@ -28,21 +31,28 @@ def carried(
     max_missing: float,
     unmapped: float = np.nan,
     keep_attrs: bool = True,
+    how: How = "sum",
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
-    contributes to, while those that need a missing value have NaN.
+    contributes to, while those that need a missing value have NaN. With the
+    `how` "by_kind" arrays of flags get the value of the largest part.
     """
     data = unpacked(data)
     source.require_same(data)
     without_source = np.diff(weights.indptr) == 0
 
-    def applied(values: Any, marker: Any) -> Any:
+    def applied(values: Any, marker: Any, is_largest: bool) -> Any:
         dtype = _kind(values)
         if marker is not None:
             values = marker(values)
         leading = values.shape[: values.ndim - len(source.dims)]
         fields = values.reshape(*leading, source.lon.size)
-        found = weights.apply(fields, skipna=skipna, max_missing=max_missing)
+        found = weights.apply(
+            fields,
+            skipna=skipna,
+            max_missing=max_missing,
+            how="largest_share" if is_largest else "sum",
+        )
         if not np.isnan(unmapped):
             found[..., without_source] = unmapped
         shape = (*found.shape[:-1], *wanted.shape)
@@ -64,7 +74,10 @@ def carried(
             keep_attrs=keep_attrs,
             dask="parallelized",
             output_dtypes=[_kind(array)],
-            kwargs={"marker": missing_marker(array)},
+            kwargs={
+                "marker": missing_marker(array),
+                "is_largest": how == "largest_share" or (how == "by_kind" and _has_flags(array)),
+            },
             dask_gufunc_kwargs={
                 "output_sizes": dict(zip(wanted.dims, wanted.shape, strict=True)),
                 "allow_rechunk": True,
@@ -97,6 +110,11 @@ def carried(
     if not keep_attrs:
         whole = whole.drop_attrs(deep=False)
     return whole[[name for name in data.data_vars if name in whole.data_vars]]
+
+
+def _has_flags(array: xarray.DataArray) -> bool:
+    """Whether the numbers stand for categories, by CF (section 3.5)."""
+    return "flag_values" in array.attrs or "flag_meanings" in array.attrs
 
 
 def _is_field(array: xarray.DataArray, source: Places) -> bool:

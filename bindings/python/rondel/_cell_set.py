@@ -196,9 +196,7 @@ class CellSet(Described):
         return cls._of(_core.CellSet.lonlat_grid(*lines, sides, as_threads(threads)))
 
     @classmethod
-    def named(
-        cls, name: str, *, sides: Sides = "parallels", threads: int | None = None
-    ) -> CellSet:
+    def named(cls, name: str, *, sides: Sides = "parallels", threads: int | None = None) -> CellSet:
         """Makes the cells of a grid of the whole sphere from its name.
 
         Parameters

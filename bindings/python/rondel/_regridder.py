@@ -55,15 +55,15 @@ class Regridder(Described):
     Parameters
     ----------
     ds_in, ds_out : Dataset, DataArray, dict, tuple, CellSet or str
-        The source and the target grid; a text is the name of one (`CellSet.named`). Longitudes and latitudes are found by their attributes or
-        names (docs/guide/formats.md); they are axes of a grid, curvilinear coordinates, or those of
-        points, in degrees, or in radians if the attribute `units` says so. Conservative methods
-        take the cells from the coordinates' attribute `bounds`, or from `lon_b` and `lat_b`; cells
-        of axes without these end half way between their centers. A variable `mask`, also among the
-        coordinates of a DataArray, is 0 or missing where places take no part. The masks of SCRIP
-        (`grid_imask`) and OASIS are heeded, too. Masked elements of NumPy arrays count as NaN.
-        Places without longitude or latitude, and cells with a missing corner, are left out with a
-        warning that counts them.
+        The source and the target grid; a text is the name of one (`CellSet.named`). Longitudes and
+        latitudes are found by their attributes or names (docs/guide/formats.md); they are axes of a
+        grid, curvilinear coordinates, or those of points, in degrees, or in radians if the
+        attribute `units` says so. Conservative methods take the cells from the coordinates'
+        attribute `bounds`, or from `lon_b` and `lat_b`; cells of axes without these end half way
+        between their centers. A variable `mask`, also among the coordinates of a DataArray, is 0 or
+        missing where places take no part. The masks of SCRIP (`grid_imask`) and OASIS are heeded,
+        too. Masked elements of NumPy arrays count as NaN. Places without longitude or latitude, and
+        cells with a missing corner, are left out with a warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in
@@ -212,7 +212,13 @@ class Regridder(Described):
         return self._target.shape
 
     def __call__(
-        self, data: Any, *, keep_attrs: bool = False, skipna: bool = False, na_thres: float = 1.0
+        self,
+        data: Any,
+        *,
+        keep_attrs: bool = False,
+        skipna: bool = False,
+        na_thres: float = 1.0,
+        how: Literal["sum", "largest_share", "by_kind"] = "sum",
     ) -> Any:
         """Regrids fields to the target grid.
 
@@ -232,6 +238,10 @@ class Regridder(Described):
         na_thres : float, optional
             With `skipna`, the share of missing values above which a target is missing, from 0 to 1;
             by default 1.
+        how : {'sum', 'largest_share', 'by_kind'}, optional
+            The weighted sum (default); the value that the largest part of a target has, for
+            categories; or the latter for arrays with the attribute `flag_values` or
+            `flag_meanings`, and sums for the others.
 
         Returns
         -------
@@ -262,6 +272,7 @@ class Regridder(Described):
             "max_missing": na_thres,
             "unmapped": self._unmapped,
             "keep_attrs": keep_attrs,
+            "how": how,
         }
         source = self._source
         if isinstance(data, xarray.Dataset):

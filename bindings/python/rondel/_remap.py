@@ -121,9 +121,9 @@ def remap(
 
     Parameters
     ----------
-    source, target : CellSet, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh, Regions or str
-        The n source cells and the m target cells, which cover the sphere or parts of it. The cells
-        of a triangulation are its triangles; a text is the name of a grid (`CellSet.named`).
+    source, target : CellSet, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
+        The n source cells and the m target cells, which cover the sphere or parts of it; or the
+        name of a grid (`CellSet.named`). The cells of a triangulation are its triangles.
     order : {1, 2}, optional
         The order of the reconstruction. 1 (default): the field is constant in each source cell.
         2: it has a gradient, which is estimated by least squares over the neighbors; across

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import os
 import zipfile
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -161,6 +161,7 @@ class Weights(Described):
         skipna: bool = False,
         max_missing: float = 1.0,
         fill: float = np.nan,
+        how: Literal["sum", "largest_share"] = "sum",
         threads: int | None = None,
     ) -> FloatArray:
         """Computes the values at the targets.
@@ -179,6 +180,9 @@ class Weights(Described):
             values, from 0 to 1; by default 1, with which one present value suffices.
         fill : float, optional
             The value of targets that have none; by default NaN.
+        how : {'sum', 'largest_share'}, optional
+            The weighted sum (default), or, for categories such as flags and land use, the value
+            that the largest part of a target's weights has; of equal parts the smallest value.
         threads : int, optional
             The largest number of threads; by default one for each core.
 
@@ -202,6 +206,8 @@ class Weights(Described):
         rows, columns = self.shape
         fields = as_fields(values, columns)
         leading = fields.shape[:-1]
+        if how not in ("sum", "largest_share"):
+            raise ValueError(f"how must be 'sum' or 'largest_share', not {how!r}")
         if not 0 <= max_missing <= 1:
             raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
         if max_missing < 1 and not skipna:
@@ -210,6 +216,7 @@ class Weights(Described):
             fields.reshape(int(np.prod(leading)), columns),
             float(fill),
             float(max_missing) if skipna else 0.0,
+            how == "largest_share",
             as_threads(threads),
         )
         return found.reshape((*leading, rows))

@@ -19,6 +19,8 @@ from ._carried import carried
 from ._errors import warn_caller
 from ._interpolation import Method
 from ._places import Places
+from ._regrid import regrid
+from ._regrid_files import FieldMethod
 from ._weights import Weights
 
 __all__ = ["RondelAccessor"]
@@ -138,6 +140,22 @@ class RondelAccessor:
             if idle:
                 warn_caller(f"weights are given, so these change nothing: {', '.join(idle)}")
         return carried(self._data, weights, source, wanted, skipna=skipna, max_missing=max_missing)
+
+    def regrid(self, target: Any, method: FieldMethod = "conservative", **options: Any) -> Any:
+        """Brings the data to another grid.
+
+        Parameters
+        ----------
+        target, method, **options
+            As in `rondel.regrid`.
+
+        Returns
+        -------
+        Dataset or DataArray
+            The fields at the target.
+
+        """
+        return regrid(self._data, target, method, **options)
 
 
 _REGISTERS: tuple[Any, ...] = (

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Regridding of what xarray holds, in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import Any, cast
+
+from ._regrid_files import FieldMethod
+from ._regridder import Regridder, RegridMethod
+from ._types import Progress
+
+# The names of `Regridder` for the methods of `regrid_file`. Categories are told by the fields.
+_OF_REGRIDDER = {
+    "conservative": "conservative_normed",
+    "largest_share": "conservative_normed",
+    "nearest": "nearest_s2d",
+}
+
+
+def regrid(
+    data: Any,
+    target: Any,
+    method: FieldMethod = "conservative",
+    *,
+    lon: Hashable | None = None,
+    lat: Hashable | None = None,
+    lon_out: Hashable | None = None,
+    lat_out: Hashable | None = None,
+    max_missing: float = 0.5,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Any:
+    """Brings a Dataset or DataArray to another grid.
+
+    It needs xarray. A `Regridder` does the same in two steps, for many data on one grid, and
+    `regrid_file` for files that do not fit into memory.
+
+    Parameters
+    ----------
+    data : Dataset or DataArray
+        Fields with their longitudes and latitudes; arrays of Dask stay lazy.
+    target : str, Dataset, DataArray, dict, tuple or CellSet
+        The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it.
+    method : str, optional
+        'conservative' (default) and 'conservative_2nd': means over cells; 'nearest', 'linear',
+        'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers. With
+        conservative methods, arrays that have the attribute `flag_values` or `flag_meanings` get
+        the value that the largest part of a target has, as 'largest_share' asks for.
+    lon, lat, lon_out, lat_out : str, optional
+        The names of the longitudes and latitudes of both sides, if they are not found.
+    max_missing : float, optional
+        The share of a target's weights for which values may be missing, from 0 to 1; by default
+        0.5.
+    threads : int, optional
+        The largest number of threads; by default one for each core.
+    progress : callable, optional
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+
+    Returns
+    -------
+    Dataset or DataArray
+        The fields at the target, with their attributes.
+
+    Raises
+    ------
+    ValueError
+        If there is no such method or grid, or coordinates are not found; `InvalidInput` if cells
+        are invalid or overlap.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel
+    >>> import xarray  # doctest: +SKIP
+    >>> lon, lat = np.arange(5.0, 360, 10), np.arange(-85.0, 90, 10)
+    >>> data = xarray.DataArray(  # doctest: +SKIP
+    ...     np.ones((18, 36)), {"lat": lat, "lon": lon}, ("lat", "lon")
+    ... )
+    >>> rondel.regrid(data, "healpix:1").shape  # doctest: +SKIP
+    (48,)
+
+    """
+    is_of_cells = method in ("conservative", "conservative_2nd")
+    regridder = Regridder(
+        data,
+        target,
+        cast("RegridMethod", _OF_REGRIDDER.get(method, method)),
+        lon=lon,
+        lat=lat,
+        lon_out=lon_out,
+        lat_out=lat_out,
+        threads=threads,
+        progress=progress,
+    )
+    return regridder(
+        data,
+        keep_attrs=True,
+        skipna=True,
+        na_thres=max_missing,
+        how="largest_share" if method == "largest_share" else "by_kind" if is_of_cells else "sum",
+    )
