@@ -36,6 +36,11 @@ inline Sign side_of_line(const LonLat& a, const LonLat& b, const LonLat& c) {
   const double least = bound * (std::abs(left) + std::abs(right)) + 0x1p-1000;
   if (determinant > least) return Sign::positive;
   if (-determinant > least) return Sign::negative;
+  // Where each product has a factor of zero, which no rounding makes, the sign is known: c is an end of
+  // the line, or all three are on one meridian or parallel.
+  const bool is_left_zero = a.lon_deg == c.lon_deg || b.lat_deg == c.lat_deg;
+  const bool is_right_zero = a.lat_deg == c.lat_deg || b.lon_deg == c.lon_deg;
+  if (is_left_zero && is_right_zero) return Sign::zero;
   const auto lifted = [](const LonLat& p) { return Point{p.lon_deg, p.lat_deg, 1}; };
   return orientation(lifted(a), lifted(b), lifted(c));
 }

@@ -10,37 +10,34 @@
 //       / below: in no ring    around a place that do not fit to each other are a fault: two shells
 //                              without a hole between them, or a hole without its shell.
 //
-// Only corners are events. When the sweep arrives at a corner, the sides on which it lies are
+// A state is the set of the rings around a place, by its number.
+//
+// Only corners are events. Where a side ends at a corner, the sides at the corner are its neighbors;
+// elsewhere they are searched for.  When the sweep arrives at a corner, the sides on which it lies are
 // divided there, and sides that coincide are merged. So the sides that are left either cross
 // properly, which is found between neighbors, or meet only in corners.
 #include "overlay/plane_sweep.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
-#include <map>
 #include <set>
 #include <utility>
 
 #include "exact/vector.h"
 #include "overlay/plane.h"
+#include "overlay/ring_sets.h"
 
 namespace rondel::overlay {
 namespace {
-
-// The state of a place: the rings around it, in order, and whether it is inside of a polygon, that is
-// in a shell and in none of its holes.
-struct PlaneState {
-  std::vector<Index> rings = {};
-  bool is_inside = false;
-};
 
 // A side from a corner to one farther east (or north), both by their numbers.
 struct SweptSide {
   Index west;
   Index east;
-  std::vector<Index> rings;  // the rings that have the side, in order
-  Index below = 0;           // the numbers of the states on both sides
+  Index rings;      // the set of rings that have the side
+  Index below = 0;  // the states on both sides
   Index above = 0;
 };
 
@@ -50,11 +47,11 @@ class PlaneSweep {
   explicit PlaneSweep(std::span<const map::LonLatRing> rings)
       : rings_(rings),
         has_sides_(rings.size(), false),
-        states_(1),
-        numbers_of_states_{{{}, 0}},
+        sets_(rings.size()),
+        kinds_(sets_.size(), PlaceKind::unknown),
         active_(Southern{this}) {
-    number_corners();
-    add_sides();
+    kinds_[sets_.empty()] = PlaceKind::outside;
+    add_sides(numbered_corners());
   }
 
   // Returns the sides of the region, or the first fault.
@@ -79,22 +76,38 @@ class PlaneSweep {
     }
   };
   using Active = std::set<Index, Southern>;
+  // Whether a place is inside of a polygon, that is in a shell and in none of its holes.
+  enum class PlaceKind : std::uint8_t { unknown, outside, inside };
 
-  // Numbers the different corners from west to east.
-  void number_corners() {
+  // Numbers the different corners from west to east. Returns the numbers of the positions of all
+  // rings.
+  std::vector<Index> numbered_corners() {
+    struct Corner {
+      LonLat position;
+      Index place;
+    };
+    std::vector<Corner> sorted;
     for (const map::LonLatRing& ring : rings_) {
-      corners_.insert(corners_.end(), ring.positions.begin(), ring.positions.end());
+      for (const LonLat& p : ring.positions)
+        sorted.push_back({p, static_cast<Index>(sorted.size())});
     }
-    std::ranges::sort(corners_, is_west_of);
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    std::ranges::sort(sorted, is_west_of, &Corner::position);
+    std::vector<Index> numbers(sorted.size());
+    for (const Corner& corner : sorted) {
+      if (corners_.empty() || !(corners_.back() == corner.position)) {
+        corners_.push_back(corner.position);
+      }
+      numbers[corner.place] = static_cast<Index>(corners_.size() - 1);
+    }
     first_from_.assign(corners_.size(), no_index);
-  }
-  [[nodiscard]] Index number_of(const LonLat& p) const {
-    return static_cast<Index>(std::ranges::lower_bound(corners_, p, is_west_of) - corners_.begin());
+    last_to_.assign(corners_.size(), no_index);
+    return numbers;
   }
 
   // Adds the sides of all rings, and assigns rings to polygons: each shell begins one.
-  void add_sides() {
+  void add_sides(std::span<const Index> numbers) {
+    sides_.reserve(numbers.size());
+    next_from_.reserve(numbers.size());
     Index part = no_index;
     for (Index r = 0; r < rings_.size(); ++r) {
       if (!rings_[r].is_hole || part == no_index) {
@@ -102,24 +115,59 @@ class PlaneSweep {
         first_ring_of_.push_back(r);
       }
       parts_.push_back(part);
-      const std::vector<LonLat>& positions = rings_[r].positions;
-      if (positions.empty() || rings_[r].is_left_out) continue;
-      Index from = number_of(positions.back());
-      for (const LonLat& position : positions) {
-        const Index to = number_of(position);
-        if (from != to) start(std::min(from, to), std::max(from, to), {r});
+      const std::span<const Index> ring = numbers.first(rings_[r].positions.size());
+      numbers = numbers.subspan(ring.size());
+      if (ring.empty() || rings_[r].is_left_out) continue;
+      Index from = ring.back();
+      for (const Index to : ring) {
+        if (from != to) start(std::min(from, to), std::max(from, to), r);
         from = to;
       }
     }
+    places_.resize(sides_.size(), active_.end());
     has_area_.assign(first_ring_of_.size(), false);
   }
 
   // Adds a side that begins at the corner `west`.
-  void start(Index west, Index east, std::vector<Index> rings) {
+  void start(Index west, Index east, Index rings) {
     const auto side = static_cast<Index>(sides_.size());
-    sides_.push_back({west, east, std::move(rings)});
+    sides_.push_back({west, east, rings, 0, 0});
     next_from_.push_back(first_from_[west]);
     first_from_[west] = side;
+    last_to_[east] = side;
+  }
+  // Takes a side among the active ones, in front of another one.
+  void activate(Active::iterator above, Index side) {
+    if (places_.size() < sides_.size()) places_.resize(sides_.size(), active_.end());
+    if (unused_.empty()) {
+      places_[side] = active_.insert(above, side);
+      return;
+    }
+    unused_.back().value() = side;
+    places_[side] = active_.insert(above, std::move(unused_.back()));
+    unused_.pop_back();
+  }
+  // Ends active sides, and keeps their memory for others.
+  void deactivate(Active::iterator first, Active::iterator last) {
+    while (first != last) {
+      const auto next = std::next(first);
+      places_[*first] = active_.end();
+      unused_.push_back(active_.extract(first));
+      first = next;
+    }
+  }
+  // Returns the active sides on which a corner lies, from south to north, or where they would be.
+  [[nodiscard]] std::pair<Active::iterator, Active::iterator> sides_at(Index corner) const {
+    const LonLat& place = corners_[corner];
+    const Index known = last_to_[corner];
+    const bool is_active =
+        known != no_index && known < places_.size() && places_[known] != active_.end();
+    if (!is_active) return active_.equal_range(place);
+    auto first = places_[known];
+    auto last = std::next(first);
+    while (first != active_.begin() && side_of(*std::prev(first), place) == Sign::zero) --first;
+    while (last != active_.end() && side_of(*last, place) == Sign::zero) ++last;
+    return {first, last};
   }
 
   // Returns positive if p is north of the line through a side.
@@ -139,18 +187,19 @@ class PlaneSweep {
   // Handles the event of a corner: ends the sides that meet it, and begins those that start there.
   void visit(Index corner) {
     const LonLat place = corners_[corner];
-    const auto [first, last] = active_.equal_range(place);
-    for (auto side = first; side != last; side = active_.erase(side)) end_side(*side, corner);
-    std::vector<Index> begun = sides_from(corner);
-    auto above = last;
+    const auto [first, last] = sides_at(corner);
+    for (auto side = first; side != last; ++side) end_side(*side, corner);
+    deactivate(first, last);
+    const std::vector<Index>& begun = sides_from(corner);
+    const auto above = last;
     const auto below = above == active_.begin() ? active_.end() : std::prev(above);
-    Index state = below == active_.end() ? 0 : sides_[*below].above;
-    Index south = below == active_.end() ? no_index : *below;
+    Index state = below == active_.end() ? sets_.empty() : sides_[*below].above;
+    const Index south = below == active_.end() ? no_index : *below;
     for (const Index side : begun) {
       sides_[side].below = state;
       if (!cross(side, state, place)) return;
       sides_[side].above = state;
-      active_.insert(above, side);
+      activate(above, side);
     }
     if (begun.empty()) {
       if (above != active_.end()) require_apart(south, *above);
@@ -167,8 +216,8 @@ class PlaneSweep {
       start(corner, east, sides_[side].rings);
     }
     const SweptSide& done = sides_[side];
-    const bool is_inside = states_[done.above].is_inside;
-    if (states_[done.below].is_inside == is_inside) return;
+    const bool is_inside = kinds_[done.above] == PlaceKind::inside;
+    if ((kinds_[done.below] == PlaceKind::inside) == is_inside) return;
     const LonLat& west = corners_[done.west];
     const LonLat& east = corners_[done.east];
     found_.push_back(is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
@@ -176,68 +225,58 @@ class PlaneSweep {
 
   // Returns the sides that begin at a corner, from south to north, each once. Where two coincide,
   // the longer one is divided.
-  std::vector<Index> sides_from(Index corner) {
-    std::vector<Index> sides;
-    for (Index s = first_from_[corner]; s != no_index; s = next_from_[s]) sides.push_back(s);
-    std::ranges::sort(sides, [&](Index s, Index t) {
+  const std::vector<Index>& sides_from(Index corner) {
+    beginning_.clear();
+    kept_.clear();
+    for (Index s = first_from_[corner]; s != no_index; s = next_from_[s]) beginning_.push_back(s);
+    std::ranges::sort(beginning_, [&](Index s, Index t) {
       const Sign side = side_of(s, corners_[sides_[t].east]);
       if (side != Sign::zero) return side == Sign::positive;
       return std::pair(sides_[s].east, s) < std::pair(sides_[t].east, t);
     });
-    std::vector<Index> kept;
-    for (const Index side : sides) {
-      if (kept.empty() || side_of(kept.back(), corners_[sides_[side].east]) != Sign::zero) {
-        kept.push_back(side);
+    for (const Index side : beginning_) {
+      if (kept_.empty() || side_of(kept_.back(), corners_[sides_[side].east]) != Sign::zero) {
+        kept_.push_back(side);
         continue;
       }
-      const std::vector<Index> rings = sides_[side].rings;
-      const Index nearer = sides_[kept.back()].east;
-      if (sides_[side].east != nearer) start(nearer, sides_[side].east, rings);
-      for (const Index ring : rings) add_ring(sides_[kept.back()].rings, ring);
+      const Index rings = sides_[side].rings;
+      SweptSide& nearer = sides_[kept_.back()];
+      nearer.rings = sets_.symmetric_difference(nearer.rings, rings);
+      // This may move all sides.
+      const Index middle = nearer.east;
+      if (sides_[side].east != middle) start(middle, sides_[side].east, rings);
     }
-    std::erase_if(kept, [&](Index side) { return sides_[side].rings.empty(); });
-    for (const Index side : kept) {
-      for (const Index ring : sides_[side].rings) has_sides_[ring] = true;
+    // Sides that a ring has twice have cancelled.
+    std::erase_if(kept_, [&](Index side) { return sides_[side].rings == sets_.empty(); });
+    for (const Index side : kept_) {
+      for (const Index ring : sets_[sides_[side].rings]) has_sides_[ring] = true;
     }
-    return kept;
-  }
-  // Adds a ring to those of a side. A side that a ring has twice cancels.
-  static void add_ring(std::vector<Index>& rings, Index ring) {
-    const auto same = std::ranges::lower_bound(rings, ring);
-    if (same == rings.end() || *same != ring) {
-      rings.insert(same, ring);
-    } else {
-      rings.erase(same);
-    }
+    return kept_;
   }
 
   // Changes the state by going north across a side. Returns whether the rings around the place there
   // fit to each other.
   bool cross(Index side, Index& state, const LonLat& place) {
-    const std::vector<Index>& crossed = sides_[side].rings;
-    std::vector<Index> rings;
-    std::ranges::set_symmetric_difference(states_[state].rings, crossed, std::back_inserter(rings));
-    const auto [known, is_new] =
-        numbers_of_states_.try_emplace(rings, static_cast<Index>(states_.size()));
-    state = known->second;
-    if (!is_new) return true;
-    states_.push_back({std::move(rings), false});
-    return take(states_.back(), crossed, place);
+    const Index crossed = sides_[side].rings;
+    state = sets_.symmetric_difference(state, crossed);
+    if (kinds_.size() < sets_.size()) kinds_.resize(sets_.size(), PlaceKind::unknown);
+    return kinds_[state] != PlaceKind::unknown || take(state, sets_[crossed], place);
   }
 
   // Finds the polygon that a new state is inside of. Returns false, with a fault, if its rings do not
   // fit to each other.
-  bool take(PlaneState& state, const std::vector<Index>& crossed, const LonLat& place) {
+  bool take(Index state, std::span<const Index> crossed, const LonLat& place) {
     const auto refuse = [&](PlaneFaultKind kind, Index first, Index second) {
       fault_ = PlaneFault{kind, first, second, place};
       return false;
     };
+    const std::span<const Index> rings = sets_[state];
     Index shell = no_index;  // of the polygon that has the place inside
-    for (auto ring = state.rings.begin(); ring != state.rings.end();) {
-      const auto end = std::find_if(ring, state.rings.end(),
-                                    [&](Index r) { return parts_[r] != parts_[*ring]; });
+    for (auto ring = rings.begin(); ring != rings.end();) {
+      const auto end =
+          std::find_if(ring, rings.end(), [&](Index r) { return parts_[r] != parts_[*ring]; });
       if (rings_[*ring].is_hole) {
-        return refuse(PlaneFaultKind::outside, other_than(state, *ring), *ring);
+        return refuse(PlaneFaultKind::outside, other_than(rings, *ring), *ring);
       }
       if (end - ring > 2) {
         const bool is_second_new = std::ranges::binary_search(crossed, ring[2]);
@@ -254,14 +293,14 @@ class PlaneSweep {
       }
       ring = end;
     }
-    state.is_inside = shell != no_index;
-    if (state.is_inside) has_area_[parts_[shell]] = true;
+    kinds_[state] = shell != no_index ? PlaceKind::inside : PlaceKind::outside;
+    if (shell != no_index) has_area_[parts_[shell]] = true;
     return true;
   }
   // Returns a ring of another polygon around the place, or no_index.
-  [[nodiscard]] Index other_than(const PlaneState& state, Index hole) const {
+  [[nodiscard]] Index other_than(std::span<const Index> rings, Index hole) const {
     Index other = no_index;
-    for (const Index ring : state.rings) {
+    for (const Index ring : rings) {
       if (parts_[ring] != parts_[hole]) other = ring;
     }
     return other;
@@ -283,7 +322,8 @@ class PlaneSweep {
     const double t_of_place = before == after ? 0.5 : before / (before - after);
     const LonLat place = {c.lon_deg + t_of_place * (d.lon_deg - c.lon_deg),
                           c.lat_deg + t_of_place * (d.lat_deg - c.lat_deg)};
-    const auto [first, second] = std::minmax(sides_[s].rings.front(), sides_[t].rings.front());
+    const auto [first, second] =
+        std::minmax(sets_[sides_[s].rings].front(), sets_[sides_[t].rings].front());
     fault_ = PlaneFault{PlaneFaultKind::crossing, first, second, place};
   }
 
@@ -307,13 +347,18 @@ class PlaneSweep {
   std::vector<bool> has_sides_;       // true for each ring that has sides left
   std::vector<Index> first_ring_of_;  // for each polygon its shell
   std::vector<bool> has_area_;        // true for each polygon that has an inside
-  std::vector<PlaneState> states_;    // the first one is outside of all rings
-  std::map<std::vector<Index>, Index> numbers_of_states_;  // by the rings
+  RingSets sets_;
+  std::vector<PlaceKind> kinds_;  // of each set
   std::vector<LonLat> corners_;
   std::vector<SweptSide> sides_;
   std::vector<Index> first_from_;  // for each corner a side that begins there
   std::vector<Index> next_from_;   // for each side another one with the same beginning
+  std::vector<Index> last_to_;     // for each corner the last side that was to end there
   Active active_;
+  std::vector<Active::iterator> places_;   // of the active sides; the end of them for others
+  std::vector<Active::node_type> unused_;  // the memory of active sides that have ended
+  std::vector<Index> beginning_;           // of a corner: the sides that begin there
+  std::vector<Index> kept_;                // those of them that are left
   std::vector<PlaneSide> found_;
   std::optional<PlaneFault> fault_;
 };
