@@ -37,6 +37,7 @@ bool are_opposite(Sign s, Sign t) { return s * t == Sign::negative; }
 
 // Returns the point where two sides cross, or nothing if they only touch or do not meet.
 std::optional<Point> crossing_of(const CellSide& s, const CellSide& t) {
+  if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return std::nullopt;
   if (!are_opposite(orientation(s.a, s.b, t.a), orientation(s.a, s.b, t.b)) ||
       !are_opposite(orientation(t.a, t.b, s.a), orientation(t.a, t.b, s.b))) {
     return std::nullopt;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -33,6 +34,7 @@ namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t swept_per_block = 16;
+constexpr double map_area = 360.0 * 180;  // square degrees
 
 // Returns the message about a fault.
 std::string text_of_fault(const std::vector<map::LonLatRing>& rings, const PlaneFault& fault) {
@@ -101,14 +103,29 @@ PlaneSide on_map(const PlaneSide& side) {
   return {{from, side.from.lat_deg}, {to, side.to.lat_deg}};
 }
 
-// Converts all features with one set of options. Features with a fault are repaired.
+// What is known of a feature alone.
+struct CheckedFeature {
+  std::string fault;                   // what is wrong with it, or an empty text
+  std::vector<map::LonLatRing> rings;  // those of the region, with the corners on their sides
+  std::optional<PlaneRegion> region;   // known where straight sides were swept without a fault
+};
+
+// True if rings are swept alike.
+bool are_same(std::span<const map::LonLatRing> rings, std::span<const map::LonLatRing> others) {
+  return std::ranges::equal(rings, others, [](const map::LonLatRing& a, const map::LonLatRing& b) {
+    return a.is_hole == b.is_hole && a.is_left_out == b.is_left_out && a.positions == b.positions;
+  });
+}
+
+// Converts all features with one set of options. Features with a fault are repaired, the others are
+// valid alone; if nothing is known of them, a fault is thrown.
 class FeatureCells {
  public:
   FeatureCells(map::PolygonFeatures& features, const PolygonOptions& options,
-               std::span<const std::string> faults, const Execution& execution)
+               std::span<const CheckedFeature> checked, const Execution& execution)
       : features_(features),
         options_(options),
-        faults_(faults),
+        checked_(checked),
         execution_(execution),
         facts_(features.files.size()) {}
 
@@ -118,13 +135,17 @@ class FeatureCells {
     CellRings cells = is_geodesic ? all_geodesic_cells() : plane_cells();
     look_for_vanished(cells);
     if (options_.overlap == PolygonOverlap::keep) {
-      if (!is_geodesic) require_parts_apart(cells);
-      if (!is_geodesic || are_exactly_valid(cells)) return cells;
+      if (is_geodesic) {
+        require_sound(cells);
+      } else {
+        require_parts_apart(cells);
+      }
+      return cells;
     }
     std::vector<Index> all(cells.num_cells());
     std::iota(all.begin(), all.end(), Index{0});
     const std::vector<CrossingCells> overlaps = overlaps_in(cells, all);
-    if (overlaps.empty() || options_.overlap == PolygonOverlap::keep) return cells;
+    if (overlaps.empty()) return cells;
     if (options_.overlap == PolygonOverlap::first) return first_of_all(cells, overlaps);
     throw FileError(
         features_.files.front().name + ": features " + name_of(overlaps[0].first) + " and " +
@@ -133,25 +154,19 @@ class FeatureCells {
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
-  // Throws FeatureFault if a feature is not valid. Straight lines need not become arcs for that,
-  // unless parts of a feature are 360 degrees apart.
-  void check() {
-    const std::size_t size = features_.rings.size();
-    bool needs_cells = options_.edges == PolygonEdges::geodesic;
-    for (std::size_t f = 0; f < size && !needs_cells; ++f) needs_cells = is_wide(f);
-    if (needs_cells) {
+  // Throws FeatureFault if the only feature is not valid. Straight lines need not become arcs for
+  // that, unless parts of the feature are 360 degrees apart; then the region is returned.
+  std::optional<PlaneRegion> check() {
+    if (options_.edges == PolygonEdges::geodesic || is_wide(0)) {
       (void)(*this)();
-      return;
+      return {};
     }
-    for (std::size_t f = 0; f < size; ++f) {
-      require_turns(f);
-      require_lines(features_, f, false);
-    }
+    require_turns(0);
+    require_lines(features_, 0, false);
     (void)share_corners(features_, execution_.threads);
-    std::vector<PlaneSide> sides;
-    std::vector<Index> owners;
-    std::vector<std::size_t> turns(size);
-    sweep(sides, owners, turns);
+    PlaneRegion region = swept(0);
+    (void)area_of(region, 0);
+    return region;
   }
   // Returns the lines of all features.
   [[nodiscard]] FeatureLines& lines() { return lines_; }
@@ -250,6 +265,20 @@ class FeatureCells {
     return overlaps;
   }
 
+  // Throws FileError if a cell crosses or overlaps itself, but for rounding. Cells of features that
+  // were checked alone do not.
+  void require_sound(const CellRings& cells) const {
+    std::vector<Index> features;
+    CellRings repaired;
+    for (Index f = 0; f < cells.num_cells(); ++f) {
+      if (!checked_.empty() && !is_faulty(f)) continue;
+      features.push_back(f);
+      if (!checked_.empty()) append(one_cell(cells, f), repaired);
+    }
+    merge_equal_points(repaired);
+    const CellRings& judged = checked_.empty() ? cells : repaired;
+    if (!are_exactly_valid(judged)) (void)overlaps_in(judged, features);
+  }
   // True if no cell crosses or overlaps itself, not even by rounding.
   [[nodiscard]] bool are_exactly_valid(const CellRings& cells) const {
     try {
@@ -289,20 +318,20 @@ class FeatureCells {
 
   // Takes the rings of features that are to be repaired away from the others, and returns them.
   std::vector<std::vector<map::LonLatRing>> faulty_rings() {
-    std::vector<std::vector<map::LonLatRing>> faulty(faults_.size());
-    for (std::size_t f = 0; f < faults_.size(); ++f) {
-      if (!faults_[f].empty()) faulty[f].swap(features_.rings[f]);
+    std::vector<std::vector<map::LonLatRing>> faulty(checked_.size());
+    for (std::size_t f = 0; f < checked_.size(); ++f) {
+      if (is_faulty(f)) faulty[f].swap(features_.rings[f]);
     }
     return faulty;
   }
   // Replaces the cells of features that are to be repaired.
   template <class Repair>
   void repair(CellRings& cells, const Repair& repaired) {
-    if (faults_.empty()) return;
+    if (checked_.empty()) return;
     CellRings result;
     std::vector<std::size_t> features;
-    for (std::size_t f = 0; f < faults_.size(); ++f) {
-      if (faults_[f].empty()) {
+    for (std::size_t f = 0; f < checked_.size(); ++f) {
+      if (!is_faulty(f)) {
         append(one_cell(cells, static_cast<Index>(f)), result);
         continue;
       }
@@ -310,7 +339,7 @@ class FeatureCells {
       try {
         append(repaired(f), result);
       } catch (const InvalidInput& error) {
-        refuse(f, faults_[f] + ", which cannot be repaired: " + error.what());
+        refuse(f, checked_[f].fault + ", which cannot be repaired: " + error.what());
       }
     }
     merge_equal_points(result);
@@ -322,7 +351,8 @@ class FeatureCells {
       const auto first = std::ranges::lower_bound(features, first_feature);
       const auto past = std::ranges::lower_bound(features, end);
       if (first == past) return;
-      std::string text = "feature " + name_of(*first) + " was repaired (" + faults_[*first] + ")";
+      std::string text =
+          "feature " + name_of(*first) + " was repaired (" + checked_[*first].fault + ")";
       if (past - first > 1) text += ", and " + std::to_string(past - first - 1) + " more";
       const auto num_empty = std::count_if(first, past, [&](std::size_t f) {
         return cells.cells[f] == cells.cells[f + 1] && !cells.is_whole(f) &&
@@ -336,7 +366,7 @@ class FeatureCells {
   CellRings all_geodesic_cells() {
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     lines_ = geodesic_lines(features_);
-    CellRings cells = geodesic_cells(features_, quiet());
+    CellRings cells = geodesic_cells(features_, !checked_.empty(), quiet());
     repair(cells, [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
     return cells;
   }
@@ -428,7 +458,7 @@ class FeatureCells {
 
   // True if a feature is to be repaired.
   [[nodiscard]] bool is_faulty(std::size_t feature) const {
-    return !faults_.empty() && !faults_[feature].empty();
+    return !checked_.empty() && !checked_[feature].fault.empty();
   }
 
   // Throws FileError for a ring that is not closed, that has a side around a pole, or that is more
@@ -458,76 +488,136 @@ class FeatureCells {
     }
   }
 
+  // Returns the region of a feature, without its rings that corners of others have closed.
+  PlaneRegion swept(std::size_t feature) {
+    PlaneRegion region;
+    do {
+      region = sweep_rings(features_.rings[feature]);
+    } while (region.fault && leave_out_thin_ring(features_.rings[feature], *region.fault));
+    return region;
+  }
+
+  // Returns the area of a region in square degrees. Throws FileError for a fault.
+  [[nodiscard]] double area_of(const PlaneRegion& region, std::size_t feature) const {
+    const std::vector<map::LonLatRing>& rings = features_.rings[feature];
+    if (const auto& fault = region.fault) {
+      refuse(feature, text_of_fault(rings, *fault) + advice_on(rings[fault->second]));
+    }
+    double area = 0;
+    for (const PlaneSide& side : region.sides) {
+      area += (side.to.lat_deg + side.from.lat_deg) * (side.from.lon_deg - side.to.lon_deg) / 2;
+    }
+    if (area > map_area * (1 + 1e-9)) refuse(feature, "the polygon covers more than the whole map");
+    return area;
+  }
+
   // Collects the sides of all features with their features, and for each feature in `turns` how
-  // often it covers the map, rounded.
+  // often it covers the map, rounded. What was swept before is not swept again.
   void sweep(std::vector<PlaneSide>& sides, std::vector<Index>& owners,
              std::vector<std::size_t>& turns) {
     std::vector<PlaneRegion> regions(features_.rings.size());
+    const auto known = [&](std::size_t f) {
+      const bool is_known = !checked_.empty() && checked_[f].region &&
+                            are_same(features_.rings[f], checked_[f].rings);
+      return is_known ? &*checked_[f].region : nullptr;
+    };
     system::parallel_for(execution_.threads, regions.size(), swept_per_block,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t f = begin; f < end; ++f) {
-                             do {
-                               regions[f] = sweep_rings(features_.rings[f]);
-                             } while (regions[f].fault &&
-                                      leave_out_thin_ring(features_.rings[f], *regions[f].fault));
+                             if (known(f) == nullptr) regions[f] = swept(f);
                            }
                          });
     for (std::size_t f = 0; f < regions.size(); ++f) {
-      const std::vector<map::LonLatRing>& rings = features_.rings[f];
-      if (const auto& fault = regions[f].fault) {
-        refuse(f, text_of_fault(rings, *fault) + advice_on(rings[fault->second]));
-      }
-      double area = 0;
-      for (const PlaneSide& side : regions[f].sides) {
-        area += (side.to.lat_deg + side.from.lat_deg) * (side.from.lon_deg - side.to.lon_deg) / 2;
-      }
-      constexpr double map_area = 360.0 * 180;
-      if (area > map_area * (1 + 1e-9)) refuse(f, "the polygon covers more than the whole map");
-      turns[f] = static_cast<std::size_t>(std::max(0.0, std::round(area / map_area)));
-      sides.insert(sides.end(), regions[f].sides.begin(), regions[f].sides.end());
-      owners.insert(owners.end(), regions[f].sides.size(), static_cast<Index>(f));
+      const PlaneRegion* before = known(f);
+      const PlaneRegion& region = before != nullptr ? *before : regions[f];
+      turns[f] = static_cast<std::size_t>(std::max(0.0, std::round(area_of(region, f) / map_area)));
+      sides.insert(sides.end(), region.sides.begin(), region.sides.end());
+      owners.insert(owners.end(), region.sides.size(), static_cast<Index>(f));
     }
   }
 
   map::PolygonFeatures& features_;
   const PolygonOptions& options_;
-  std::span<const std::string> faults_;  // of each feature, or none
+  std::span<const CheckedFeature> checked_;  // of each feature, or none
   const Execution& execution_;
   FeatureLines lines_;
   std::vector<CellFacts> facts_;  // of each file: the remarks
 };
 
+// Checks each feature alone.
+std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& features,
+                                             const PolygonOptions& options,
+                                             const Execution& execution) {
+  std::vector<CheckedFeature> checked(features.rings.size());
+  const PolygonOptions alone{.edges = options.edges, .tolerance_deg = options.tolerance_deg};
+  const auto check = [&](std::size_t f) {
+    map::PolygonFeatures one;
+    one.rings = {features.rings[f]};
+    one.lines = {f < features.lines.size() ? features.lines[f]
+                                           : std::vector<std::vector<LonLat>>{}};
+    for (const map::LonLatRing& ring : one.rings.front()) {
+      checked[f].fault = ring.fault;
+      if (!checked[f].fault.empty()) return;
+    }
+    try {
+      checked[f].region =
+          FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check();
+      checked[f].rings = std::move(one.rings.front());
+    } catch (const FeatureFault& fault) {
+      checked[f].fault = fault.fault();
+    }
+  };
+  system::parallel_for(execution.threads, checked.size(), swept_per_block,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t f = begin; f < end; ++f) check(f);
+                       });
+  return checked;
+}
+
+// Returns the faults of features.
+std::vector<std::string> taken_faults(std::span<CheckedFeature> checked) {
+  std::vector<std::string> faults;
+  faults.reserve(checked.size());
+  for (CheckedFeature& feature : checked) faults.push_back(std::move(feature.fault));
+  return faults;
+}
+
+// Gives each file the faults of its features, if there are any.
+void divide_faults(std::vector<std::string> faults, const map::PolygonFeatures& features,
+                   std::vector<CellFacts>& facts) {
+  if (std::ranges::all_of(faults, &std::string::empty)) return;
+  auto next = faults.begin();
+  for (std::size_t file = 0; file < features.files.size(); ++file) {
+    const auto last = file + 1 < features.files.size()
+                          ? next + static_cast<std::ptrdiff_t>(features.files[file].num_features)
+                          : faults.end();
+    facts[file].faults.assign(std::move_iterator(next), std::move_iterator(last));
+    next = last;
+  }
+}
+
 }  // namespace
 
 ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
                                      const Execution& execution) {
-  const auto converted = [&](std::span<const std::string> faults) {
-    FeatureCells make(features, options, faults, execution);
+  const auto converted = [&](std::span<const CheckedFeature> checked) {
+    FeatureCells make(features, options, checked, execution);
     CellRings cells = make();
     return ConvertedFeatures{std::move(cells), std::move(make.lines()), std::move(make.facts())};
   };
   features.lines.resize(features.rings.size());
   if (options.invalid == InvalidPolygons::error) return converted({});
-  std::vector<std::string> faults = faults_of_features(features, options, execution);
+  std::vector<CheckedFeature> checked = checked_features(features, options, execution);
   const auto given = std::pair(features.rings, features.lines);
   for (;;) {
     // A feature that is valid alone may become invalid by corners of others on its sides.
     try {
-      ConvertedFeatures result = converted(faults);
-      if (std::ranges::all_of(faults, &std::string::empty)) return result;
-      auto next = faults.begin();
-      for (std::size_t file = 0; file < features.files.size(); ++file) {
-        const auto last =
-            file + 1 < features.files.size()
-                ? next + static_cast<std::ptrdiff_t>(features.files[file].num_features)
-                : faults.end();
-        result.facts[file].faults.assign(std::move_iterator(next), std::move_iterator(last));
-        next = last;
-      }
+      ConvertedFeatures result = converted(checked);
+      divide_faults(taken_faults(checked), features, result.facts);
       return result;
     } catch (const FeatureFault& fault) {
-      if (!faults[fault.feature()].empty()) throw;
-      faults[fault.feature()] = fault.fault();
+      if (!checked[fault.feature()].fault.empty()) throw;
+      checked[fault.feature()].fault = fault.fault();
       std::tie(features.rings, features.lines) = given;
     }
   }
@@ -536,27 +626,8 @@ ConvertedFeatures converted_features(map::PolygonFeatures& features, const Polyg
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
                                             const PolygonOptions& options,
                                             const Execution& execution) {
-  std::vector<std::string> faults(features.rings.size());
-  const PolygonOptions alone{.edges = options.edges, .tolerance_deg = options.tolerance_deg};
-  system::parallel_for(
-      execution.threads, faults.size(), swept_per_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f < end; ++f) {
-          map::PolygonFeatures one;
-          one.rings = {features.rings[f]};
-          one.lines = {f < features.lines.size() ? features.lines[f]
-                                                 : std::vector<std::vector<LonLat>>{}};
-          for (const map::LonLatRing& ring : one.rings.front()) {
-            if (faults[f].empty()) faults[f] = ring.fault;
-          }
-          if (!faults[f].empty()) continue;
-          try {
-            FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check();
-          } catch (const FeatureFault& fault) {
-            faults[f] = fault.fault();
-          }
-        }
-      });
-  return faults;
+  std::vector<CheckedFeature> checked = checked_features(features, options, execution);
+  return taken_faults(checked);
 }
 
 }  // namespace rondel::overlay

@@ -33,7 +33,8 @@ bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Poin
   std::size_t corner = 0;
   for (std::size_t k = 1; k <= n; ++k) {
     const LonLat& p = positions[k < n ? k : 0];
-    const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
+    double step = p.lon_deg - positions[k - 1].lon_deg;
+    if (std::abs(step) > 180) step = std::remainder(step, 360.0);
     if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
     lon += step;
     if (k == n) break;
@@ -54,8 +55,12 @@ bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Poin
 // Converts all features.
 class GeodesicCells {
  public:
-  GeodesicCells(const map::PolygonFeatures& features, const Execution& execution)
-      : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
+  GeodesicCells(const map::PolygonFeatures& features, bool has_no_crossings,
+                const Execution& execution)
+      : features_(features),
+        has_no_crossings_(has_no_crossings),
+        execution_(execution),
+        areas_(features.rings.size(), 0) {}
 
   // Returns the cells of all features. Throws FileError.
   CellRings operator()() {
@@ -83,17 +88,22 @@ class GeodesicCells {
       }
       given.end_cell();
     }
-    for (const CrossingCells& pair : crossing_cells(given, execution_)) {
-      if (pair.first != pair.second) continue;
-      refuse_feature(features_, pair.first,
-                     "the polygon crosses itself at " + text_of_place(pair.place));
-    }
+    if (!has_no_crossings_) require_no_crossings(given);
     CellRings cells = rings_around(arcs_, features_.rings.size(), execution_.threads);
     take_whole(given, cells);
     return cells;
   }
 
  private:
+  // Throws FileError if sides of a feature cross.
+  void require_no_crossings(const CellRings& given) const {
+    for (const CrossingCells& pair : crossing_cells(given, execution_)) {
+      if (pair.first != pair.second) continue;
+      refuse_feature(features_, pair.first,
+                     "the polygon crosses itself at " + text_of_place(pair.place));
+    }
+  }
+
   // Throws FileError if all sides of a ring cancel, or if it is on a line.
   void require_area(std::size_t feature, Index ring, std::size_t first_arc) const {
     const std::span<const KeyedArc> arcs = std::span(arcs_).subspan(first_arc);
@@ -173,6 +183,7 @@ class GeodesicCells {
   }
 
   const map::PolygonFeatures& features_;
+  bool has_no_crossings_;
   const Execution& execution_;
   std::vector<KeyedArc> arcs_;
   std::vector<double> areas_;  // of each feature: the sum over its rings, without holes
@@ -180,20 +191,26 @@ class GeodesicCells {
 
 }  // namespace
 
-CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution) {
-  return GeodesicCells(features, execution)();
+CellRings geodesic_cells(const map::PolygonFeatures& features, bool has_no_crossings,
+                         const Execution& execution) {
+  return GeodesicCells(features, has_no_crossings, execution)();
 }
 
 std::vector<Point> geodesic_ring(const map::LonLatRing& ring) {
-  std::vector<LonLat> positions = ring.positions;
-  const auto is_same = [](const LonLat& p, const LonLat& q) {
-    return unit_vector(p) == unit_vector(q);
-  };
-  positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
-  while (positions.size() > 1 && is_same(positions.front(), positions.back())) positions.pop_back();
-  std::vector<Point> corners(positions.size());
-  std::ranges::transform(positions, corners.begin(),
-                         [](const LonLat& p) { return unit_vector(p); });
+  std::vector<LonLat> positions;  // those of the corners
+  std::vector<Point> corners;
+  positions.reserve(ring.positions.size());
+  corners.reserve(ring.positions.size());
+  for (const LonLat& position : ring.positions) {
+    const Point corner = unit_vector(position);
+    if (!corners.empty() && corners.back() == corner) continue;
+    positions.push_back(position);
+    corners.push_back(corner);
+  }
+  while (corners.size() > 1 && corners.front() == corners.back()) {
+    positions.pop_back();
+    corners.pop_back();
+  }
   if (!corners.empty() && goes_clockwise(positions, corners) != ring.is_hole) {
     std::ranges::reverse(corners);
   }
@@ -210,7 +227,7 @@ void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t fea
     alone.rings.push_back({std::move(ring)});
   }
   const std::vector<CrossingCells> overlaps =
-      overlapping_cells(geodesic_cells(alone, execution), execution);
+      overlapping_cells(geodesic_cells(alone, false, execution), execution);
   const auto overlap = [&](Index a, Index b) {
     return std::ranges::any_of(overlaps, [&](const CrossingCells& pair) {
       return std::minmax(pair.first, pair.second) == std::minmax(a, b);
