@@ -1,22 +1,21 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Steps: list the chains of all features one after the other, number their places by sorting them,
-// and make a constraint of each arc.
+// Steps: list the chains of all features one after the other, number their places, and make a constraint of each arc.
 #include "rondel/constrained_features.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "arrangement/arc_checks.h"
 #include "arrangement/ring_arrays.h"
 #include "rondel/error.h"
+#include "system/distinct.h"
 
 namespace rondel {
 namespace constrained {
@@ -63,25 +62,10 @@ FeatureChains chains_of(const FeatureLines& lines, const CellRings& polygons) {
   return chains;
 }
 
-// Lists each place once, in the order in which it occurs first. Returns the number of each point.
-std::vector<Index> numbers_of(std::span<const Point> points, std::vector<Point>& places) {
+// Returns each place once, in the order in which it occurs first, and the number of each point.
+system::Distinct<Point> numbered(std::span<const Point> points) {
   if (points.size() > max_sites) throw InvalidInput("features have too many places");
-  const auto key = [&](Index i) { return std::tie(points[i].x, points[i].y, points[i].z); };
-  std::vector<Index> order(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  std::ranges::sort(order,
-                    [&](Index i, Index j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
-  std::vector<Index> first(points.size());  // the first point in the same place
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_new = k == 0 || key(order[k - 1]) != key(order[k]);
-    first[order[k]] = is_new ? order[k] : first[order[k - 1]];
-  }
-  std::vector<Index> numbers(points.size());
-  for (Index i = 0; i < points.size(); ++i) {
-    if (first[i] == i) places.push_back(points[i]);
-    numbers[i] = first[i] == i ? static_cast<Index>(places.size() - 1) : numbers[first[i]];
-  }
-  return numbers;
+  return system::distinct(points);
 }
 
 void require_fit(const FeatureLines& lines, const CellRings& polygons) {
@@ -103,7 +87,8 @@ FeatureConstraints constraints_of_features(const FeatureLines& lines, const Cell
   constrained::require_fit(lines, polygons);
   const constrained::FeatureChains chains = constrained::chains_of(lines, polygons);
   FeatureConstraints made;
-  const std::vector<Index> numbers = constrained::numbers_of(chains.points.values, made.sites);
+  auto [places, numbers] = constrained::numbered(chains.points.values);
+  made.sites = std::move(places);
   for (std::size_t c = 0; c < chains.kinds.size(); ++c) {
     const auto [feature, is_ring] = chains.kinds[c];
     while (made.polygons.size() < feature) made.polygons.end_row();

@@ -26,6 +26,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/read_cells.h"
+#include "system/distinct.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
@@ -64,7 +65,7 @@ class RingsOfNodes {
  public:
   // Precondition: all nodes are places. `distance` is in radians.
   RingsOfNodes(std::span<const LonLat> nodes, double distance) {
-    overlay::Distinct<LonLat> places = overlay::distinct(nodes);
+    system::Distinct<LonLat> places = system::distinct<LonLat>(nodes);
     made_.points = unit_vectors(places.values);
     const std::vector<Index> same = overlay::same_nodes(made_.points, distance);
     for (Index& number : places.numbers) number = same[number];

@@ -17,9 +17,9 @@
 #include "map/ring_area.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
-#include "overlay/same_nodes.h"
 #include "rondel/compressed_rows.h"
 #include "rondel/error.h"
+#include "system/distinct.h"
 #include "system/parallel.h"
 #include "system/row_assembly.h"
 
@@ -43,15 +43,9 @@ struct Named {
   CompressedRows<NamedSide> links;
 };
 
-// Replaces the ends of arcs by the places of equal points in the order of coordinates.
-Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
-  std::vector<Point> ends;
-  ends.reserve(2 * arcs.size());
-  for (const KeyedArc& arc : arcs) {
-    ends.push_back(arc.from);
-    ends.push_back(arc.to);
-  }
-  const Distinct<Point> places = distinct(ends);
+// Replaces the ends of sides by the places of equal points in the order of coordinates.
+Named named(std::span<const Point> points, std::span<const KeyedSide> sides, std::size_t num_keys) {
+  const system::Distinct<Point> places = system::distinct(points);
   if (places.values.size() >= no_index) throw InvalidInput("there are too many corners");
   std::vector<Index> sorted(places.values.size());
   std::iota(sorted.begin(), sorted.end(), Index{0});
@@ -65,11 +59,11 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
     result.points.push_back(places.values[place]);
   }
   system::RowPlaces links(num_keys);
-  for (const KeyedArc& arc : arcs) links.count(arc.key);
+  for (const KeyedSide& side : sides) links.count(side.key);
   result.links.values.resize(links.sum());
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    result.links.values[links.place(arcs[k].key)] = {names[places.numbers[2 * k]],
-                                                     names[places.numbers[2 * k + 1]]};
+  for (const auto& [key, from, to] : sides) {
+    result.links.values[links.place(key)] = {names[places.numbers[from]],
+                                             names[places.numbers[to]]};
   }
   result.links.offsets = std::move(links).offsets();
   return result;
@@ -242,7 +236,23 @@ class RingMaker {
 }  // namespace
 
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads) {
-  Named all = named(arcs, num_keys);
+  if (arcs.size() >= no_index / 2) throw InvalidInput("there are too many corners");
+  std::vector<Point> ends;
+  std::vector<KeyedSide> sides;
+  ends.reserve(2 * arcs.size());
+  sides.reserve(arcs.size());
+  for (const KeyedArc& arc : arcs) {
+    const auto from = static_cast<Index>(ends.size());
+    sides.push_back({arc.key, from, from + 1});
+    ends.push_back(arc.from);
+    ends.push_back(arc.to);
+  }
+  return rings_around(ends, sides, num_keys, threads);
+}
+
+CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide> sides,
+                       std::size_t num_keys, unsigned threads) {
+  Named all = named(points, sides, num_keys);
   std::vector<std::vector<std::vector<Index>>> rings(num_keys);
   system::parallel_for(threads, num_keys, keys_per_block, [&](std::size_t begin, std::size_t end) {
     RingMaker make(all.points);

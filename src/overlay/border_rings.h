@@ -24,6 +24,13 @@ struct KeyedArc {
   Point to;
 };
 
+// The same with its ends as indices of points.
+struct KeyedSide {
+  Index key;
+  Index from;
+  Index to;
+};
+
 // Returns cells of which cell i has the rings around the region with the key i.
 //
 // 1. Arcs of one region that lead back and forth between two points cancel, so that parts that
@@ -35,6 +42,9 @@ struct KeyedArc {
 //
 // Throws InvalidInput if the arcs of a region do not form closed rings and are wider than rounding.
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads);
+// The same for sides between points, of which several may be equal.
+CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide> sides,
+                       std::size_t num_keys, unsigned threads);
 
 // True if between any two points as many arcs lead back as forth, so that the arcs bound no region.
 bool is_nothing(std::span<const KeyedArc> arcs);

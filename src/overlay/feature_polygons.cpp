@@ -28,6 +28,7 @@
 #include "rondel/error.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
+#include "system/distinct.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
@@ -415,18 +416,7 @@ class FeatureCells {
         sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
     share_polar_corners(sides, divided);
     lines_ = divided_lines(features_, divided, first_of_lines);
-    std::vector<Point> corners(divided.values.size());
-    std::ranges::transform(divided.values, corners.begin(),
-                           [](const LonLat& p) { return unit_vector(p); });
-    std::vector<KeyedArc> arcs;
-    for (std::size_t s = 0; s < owners.size(); ++s) {
-      const Point last = unit_vector(sides[s].to);
-      for (std::uint64_t k = divided.offsets[s]; k < divided.offsets[s + 1]; ++k) {
-        arcs.push_back(
-            {owners[s], corners[k], k + 1 < divided.offsets[s + 1] ? corners[k + 1] : last});
-      }
-    }
-    CellRings cells = rings_around(arcs, features_.rings.size(), execution_.threads);
+    CellRings cells = cells_of_sides(sides, owners, divided);
     // A feature that has an area in the plane but no border on the sphere covers the sphere.
     for (std::size_t f = 0; f < turns.size(); ++f) {
       if (turns[f] > 0 && cells.cells[f] == cells.cells[f + 1]) {
@@ -440,6 +430,32 @@ class FeatureCells {
       return repaired_plane_feature(faulty[f], rows, quiet());
     });
     return cells;
+  }
+
+  // Returns the cells of features that own the first sides, which are divided.
+  [[nodiscard]] CellRings cells_of_sides(std::span<const PlaneSide> sides,
+                                         std::span<const Index> owners,
+                                         const DividedSides& divided) const {
+    std::vector<LonLat> positions;  // of each owned side: where it begins, is divided, and ends
+    positions.reserve(divided.values.size() + owners.size());
+    for (std::size_t s = 0; s < owners.size(); ++s) {
+      positions.insert(positions.end(), divided[s].begin(), divided[s].end());
+      positions.push_back(sides[s].to);
+    }
+    // Neighboring sides have a position in common, and so have neighboring features.
+    const system::Distinct<LonLat> places = system::distinct<LonLat>(positions);
+    std::vector<Point> corners(places.values.size());
+    std::ranges::transform(places.values, corners.begin(),
+                           [](const LonLat& p) { return unit_vector(p); });
+    std::vector<KeyedSide> arcs;
+    arcs.reserve(positions.size());
+    std::size_t place = 0;
+    for (std::size_t s = 0; s < owners.size(); ++s, ++place) {
+      for (std::size_t end = place + divided[s].size(); place < end; ++place) {
+        arcs.push_back({owners[s], places.numbers[place], places.numbers[place + 1]});
+      }
+    }
+    return rings_around(corners, arcs, features_.rings.size(), execution_.threads);
   }
 
   // Throws FileError for a side that spans more than 180 degrees of longitude, with what to do

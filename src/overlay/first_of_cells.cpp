@@ -14,8 +14,8 @@
 #include "overlay/cell_set_data.h"
 #include "overlay/disjoint_cells.h"
 #include "overlay/overlaps.h"
-#include "overlay/same_nodes.h"
 #include "rondel/cell_set.h"
+#include "system/distinct.h"
 
 namespace rondel::overlay {
 namespace {
@@ -105,7 +105,7 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
   for (std::size_t c = 0; c < n; ++c) {
     result.append_cell(layers[c] == no_layer ? cells : all, c);
   }
-  Distinct<Point> places = distinct(result.points);
+  system::Distinct<Point> places = system::distinct<Point>(result.points);
   for (Index& corner : result.corners) corner = places.numbers[corner];
   result.points = std::move(places.values);
   return result;

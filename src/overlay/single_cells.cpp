@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "overlay/same_nodes.h"
+#include "system/distinct.h"
 
 namespace rondel::overlay {
 
@@ -75,7 +75,7 @@ void append(const CellRings& one, CellRings& all) {
 }
 
 void merge_equal_points(CellRings& cells) {
-  Distinct<Point> places = distinct(cells.points);
+  system::Distinct<Point> places = system::distinct<Point>(cells.points);
   for (Index& corner : cells.corners) corner = places.numbers[corner];
   cells.points = std::move(places.values);
 }

@@ -28,4 +28,8 @@ inline std::uint64_t hash_of(const Point& p, std::uint64_t seed = 0) {
   return mixed(mixed(mixed(seed, bits_of(p.x)), bits_of(p.y)), bits_of(p.z));
 }
 
+inline std::uint64_t hash_of(const LonLat& position) {
+  return mixed(mixed(mixed(0, bits_of(position.lon_deg)), bits_of(position.lat_deg)), 0);
+}
+
 }  // namespace rondel::system
