@@ -26,6 +26,7 @@
 #include "overlay/plane_corners.h"
 #include "rondel/delaunay.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::overlay {
 namespace {
@@ -37,10 +38,19 @@ constexpr double rad_per_deg = std::numbers::pi / 180;
 class LineDivider {
  public:
   LineDivider(double tolerance, std::vector<LonLat>& positions)
-      : squared_tolerance_(tolerance * tolerance), positions_(positions) {}
+      : tolerance_(tolerance), squared_tolerance_(tolerance * tolerance), positions_(positions) {}
 
-  // Appends the positions between two positions. The middle is the same in both directions of the
-  // line.
+  // Appends the first position of a line and those between.
+  void append(const LonLat& from, const LonLat& to) const {
+    if (is_surely_straight(from, to)) {
+      positions_.push_back(from);
+    } else {
+      append_between(from, unit_vector(from), to, unit_vector(to), 0);
+    }
+  }
+
+  // Appends the first of two positions and those between. The middle is the same in both directions
+  // of the line.
   void append_between(const LonLat& from, const Point& p, const LonLat& to, const Point& q,
                       unsigned depth) const {
     constexpr unsigned max_halvings = 30;
@@ -55,6 +65,27 @@ class LineDivider {
   }
 
  private:
+  // True if a bound shows that is_straight() is true. Let a line have the width w and the height h in
+  // radians, and its middle the latitude f. In coordinates with the longitude of the middle as 0,
+  // the sum of its ends over 2 cos(h / 2) is u, and the middle is v:
+  //
+  //   u = (cos(w / 2) cos f, -sin(w / 2) sin f tan(h / 2), sin f)
+  //   v = (cos f, 0, sin f)
+  //
+  // So |u - v|^2 is at most (w^2 / 8)^2 + (w tan(h / 2) / 2)^2, with tan(h / 2) < 0.504 h up to h =
+  // 0.3, and |u / |u| - v| < 1.01 |u - v| as long as that is below 0.28. The rest up to the tolerance
+  // is for rounding, which is below 1e-14.
+  [[nodiscard]] bool is_surely_straight(const LonLat& from, const LonLat& to) const {
+    constexpr double widest = 0.3;
+    constexpr double least_tolerance = 1e-10;
+    const double width = std::abs(to.lon_deg - from.lon_deg) * rad_per_deg;
+    const double height = std::abs(to.lat_deg - from.lat_deg) * rad_per_deg;
+    if (!(width <= widest && height <= widest && tolerance_ >= least_tolerance)) return false;
+    if (from.lat_deg * to.lat_deg < 0) return false;
+    const double squared = width * width * (width * width / 64 + 0.0636 * height * height);
+    return 1.01 * 1.01 * squared <= 0.81 * squared_tolerance_;
+  }
+
   [[nodiscard]] bool is_straight(const LonLat& from, const Point& p, const LonLat& to,
                                  const Point& q, const LonLat& middle) const {
     constexpr double max_degrees = 90;
@@ -83,6 +114,7 @@ class LineDivider {
     return {(a.lon_deg + b.lon_deg) / 2, (a.lat_deg + b.lat_deg) / 2};
   }
 
+  double tolerance_;
   double squared_tolerance_;
   std::vector<LonLat>& positions_;
 };
@@ -124,40 +156,36 @@ double simple_bulge_deg(const LonLat& west, const LonLat& east) {
 
 // Finds the positions where a piece has to be divided, from west to east: on the meridians of
 // corners near it.
-void find_cuts(const LinePiece& piece, const PlaneCorners& corners, bool are_few,
-               std::vector<LonLat>& cuts) {
+void find_cuts(const LinePiece& piece, const PlaneCorners& corners, std::vector<LonLat>& cuts) {
   cuts.clear();
   if (piece.west.lon_deg == piece.east.lon_deg || (is_pole(piece.west) && is_pole(piece.east)))
     return;
-  if (are_few) {
-    bool has_any = false;
-    corners.visit_near(piece.west, piece.east,
-                       {0, simple_bulge_deg(piece.west, piece.east) + on_side_deg},
-                       [&](const LonLat&, Index) { has_any = true; });
-    if (!has_any) return;
-  }
-  const double bulge = bulge_deg(piece.west, piece.east) + on_side_deg;
-  corners.visit_near(piece.west, piece.east, {0, bulge}, [&](const LonLat& p, Index) {
-    if (p.lon_deg <= piece.west.lon_deg || p.lon_deg >= piece.east.lon_deg) return;
-    const double lat = lat_on(piece, p.lon_deg);
-    if (std::abs(p.lat_deg - lat) <= bulge) cuts.push_back({p.lon_deg, lat});
-  });
+  const auto cut_within = [&](double bulge) {
+    cuts.clear();
+    corners.visit_near(piece.west, piece.east, {0, bulge}, [&](const LonLat& p, Index) {
+      if (p.lon_deg <= piece.west.lon_deg || p.lon_deg >= piece.east.lon_deg) return;
+      const double lat = lat_on(piece, p.lon_deg);
+      if (std::abs(p.lat_deg - lat) <= bulge) cuts.push_back({p.lon_deg, lat});
+    });
+  };
+  cut_within(simple_bulge_deg(piece.west, piece.east) + on_side_deg);
+  if (cuts.empty()) return;
+  cut_within(bulge_deg(piece.west, piece.east) + on_side_deg);
   std::ranges::sort(cuts, is_west_of);
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
 }
 
 // Divides the pieces at the corners near them. Returns the positions that are new, and appends the
 // divided sides to `changed`.
-std::vector<LonLat> divide_at(const PlaneCorners& corners, bool are_few,
-                              std::vector<LinePiece>& pieces, std::vector<Index>& changed,
-                              unsigned threads) {
+std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece>& pieces,
+                              std::vector<Index>& changed, unsigned threads) {
   std::vector<std::vector<std::pair<std::size_t, std::vector<LonLat>>>> found(
       system::num_pieces(pieces.size(), pieces_per_block));
   system::parallel_for(threads, pieces.size(), pieces_per_block,
                        [&](std::size_t begin, std::size_t end) {
                          std::vector<LonLat> cuts;
                          for (std::size_t k = begin; k < end; ++k) {
-                           find_cuts(pieces[k], corners, are_few, cuts);
+                           find_cuts(pieces[k], corners, cuts);
                            if (!cuts.empty()) found[begin / pieces_per_block].emplace_back(k, cuts);
                          }
                        });
@@ -204,7 +232,7 @@ void append_halved(const LonLat& west, const LonLat& east, unsigned times,
 
 void append_divided(const LonLat& from, const LonLat& to, double tolerance,
                     std::vector<LonLat>& positions) {
-  LineDivider(tolerance, positions).append_between(from, unit_vector(from), to, unit_vector(to), 0);
+  LineDivider(tolerance, positions).append(from, to);
 }
 
 SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads)
@@ -223,13 +251,13 @@ SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, uns
   }
   // The last corner of a side is the first one of another side.
   for (const PlaneSide& side : sides) added.push_back(side.to);
-  match(std::move(added), false);
+  match(std::move(added));
 }
 
 // Divides pieces at the positions that were added, until none is added any more.
-void SideDivider::match(std::vector<LonLat> added, bool are_few) {
+void SideDivider::match(std::vector<LonLat> added) {
   while (!added.empty()) {
-    added = divide_at(corners_at(added), are_few, pieces_, changed_, threads_);
+    added = divide_at(corners_at(added), pieces_, changed_, threads_);
   }
 }
 
@@ -251,10 +279,26 @@ std::vector<Index> SideDivider::halve(std::span<const std::uint8_t> times) {
     }
     changed_.push_back(side);
   }
-  match(std::move(added), true);
+  match(std::move(added));
   std::ranges::sort(changed_);
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   return std::move(changed_);
+}
+
+// Sorts the pieces by their sides, and those of a side by `along`.
+template <class Along>
+void SideDivider::sort_pieces(const Along& along) {
+  if (std::ranges::is_sorted(pieces_, {}, along)) return;
+  system::RowPlaces places(sides_.size());
+  for (const LinePiece& piece : pieces_) places.count(piece.side);
+  std::vector<LinePiece> sorted(places.sum());
+  for (const LinePiece& piece : pieces_) sorted[places.place(piece.side)] = piece;
+  const std::vector<std::uint64_t> offsets = std::move(places).offsets();
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    const auto own = std::span(sorted).subspan(offsets[s], offsets[s + 1] - offsets[s]);
+    if (own.size() > 1) std::ranges::sort(own, {}, along);
+  }
+  pieces_ = std::move(sorted);
 }
 
 DividedSides SideDivider::divided() {
@@ -266,7 +310,7 @@ DividedSides SideDivider::divided() {
     return std::tuple(piece.side, piece.west.lon_deg,
                       goes_north_east ? piece.west.lat_deg : -piece.west.lat_deg);
   };
-  std::ranges::sort(pieces_, {}, along);
+  sort_pieces(along);
   DividedSides result;
   result.values.reserve(pieces_.size());
   for (std::size_t first = 0; first < pieces_.size();) {

@@ -49,7 +49,9 @@ class SideDivider {
   [[nodiscard]] DividedSides divided();
 
  private:
-  void match(std::vector<LonLat> added, bool are_few);
+  void match(std::vector<LonLat> added);
+  template <class Along>
+  void sort_pieces(const Along& along);
 
   std::span<const PlaneSide> sides_;
   unsigned threads_;
