@@ -5,10 +5,12 @@
 // edge; then, for each polygon, go from the faces on the left of its sides to all that can be
 // reached without a crossing of its sides.
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "rondel/constrained.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace constrained {
@@ -38,6 +40,7 @@ class PolygonFlood {
         ascending_(result.edges.size()),
         descending_(result.edges.size()),
         is_reached_(faces_.size()) {
+    list_edges();
     list_faces();
     list_chains(constraints);
   }
@@ -47,8 +50,11 @@ class PolygonFlood {
 
  private:
   [[nodiscard]] Index edge_of(const SideOfFace& side) const;
+  void list_edges();
   void list_faces();
   void list_chains(std::span<const Ends> constraints);
+  [[nodiscard]] Index name_of(Index site) const;
+  [[nodiscard]] bool append_chain(std::span<const Index> edges, const Ends& ends);
   void visit(Index face, std::vector<Index>& reached);
 
   // True if the face has the interior of the polygon, which this edge of it bounds.
@@ -60,6 +66,7 @@ class PolygonFlood {
   const ConstrainedTriangulation& result_;
   std::span<const Triple> faces_;
   std::span<const Triple> neighbors_;
+  std::vector<Index> first_edges_;  // by lower site: the first edge from it or a higher one
   std::vector<int> net_;  // for each edge, how many more sides of the polygon ascend than descend
   std::vector<SideOfFace> ascending_;   // the solid faces on the left of the ascending edges
   std::vector<SideOfFace> descending_;  // and on their right
@@ -70,8 +77,20 @@ class PolygonFlood {
 Index PolygonFlood::edge_of(const SideOfFace& side) const {
   const Triple& face = faces_[side.face];
   const auto [low, high] = std::minmax({face[(side.corner + 1) % 3], face[(side.corner + 2) % 3]});
-  const auto found = std::ranges::lower_bound(result_.edges, Ends{low, high});
-  return static_cast<Index>(found - result_.edges.begin());
+  const auto begin = result_.edges.begin();
+  const auto found = std::lower_bound(begin + first_edges_[low],
+                                      begin + first_edges_[low + std::size_t{1}], Ends{low, high});
+  return static_cast<Index>(found - begin);
+}
+
+void PolygonFlood::list_edges() {
+  const std::size_t num_sites = result_.triangulation.num_sites();
+  first_edges_.reserve(num_sites + 1);
+  Index edge = 0;
+  for (Index site = 0; site <= num_sites; ++site) {
+    while (edge < result_.edges.size() && result_.edges[edge][0] < site) ++edge;
+    first_edges_.push_back(edge);
+  }
 }
 
 void PolygonFlood::list_faces() {
@@ -86,43 +105,65 @@ void PolygonFlood::list_faces() {
   }
 }
 
+// Of duplicates the representative stands for all.
+Index PolygonFlood::name_of(Index site) const {
+  const auto duplicates = result_.triangulation.duplicates();
+  const auto found = std::ranges::lower_bound(duplicates, site, {}, &Duplicate::site);
+  return found != duplicates.end() && found->site == site ? found->representative : site;
+}
+
 // The edges of a constraint are a path, which is followed from its first end.
 void PolygonFlood::list_chains(std::span<const Ends> constraints) {
-  std::vector<std::pair<Index, Index>> sources;  // constraint, edge
-  for (Index e = 0; e < result_.edges.size(); ++e) {
-    for (const Index constraint : result_.sources[e]) sources.emplace_back(constraint, e);
-  }
-  std::ranges::sort(sources);
-  const auto name = [duplicates = result_.triangulation.duplicates()](Index site) {
-    const auto found = std::ranges::lower_bound(duplicates, site, {}, &Duplicate::site);
-    return found != duplicates.end() && found->site == site ? found->representative : site;
+  const auto for_sources = [&](const auto& take) {
+    for (Index e = 0; e < result_.edges.size(); ++e) {
+      for (const Index constraint : result_.sources[e]) {
+        if (constraint < constraints.size()) take(constraint, e);
+      }
+    }
   };
-  auto source = sources.begin();
-  std::vector<std::pair<Index, Index>> at;  // end, edge
+  system::RowPlaces places(constraints.size());
+  for_sources([&](Index constraint, Index /*edge*/) { places.count(constraint); });
+  std::vector<Index> edges(places.sum());  // constraint by constraint, ascending
+  for_sources([&](Index constraint, Index edge) { edges[places.place(constraint)] = edge; });
+  const std::vector<std::uint64_t> offsets = std::move(places).offsets();
+  chains_.values.reserve(edges.size());
+  chains_.offsets.reserve(constraints.size() + 1);
   for (Index c = 0; c < constraints.size(); ++c) {
-    at.clear();
-    for (; source != sources.end() && source->first == c; ++source) {
-      for (const Index end : result_.edges[source->second]) at.emplace_back(end, source->second);
-    }
-    std::ranges::sort(at);
-    Index site = name(constraints[c][0]);
-    Index last = no_index;
-    const std::size_t length = at.size() / 2;
-    for (std::size_t k = 0; k < length; ++k) {
-      const auto begin = std::ranges::lower_bound(at, std::pair<Index, Index>{site, 0});
-      const auto end = std::ranges::lower_bound(at, std::pair<Index, Index>{site + 1, 0});
-      const auto next = std::find_if(begin, end, [&](const auto& e) { return e.second != last; });
-      if (next == end || end - begin != (k == 0 ? 1 : 2)) break;
-      last = next->second;
-      const auto& [low, high] = result_.edges[last];
-      chains_.values.push_back({last, site == low});
-      site = site == low ? high : low;
-    }
-    chains_.end_row();
-    if (length == 0 || chains_[c].size() != length || site != name(constraints[c][1])) {
+    const Ends ends = {name_of(constraints[c][0]), name_of(constraints[c][1])};
+    const auto own = std::span(edges).subspan(offsets[c], offsets[c + 1] - offsets[c]);
+    if (!append_chain(own, ends)) {
       throw InvalidInput("constraint " + std::to_string(c) + " is no chain of edges", c);
     }
+    chains_.end_row();
   }
+}
+
+// Appends edges in their order between two sites. Returns false if they are no chain.
+bool PolygonFlood::append_chain(std::span<const Index> edges, const Ends& ends) {
+  if (edges.empty()) return false;
+  if (edges.size() == 1) {
+    const auto& [low, high] = result_.edges[edges.front()];
+    chains_.values.push_back({edges.front(), ends[0] == low});
+    return std::minmax(ends[0], ends[1]) == std::minmax(low, high);
+  }
+  std::vector<std::pair<Index, Index>> at;  // end, edge
+  for (const Index edge : edges) {
+    for (const Index end : result_.edges[edge]) at.emplace_back(end, edge);
+  }
+  std::ranges::sort(at);
+  Index site = ends[0];
+  Index last = no_index;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto begin = std::ranges::lower_bound(at, std::pair<Index, Index>{site, 0});
+    const auto end = std::ranges::lower_bound(at, std::pair<Index, Index>{site + 1, 0});
+    const auto next = std::find_if(begin, end, [&](const auto& e) { return e.second != last; });
+    if (next == end || end - begin != (k == 0 ? 1 : 2)) return false;
+    last = next->second;
+    const auto& [low, high] = result_.edges[last];
+    chains_.values.push_back({last, site == low});
+    site = site == low ? high : low;
+  }
+  return site == ends[1];
 }
 
 void PolygonFlood::visit(Index face, std::vector<Index>& reached) {
