@@ -130,6 +130,11 @@ class ArcInsertion {
   // constrained edge, some pieces are there, and the edge is returned.
   template <class Tell>
   std::optional<Edge> insert(Faces& faces, Index a, Index b, const Tell& tell) {
+    if (const Index edge = edge_between(faces, a, b); edge != no_index) {
+      faces.constrain(edge);
+      tell(a, b);
+      return {};
+    }
     while (a != b) {
       const Departure first = departure(faces, a, b);
       Index end = no_index;
@@ -159,6 +164,29 @@ class ArcInsertion {
       a = left_.vertices.back();
     }
     return {};
+  }
+
+  // Returns the halfedge of a solid face between two vertices, if it is among the first ones around
+  // the vertex a, counterclockwise and then clockwise. Most constraints are edges, which no
+  // coordinates are needed to find.
+  static Index edge_between(const Faces& faces, Index a, Index b) {
+    constexpr unsigned most = 16;  // most vertices have fewer faces
+    const Index first = faces.solid_face_at(a);
+    unsigned steps = 0;
+    for (const bool is_clockwise : {false, true}) {
+      Index face = first;
+      do {
+        const Triple& corners = faces.corners(face);
+        const unsigned own = corners[0] == a ? 0 : corners[1] == a ? 1 : 2;
+        const unsigned next = topology::next_corner[own];
+        const unsigned previous = topology::previous_corner[own];
+        if (corners[next] == b) return topology::halfedge(face, previous);
+        if (corners[previous] == b) return topology::halfedge(face, next);
+        face = faces.neighbor(face, is_clockwise ? previous : next);
+        if (face == first) return no_index;
+      } while (faces.is_solid(face) && ++steps < most);
+    }
+    return no_index;
   }
 
   // Finds the first step of the arc from a to b, or of that from b to a, and exchanges the ends in

@@ -4,7 +4,6 @@
 #include "constrained/constrained_result.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +12,8 @@
 
 #include "api/triangulation_impl.h"
 #include "exact/vector.h"
-#include "order/sorts.h"
 #include "rondel/delaunay.h"
+#include "system/row_assembly.h"
 
 namespace rondel::constrained {
 
@@ -41,26 +40,33 @@ LonLat place_of_crossing(const std::array<Point, 2>& e, const std::array<Point, 
   return lonlats(std::span(&point, 1))[0];
 }
 
+// Sorts by counting the pieces of each lower end, or as usual if there are few.
 void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
-  const auto width = static_cast<int>(std::bit_width(bound));
-  order::KeyedIndices keyed;
-  keyed.keys.reserve(pieces.size());
-  keyed.indices.reserve(pieces.size());
-  for (const ConstrainedPiece& piece : pieces) {
-    keyed.keys.push_back(std::uint64_t{piece.low} << width | piece.high);
-    keyed.indices.push_back(piece.constraint);
+  constexpr std::size_t few = 8;  // ends for each piece
+  if (pieces.size() < bound / few || pieces.size() >= no_index) {
+    std::ranges::sort(pieces);
+    return;
   }
-  order::radix_sort(keyed, 2 * width);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto low = static_cast<Index>(keyed.keys[i] >> width);
-    const auto high = static_cast<Index>(keyed.keys[i] ^ std::uint64_t{low} << width);
-    pieces[i] = {low, high, keyed.indices[i]};
+  system::RowPlaces<Index> places(bound);
+  for (const ConstrainedPiece& piece : pieces) places.count(piece.low);
+  std::vector<ConstrainedPiece> sorted(places.sum());
+  for (const ConstrainedPiece& piece : pieces) sorted[places.place(piece.low)] = piece;
+  for (auto begin = sorted.begin(); begin != sorted.end();) {
+    const auto end = std::find_if(begin, sorted.end(), [&](const ConstrainedPiece& piece) {
+      return piece.low != begin->low;
+    });
+    if (end - begin > 1) std::sort(begin, end);
+    begin = end;
   }
+  pieces = std::move(sorted);
 }
 
 void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
                 ConstrainedTriangulation& result) {
   std::vector<Index>& values = result.sources.values;
+  values.reserve(pieces.size());
+  result.edges.reserve(pieces.size());
+  result.sources.offsets.reserve(pieces.size() + 1);
   for (std::size_t begin = 0; begin < pieces.size();) {
     const std::array<Index, 2> edge = {pieces[begin].low, pieces[begin].high};
     const auto first = static_cast<std::ptrdiff_t>(values.size());
@@ -73,8 +79,10 @@ void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<I
         values.insert(values.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
       }
     }
-    std::sort(values.begin() + first, values.end());
-    values.erase(std::unique(values.begin() + first, values.end()), values.end());
+    if (end - begin > 1 || sources != nullptr) {
+      std::sort(values.begin() + first, values.end());
+      values.erase(std::unique(values.begin() + first, values.end()), values.end());
+    }
     result.edges.push_back(edge);
     result.sources.end_row();
     begin = end;
