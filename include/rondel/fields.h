@@ -63,6 +63,8 @@ struct FieldSet {
   std::vector<std::uint64_t> shape;
   std::size_t num_without_place =
       0;  ///< how many points were left out because their longitude or latitude is missing
+  /// The name of the dimension of points that are on no grid, in netCDF that is written.
+  std::string dimension = "point";
   /// The number that stands for missing values in a file that is written (`_FillValue`). Values
   /// that were read have NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();

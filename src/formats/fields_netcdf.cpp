@@ -39,7 +39,8 @@ class PointsOut {
  public:
   // The points are written as a grid if the shape has two dimensions and the places are those of a
   // latitude for each row and a longitude for each column.
-  PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
+  PointsOut(const WeightSide& side, const FieldSet& fields)
+      : side_(side), dimension_(fields.dimension) {
     const std::vector<LonLat>& points = side.points;
     has_axes_ = !side.axes.lon_deg.empty();
     is_grid_ = side.shape.size() == 2 && (has_axes_ || !points.empty());
@@ -48,8 +49,8 @@ class PointsOut {
       is_grid_ = points[i].lon_deg == points[i % row].lon_deg &&
                  points[i].lat_deg == points[i - i % row].lat_deg;
     }
-    num_lon_ = is_grid_ ? row : num_points;
-    num_points_ = num_points;
+    num_lon_ = is_grid_ ? row : fields.num_points;
+    num_points_ = fields.num_points;
   }
 
   // Returns the names that its dimensions and coordinates take.
@@ -58,7 +59,7 @@ class PointsOut {
     if (has_places()) names = {"lat", "lon"};
     if (is_grid_) return names;
     for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert("axis_" + std::to_string(d));
-    if (side_.shape.size() <= 1) names.insert("point");
+    if (side_.shape.size() <= 1) names.insert(dimension_);
     return names;
   }
   // Defines dimensions and coordinates.
@@ -70,7 +71,7 @@ class PointsOut {
         dimensions_.push_back(out.add_dimension("axis_" + std::to_string(d), side_.shape[d]));
       }
     } else {
-      dimensions_ = {out.add_dimension("point", num_points_)};
+      dimensions_ = {out.add_dimension(dimension_, num_points_)};
     }
     if (!has_places()) return;
     const auto of = [&](std::size_t d) {
@@ -105,6 +106,7 @@ class PointsOut {
   [[nodiscard]] bool has_places() const { return has_axes_ || !side_.points.empty(); }
 
   const WeightSide& side_;
+  const std::string& dimension_;
   bool has_axes_ = false;
   bool is_grid_ = false;
   std::size_t num_lon_ = 0;
@@ -118,7 +120,7 @@ class NetcdfSink : public FieldSink {
   // Columns are texts along one dimension, so a grid of points has none.
   NetcdfSink(io::AtomicFile& file, const FieldsToWrite& job)
       : out_(file),
-        points_(job.side, job.fields.num_points),
+        points_(job.side, job.fields),
         columns_(points_.is_one_dimension() ? std::span(job.side.columns)
                                             : std::span<const Column>()) {
     define(job);

@@ -68,6 +68,8 @@ class RegridJob {
     written.axes = in.axes;
     written.others = in.others;
     written.attributes = in.attributes;
+    written.dimension = "cell";
+    target_.add_mapping(written);
     add_history(written);
     const bool is_netcdf = is_netcdf_file(out_);
     const WeightSide side = target_.description(is_netcdf);

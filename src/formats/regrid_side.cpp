@@ -3,12 +3,26 @@
 
 #include "formats/regrid_side.h"
 
+#include <set>
+#include <string>
 #include <utility>
 
 #include "rondel/error.h"
 #include "rondel/regrid.h"
 
 namespace rondel::formats {
+namespace {
+
+std::set<std::string> taken_names(const FieldSet& fields) {
+  std::set<std::string> names = {"lon", "lat"};
+  for (const std::vector<FieldArray>* const arrays :
+       {&fields.arrays, &fields.axes, &fields.others}) {
+    for (const FieldArray& array : *arrays) names.insert(array.name);
+  }
+  return names;
+}
+
+}  // namespace
 
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
                        const Execution& execution)
@@ -107,6 +121,19 @@ WeightSide RegridSide::description(bool has_axes) const {
     side.points = places();
   }
   return side;
+}
+
+void RegridSide::add_mapping(FieldSet& fields) const {
+  if (!named_) return;
+  const NamedGrid::GridMapping mapping = named_->mapping();
+  if (mapping.texts.empty()) return;
+  FieldArray crs;
+  crs.name = free_names({"crs"}, taken_names(fields)).front();
+  crs.values = {0};
+  crs.attributes = mapping.texts;
+  for (const auto& [name, number] : mapping.numbers) crs.numbers.push_back({name, {number}});
+  for (FieldArray& array : fields.arrays) array.attributes.emplace_back("grid_mapping", crs.name);
+  fields.others.push_back(std::move(crs));
 }
 
 }  // namespace rondel::formats

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rondel/cell_set.h"
+#include "rondel/fields.h"
 #include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
 #include "rondel/tiled_remap.h"
@@ -43,6 +44,8 @@ class RegridSide {
   // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no
   // list of places.
   [[nodiscard]] WeightSide description(bool has_axes) const;
+  // Adds the variable by which a file says that points are the pixels of HEALPix, if they are.
+  void add_mapping(FieldSet& fields) const;
 
  private:
   void read_file(const FileName& file, bool has_cells, const Execution& execution);

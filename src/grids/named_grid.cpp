@@ -204,6 +204,20 @@ std::vector<LonLat> NamedGrid::centers() const {
   return centers;
 }
 
+NamedGrid::GridMapping NamedGrid::mapping() const {
+  constexpr std::string_view pixels = "healpix:";
+  if (!name_.starts_with(pixels)) return {};
+  const std::string level = name_.substr(pixels.size(), name_.find(':', pixels.size()) - pixels.size());
+  const bool is_in_rings = name_.ends_with(":ring");
+  const auto order = *number_of(level);
+  // The last two are those that tools for HEALPix had before.
+  return {{{"grid_mapping_name", "healpix"},
+           {"indexing_scheme", is_in_rings ? "ring" : "nested"},
+           {"healpix_order", is_in_rings ? "ring" : "nest"}},
+          {{"refinement_level", static_cast<double>(order)},
+           {"healpix_nside", static_cast<double>(std::uint64_t{1} << order)}}};
+}
+
 CellSet NamedGrid::cells(const Execution& execution) const {
   const system::Call call(execution);
   if (!lines_) {

@@ -119,6 +119,10 @@ class Regrid(unittest.TestCase):
             self.assertEqual(out["time"].calendar, "standard")
             np.testing.assert_array_equal(out["time_bnds"][:], np.arange(8).reshape(4, 2))
             np.testing.assert_array_equal(out["level"][:], [850, 500])
+            self.assertEqual(out["crs"].grid_mapping_name, "healpix")
+            self.assertEqual((out["crs"].refinement_level, out["crs"].healpix_nside), (2, 4))
+            self.assertEqual(out["t"].grid_mapping, "crs")
+            self.assertEqual(out["t"].dimensions, ("time", "level", "cell"))
             self.assertEqual(out.title, "made")
             self.assertEqual(out.history, "rondel regrid in.nc healpix:2\nyesterday: made")
 

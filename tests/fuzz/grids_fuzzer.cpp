@@ -72,6 +72,8 @@ void test_grid(const NamedGrid& grid, const CellSet& cells) {
   for (const std::uint64_t length : grid.shape()) product *= length;
   require(product == grid.num_cells(), "the shape has all cells");
   require(!grid.name().empty(), "a grid has its name");
+  require(grid.mapping().texts.empty() != grid.name().starts_with("healpix"),
+          "pixels say what they are");
 }
 
 std::vector<std::int32_t> next_mask(ByteSource& source, std::size_t n) {

@@ -18,7 +18,7 @@
 namespace rondel::test {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // The integral over what sources cover of the targets that have values.
 long double integral_of(const Remap& remap, const std::vector<double>& values) {
@@ -83,7 +83,7 @@ TEST(overlay_limiter, bounds_and_integrals_are_kept) {
     expect_limited(remap, step, 0);
     for (double& value : step) value = std::uniform_real_distribution<double>(-5, 9)(random);
     expect_limited(remap, step, 0);
-    for (std::size_t i = 0; i < 300; i += 7) step[i] = nan;
+    for (std::size_t i = 0; i < 300; i += 7) step[i] = no_value;
     expect_limited(remap, step, 0.5);
   }
 }
