@@ -39,8 +39,8 @@ class RONDEL_API TiledCells {
 
  private:
   friend class TiledRemap;
-  struct Content;
-  std::shared_ptr<const Content> content_;
+  struct CellsOfTiles;
+  std::shared_ptr<const CellsOfTiles> content_;
 };
 
 struct TiledRemapOptions {
@@ -84,8 +84,8 @@ class RONDEL_API TiledRemap {
   [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution = {}) const;
 
  private:
-  struct Content;
-  std::unique_ptr<Content> content_;
+  struct TileMaker;
+  std::unique_ptr<TileMaker> maker_;
 };
 
 }  // namespace rondel

@@ -105,7 +105,7 @@ void PolygonFlood::list_faces() {
   }
 }
 
-// Of duplicates the representative stands for all.
+// Returns the site that stands for all in its place.
 Index PolygonFlood::name_of(Index site) const {
   const auto duplicates = result_.triangulation.duplicates();
   const auto found = std::ranges::lower_bound(duplicates, site, {}, &Duplicate::site);

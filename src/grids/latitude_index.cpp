@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 
 #include "exact/vector.h"
 #include "overlay/subdivision.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 
 namespace rondel::grids {
 namespace {
@@ -68,7 +68,7 @@ LatitudeIndex::LatitudeIndex(const GridFormula& grid, unsigned threads)
                        });
   std::vector<Index> next(num_bands + 1, 0);
   for (Index i = 0; i < lowest_.size(); ++i) ++next[middle_of(i) + 1];
-  std::partial_sum(next.begin(), next.end(), next.begin());
+  system::sum_counts(next);
   begins_ = next;
   for (Index i = 0; i < lowest_.size(); ++i) {
     const unsigned middle = middle_of(i);

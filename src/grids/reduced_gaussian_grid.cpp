@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
 #include "exact/angles.h"
 #include "grids/gaussian_lines.h"
 #include "grids/grid_formula.h"
+#include "system/row_assembly.h"
 
 namespace rondel::grids {
 namespace {
@@ -22,7 +22,8 @@ class ReducedGaussianGrid : public GridFormula {
       : counts_(std::move(counts)),
         latitudes_(gaussian_latitudes(counts_.size() / 2)),
         begins_(counts_.size() + 1, 0) {
-    std::partial_sum(counts_.begin(), counts_.end(), begins_.begin() + 1);
+    std::ranges::copy(counts_, begins_.begin() + 1);
+    system::sum_counts(begins_);
     for (const double latitude : lines_between(latitudes_)) {
       const exact::SineCosine height = exact::sine_cosine_of_degrees(latitude);
       parallels_.push_back({height.sine, height.cosine});

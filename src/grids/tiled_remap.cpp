@@ -26,6 +26,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/row_assembly.h"
 
 namespace rondel {
 namespace {
@@ -87,7 +88,7 @@ bool is_out(const std::vector<std::int32_t>& mask, Index cell) {
 
 }  // namespace
 
-struct TiledCells::Content {
+struct TiledCells::CellsOfTiles {
   std::optional<PreparedGrid> grid;  // cells between parallels
   std::vector<double> latitudes;     // the lines of the grid, as given
   std::shared_ptr<const grids::GridFormula> formula;
@@ -101,15 +102,15 @@ TiledCells::TiledCells(const NamedGrid& grid) {
   if (grid.lines_ && grid.sides_ == GridSides::parallels) {
     *this = TiledCells(*grid.lines_);
   } else if (grid.formula_) {
-    content_ = std::make_shared<const Content>(Content{std::nullopt, {}, grid.formula_});
+    content_ = std::make_shared<const CellsOfTiles>(CellsOfTiles{std::nullopt, {}, grid.formula_});
   } else {
     *this = TiledCells(grid.cells());
   }
 }
 
 TiledCells::TiledCells(const LonLatGrid& lines)
-    : content_(std::make_shared<const Content>(
-          Content{PreparedGrid(lines), lines.lat_deg, nullptr})) {}
+    : content_(std::make_shared<const CellsOfTiles>(
+          CellsOfTiles{PreparedGrid(lines), lines.lat_deg, nullptr})) {}
 
 TiledCells::TiledCells(const CellSet& cells) {
   if (cells.has_parallels()) {
@@ -120,15 +121,15 @@ TiledCells::TiledCells(const CellSet& cells) {
   if (!data.covers_sphere() || data.whole() != no_index) {
     throw InvalidInput("the cells do not cover the sphere");
   }
-  content_ = std::make_shared<const Content>(
-      Content{std::nullopt, {}, std::make_shared<const StoredCells>(cells)});
+  content_ = std::make_shared<const CellsOfTiles>(
+      CellsOfTiles{std::nullopt, {}, std::make_shared<const StoredCells>(cells)});
 }
 
 std::size_t TiledCells::num_cells() const { return content_->num_cells(); }
 bool TiledCells::has_parallels() const { return content_->grid.has_value(); }
 
-struct TiledRemap::Content {
-  Content(const TiledCells& source_side, const TiledCells& target_side, TiledRemapOptions given,
+struct TiledRemap::TileMaker {
+  TileMaker(const TiledCells& source_side, const TiledCells& target_side, TiledRemapOptions given,
           const Execution& execution);
 
   RemapTile tile(std::size_t number, const Execution& execution) const;
@@ -139,14 +140,14 @@ struct TiledRemap::Content {
   // For a side that is not between parallels.
   std::optional<grids::LatitudeIndex> source_index;
   std::optional<grids::LatitudeIndex> target_index;
-  // Of two grids between parallels.
+  // The boxes that two grids between parallels share.
   std::optional<overlay::GridOverlay> boxes;
   // The first band of each tile, or its first row for targets between parallels; and the end.
   std::vector<unsigned> begins = {0};
 
  private:
-  [[nodiscard]] const TiledCells::Content& source() const { return *source_cells.content_; }
-  [[nodiscard]] const TiledCells::Content& target() const { return *target_cells.content_; }
+  [[nodiscard]] const TiledCells::CellsOfTiles& source() const { return *source_cells.content_; }
+  [[nodiscard]] const TiledCells::CellsOfTiles& target() const { return *target_cells.content_; }
 
   [[nodiscard]] std::vector<double> sources_by_band() const;
   void divide_bands();
@@ -171,7 +172,7 @@ struct TiledRemap::Content {
   void drop_masked(TilePieces& tile) const;
 };
 
-TiledRemap::Content::Content(const TiledCells& source_side, const TiledCells& target_side,
+TiledRemap::TileMaker::TileMaker(const TiledCells& source_side, const TiledCells& target_side,
                              TiledRemapOptions given, const Execution& execution)
     : source_cells(source_side), target_cells(target_side), options(std::move(given)) {
   require_mask(options.source_mask, source().num_cells(), "source");
@@ -187,7 +188,7 @@ TiledRemap::Content::Content(const TiledCells& source_side, const TiledCells& ta
 }
 
 // Returns how many cells of the source are in each band, about.
-std::vector<double> TiledRemap::Content::sources_by_band() const {
+std::vector<double> TiledRemap::TileMaker::sources_by_band() const {
   std::vector<double> counts(grids::num_bands, 0);
   if (source_index) {
     for (unsigned band = 0; band < grids::num_bands; ++band) {
@@ -207,7 +208,7 @@ std::vector<double> TiledRemap::Content::sources_by_band() const {
   return counts;
 }
 
-void TiledRemap::Content::divide_bands() {
+void TiledRemap::TileMaker::divide_bands() {
   const std::vector<double> sources = sources_by_band();
   double count = 0;
   for (unsigned band = 0; band < grids::num_bands; ++band) {
@@ -219,7 +220,7 @@ void TiledRemap::Content::divide_bands() {
   if (begins.back() != grids::num_bands) begins.push_back(grids::num_bands);
 }
 
-BandRange TiledRemap::Content::bands_of_rows(unsigned first, unsigned end) const {
+BandRange TiledRemap::TileMaker::bands_of_rows(unsigned first, unsigned end) const {
   const auto band = [&](unsigned line) {
     return grids::band_of(exact::sine_cosine_of_degrees(target().latitudes[line]).sine);
   };
@@ -227,9 +228,9 @@ BandRange TiledRemap::Content::bands_of_rows(unsigned first, unsigned end) const
   return {low == 0 ? 0 : low - 1, std::min(high + 1, grids::num_bands - 1)};
 }
 
-void TiledRemap::Content::divide_rows() {
+void TiledRemap::TileMaker::divide_rows() {
   std::vector<double> below = sources_by_band();
-  std::partial_sum(below.begin(), below.end(), below.begin());
+  system::sum_counts(below);
   const PreparedGrid& grid = *target().grid;
   double count = 0;
   for (unsigned row = 0; row < grid.num_rows_of_grid(); ++row) {
@@ -246,7 +247,7 @@ void TiledRemap::Content::divide_rows() {
 }
 
 // Returns the pieces of targets in the sources. No target reaches beyond the bands.
-PieceRows TiledRemap::Content::pieces_in_cells(const CellSetData& targets, const BandRange& bands,
+PieceRows TiledRemap::TileMaker::pieces_in_cells(const CellSetData& targets, const BandRange& bands,
                                                const Execution& execution) const {
   if (source().grid) return pieces(targets, *source().grid, false, execution, false);
   const TileCells sources =
@@ -259,7 +260,7 @@ PieceRows TiledRemap::Content::pieces_in_cells(const CellSetData& targets, const
 
 // The targets are made together with all that may share a side with them, since the points in which
 // a side crosses others are computed once for the cells on both sides of it.
-TiledRemap::Content::TilePieces TiledRemap::Content::pieces_of_bands(
+TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
     const BandRange& bands, const Execution& execution) const {
   TilePieces result;
   result.targets = target_index->cells_with_middles(bands);
@@ -294,7 +295,7 @@ TiledRemap::Content::TilePieces TiledRemap::Content::pieces_of_bands(
 
 // Returns the pieces of targets between parallels, which are found from the sources: those of each
 // source are in order. Sums are computed in the spatial order of the sources, as remap() does.
-PieceRows TiledRemap::Content::pieces_by_source(unsigned first, unsigned end,
+PieceRows TiledRemap::TileMaker::pieces_by_source(unsigned first, unsigned end,
                                                 const Execution& execution) const {
   const PreparedGrid& grid = *target().grid;
   const TileCells sources = made(
@@ -325,7 +326,7 @@ PieceRows TiledRemap::Content::pieces_by_source(unsigned first, unsigned end,
   return result;
 }
 
-TiledRemap::Content::TilePieces TiledRemap::Content::pieces_of_rows(
+TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_rows(
     unsigned first, unsigned end, const Execution& execution) const {
   const PreparedGrid& grid = *target().grid;
   const Index row_length = grid.num_columns_of_grid();
@@ -347,7 +348,7 @@ TiledRemap::Content::TilePieces TiledRemap::Content::pieces_of_rows(
 }
 
 // Removes the pieces of cells that take no part, and computes the sums of what is left.
-void TiledRemap::Content::drop_masked(TilePieces& tile) const {
+void TiledRemap::TileMaker::drop_masked(TilePieces& tile) const {
   if (options.source_mask.empty() && options.target_mask.empty()) return;
   PieceRows kept;
   for (std::size_t row = 0; row < tile.targets.size(); ++row) {
@@ -363,7 +364,7 @@ void TiledRemap::Content::drop_masked(TilePieces& tile) const {
   tile.pieces = std::move(kept);
 }
 
-RemapTile TiledRemap::Content::tile(std::size_t number, const Execution& execution) const {
+RemapTile TiledRemap::TileMaker::tile(std::size_t number, const Execution& execution) const {
   const unsigned begin = begins[number];
   const unsigned end = begins[number + 1];
   TilePieces found = target_index ? pieces_of_bands({begin, end - 1}, execution)
@@ -400,19 +401,19 @@ RemapTile TiledRemap::Content::tile(std::size_t number, const Execution& executi
 TiledRemap::TiledRemap(TiledCells source, TiledCells target, TiledRemapOptions options,
                        const Execution& execution) {
   const system::Call call(execution);
-  content_ = std::make_unique<Content>(source, target, std::move(options), execution);
+  maker_ = std::make_unique<TileMaker>(source, target, std::move(options), execution);
 }
 TiledRemap::~TiledRemap() = default;
 TiledRemap::TiledRemap(TiledRemap&&) noexcept = default;
 TiledRemap& TiledRemap::operator=(TiledRemap&&) noexcept = default;
 
-std::size_t TiledRemap::num_sources() const { return content_->source_cells.num_cells(); }
-std::size_t TiledRemap::num_targets() const { return content_->target_cells.num_cells(); }
-std::size_t TiledRemap::num_tiles() const { return content_->begins.size() - 1; }
+std::size_t TiledRemap::num_sources() const { return maker_->source_cells.num_cells(); }
+std::size_t TiledRemap::num_targets() const { return maker_->target_cells.num_cells(); }
+std::size_t TiledRemap::num_tiles() const { return maker_->begins.size() - 1; }
 
 RemapTile TiledRemap::tile(std::size_t number, const Execution& execution) const {
   const system::Call call(execution);
-  return content_->tile(number, execution);
+  return maker_->tile(number, execution);
 }
 
 }  // namespace rondel

@@ -24,7 +24,7 @@ struct KeyedArc {
   Point to;
 };
 
-// The same with its ends as indices of points.
+// An arc whose ends are indices of points.
 struct KeyedSide {
   Index key;
   Index from;
@@ -42,7 +42,7 @@ struct KeyedSide {
 //
 // Throws InvalidInput if the arcs of a region do not form closed rings and are wider than rounding.
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads);
-// The same for sides between points, of which several may be equal.
+// Returns the same for sides between points, of which several may be equal.
 CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide> sides,
                        std::size_t num_keys, unsigned threads);
 

@@ -82,18 +82,18 @@ class PlaneSweep {
   // Numbers the different corners from west to east. Returns the numbers of the positions of all
   // rings.
   std::vector<Index> numbered_corners() {
-    struct Corner {
+    struct CornerOnMap {
       LonLat position;
       Index place;
     };
-    std::vector<Corner> sorted;
+    std::vector<CornerOnMap> sorted;
     for (const map::LonLatRing& ring : rings_) {
       for (const LonLat& p : ring.positions)
         sorted.push_back({p, static_cast<Index>(sorted.size())});
     }
-    std::ranges::sort(sorted, is_west_of, &Corner::position);
+    std::ranges::sort(sorted, is_west_of, &CornerOnMap::position);
     std::vector<Index> numbers(sorted.size());
-    for (const Corner& corner : sorted) {
+    for (const CornerOnMap& corner : sorted) {
       if (corners_.empty() || !(corners_.back() == corner.position)) {
         corners_.push_back(corner.position);
       }

@@ -67,7 +67,9 @@ std::optional<CellSet> cells_of(const NamedGrid& grid) {
 
 void test_grid(const NamedGrid& grid, const CellSet& cells) {
   require(cells.covers_sphere() && cells.num_cells() == grid.num_cells(), "cells cover the sphere");
-  require(grid.centers().size() == grid.num_cells(), "a cell has a center");
+  require(cells.facts().given_centers() == grid.centers() &&
+              grid.centers().size() == grid.num_cells(),
+          "a cell has a center");
   std::uint64_t product = 1;
   for (const std::uint64_t length : grid.shape()) product *= length;
   require(product == grid.num_cells(), "the shape has all cells");
@@ -158,6 +160,14 @@ void test_files(ByteSource& source, const NamedGrid& from, const std::string& ta
   regrid_file({in, {}}, {target, {}}, {tiles, {}}, options);
   require(bytes_of(out) == bytes_of(tiles), "tiles have the same bytes");
   const FieldSet found = read_fields({out, {}}, {}, report.targets);
+  const FieldFile again({out, {}}, {}, report.targets);
+  const std::size_t first = source.below(report.targets);
+  std::vector<double> part(std::min<std::size_t>(report.targets - first, 1 + source.below(9)));
+  again.read_points(1, 0, first, part);
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    const double value = found.arrays[1].values[first + k];
+    require(part[k] == value || (std::isnan(part[k]) && std::isnan(value)), "a part is a part");
+  }
   for (const double value : found.arrays[0].values) {
     require(std::abs(value - 3) < 1e-12, "a constant is kept");
   }

@@ -583,7 +583,7 @@ class CellSet(Described):
         >>> with warnings.catch_warnings(action="ignore"):
         ...     cells = tie.repaired()
         >>> print(f"{cells.areas[0]:.3e}")
-        6.093e-04
+        6.092e-04
 
         """
         made = self._cells.repaired(as_threads(threads))
