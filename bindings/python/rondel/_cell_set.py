@@ -481,7 +481,9 @@ class CellSet(Described):
         2
 
         """
-        return cls._of(polygons_of(geometries, edges, overlap, invalid, as_threads(threads)))
+        made = cls._of(polygons_of(geometries, edges, overlap, invalid, as_threads(threads)))
+        made._is_sound = True
+        return made
 
     @property
     def num_cells(self) -> int:
