@@ -84,9 +84,9 @@ std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides, RegionMemo
 }
 
 // Returns the polygons of simple loops, with a trouble for each misplaced loop.
-RegionLook look_at_loops(std::vector<Loop> loops) {
+RegionLook look_at_loops(std::vector<Loop> loops, unsigned threads) {
   RegionLook look;
-  PolygonsOfLoops found = polygons_of_loops(std::move(loops));
+  PolygonsOfLoops found = polygons_of_loops(std::move(loops), threads);
   look.polygons = std::move(found.polygons);
   for (Loop& loop : found.misplaced) {
     Trouble trouble{TroubleKind::turned};
@@ -109,8 +109,8 @@ bool is_plain_region(std::span<const Loop> loops) {
 }  // namespace
 
 RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared,
-                          RegionMemory& memory) {
-  if (shared.is_empty() && is_plain_region(loops)) return look_at_loops(loops);
+                          RegionMemory& memory, unsigned threads) {
+  if (shared.is_empty() && is_plain_region(loops)) return look_at_loops(loops, threads);
   std::vector<DirectedLine> sides;
   for (const Loop& loop : loops) shared.append_sides(loop, sides);
   const std::size_t num_sides = sides.size();
@@ -120,13 +120,13 @@ RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& sha
   look.troubles = troubles_of(sides, memory);
   if (!look.troubles.empty()) return look;
   if (shared.is_empty() && sides.size() == num_sides && !has_touching(loops))
-    return look_at_loops(loops);
+    return look_at_loops(loops, threads);
   for (const SideWedge& wedge : unpaired_sides(sides)) {
     look.troubles.push_back({wedge.is_paired ? TroubleKind::beside : TroubleKind::unpaired,
                              wedge.at, wedge.first, wedge.at, wedge.second});
   }
   if (!look.troubles.empty()) return look;
-  return look_at_loops(traced_loops(sides));
+  return look_at_loops(traced_loops(sides), threads);
 }
 
 bool is_in_trouble(const std::vector<Loop>& loops) {

@@ -51,7 +51,7 @@ struct RegionMemory {
 // Returns the polygons or the troubles of a region whose loops are drawn with the divisions and
 // merges of `shared`.
 RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared,
-                          RegionMemory& memory);
+                          RegionMemory& memory, unsigned threads = 1);
 
 // True if the loops, as they are, have any trouble.
 bool is_in_trouble(const std::vector<Loop>& loops);

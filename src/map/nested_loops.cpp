@@ -9,11 +9,14 @@
 
 #include "map/map_plane.h"
 #include "map/planar_loops.h"
+#include "system/parallel.h"
 
 namespace rondel::map {
 namespace {
 
 using Ring = std::span<const LonLat>;
+
+constexpr std::size_t loops_per_task = 64;
 
 // Lists the sides of all loops by longitude, to find those above a position.
 class SidesByLongitude {
@@ -122,7 +125,7 @@ double area_of_loop(Ring loop) {
 }  // namespace
 
 std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
-                                   std::size_t num_outer) {
+                                   std::size_t num_outer, unsigned threads) {
   std::vector<std::size_t> owners(loops.size(), misplaced);
   if (loops.size() == 1) {
     if (num_outer == 1) owners[0] = 0;
@@ -131,7 +134,7 @@ std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
   std::vector<double> sizes(loops.size());
   std::ranges::transform(loops, sizes.begin(), [](Ring loop) { return area_of_loop(loop); });
   const SidesByLongitude sides(loops);
-  for (std::size_t i = 0; i < loops.size(); ++i) {
+  const auto owner_of = [&](std::size_t i) {
     int depth = 0;
     std::size_t smallest = misplaced;
     for (const std::size_t other : loops_around(sides, loops, i)) {
@@ -139,9 +142,13 @@ std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
       if (other < num_outer && (smallest == misplaced || sizes[other] < sizes[smallest]))
         smallest = other;
     }
-    if (i < num_outer && depth == 0) owners[i] = i;
-    if (i >= num_outer && depth == 1) owners[i] = smallest;
-  }
+    if (i < num_outer) return depth == 0 ? i : misplaced;
+    return depth == 1 ? smallest : misplaced;
+  };
+  system::parallel_for(threads, loops.size(), loops_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) owners[i] = owner_of(i);
+                       });
   return owners;
 }
 

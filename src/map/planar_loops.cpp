@@ -209,12 +209,12 @@ std::vector<Loop> traced_loops(std::span<const DirectedLine> lines) {
   return found;
 }
 
-PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops) {
+PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops, unsigned threads) {
   PolygonsOfLoops result;
   const auto first_hole = std::stable_partition(
       loops.begin(), loops.end(), [](const Loop& loop) { return is_counterclockwise(loop); });
   const auto num_outer = static_cast<std::size_t>(first_hole - loops.begin());
-  const std::vector<std::size_t> owners = owners_of(loops, num_outer);
+  const std::vector<std::size_t> owners = owners_of(loops, num_outer, threads);
   std::vector<std::size_t> places(num_outer);
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (owners[i] == misplaced) {

@@ -54,7 +54,7 @@ struct PolygonsOfLoops {
 
 // Returns the polygons of loops, in the order of their outer loops, with closed rings.
 // Precondition: the loops are simple, and two loops meet only in positions that both have.
-PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops);
+PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops, unsigned threads = 1);
 
 // Returns loops with the part of the map that no region covers to their left: the border of the map
 // and the sides of all regions reversed, without sides that occur in both directions. The result is
@@ -71,6 +71,6 @@ inline constexpr std::size_t misplaced = std::numeric_limits<std::size_t>::max()
 // counterclockwise loops as clockwise ones. Other loops are misplaced. Precondition: the loops are
 // simple, and two loops meet only in positions that both have.
 std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
-                                   std::size_t num_outer);
+                                   std::size_t num_outer, unsigned threads = 1);
 
 }  // namespace rondel::map

@@ -98,7 +98,8 @@ std::vector<std::vector<PolygonWithHoles>> settled_regions(
   std::vector<std::vector<PolygonWithHoles>> regions(borders.size());
   system::parallel_for(threads, borders.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!borders[i].empty()) regions[i] = polygons_of_loops(traced_loops(borders[i])).polygons;
+      if (!borders[i].empty())
+        regions[i] = polygons_of_loops(traced_loops(borders[i]), threads).polygons;
     }
   });
   return regions;

@@ -113,7 +113,8 @@ class RegionsInPlane {
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t k = begin; k < end; ++k) {
                              const std::size_t i = open[k];
-                             looks_[i] = look_at_region(regions_[i], lines_, memories_[i]);
+                             looks_[i] =
+                                 look_at_region(regions_[i], lines_, memories_[i], threads_);
                            }
                          });
     if (!owners_) return;

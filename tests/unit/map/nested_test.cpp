@@ -112,5 +112,27 @@ TEST(doubled_loop_area, of_triangles) {
   EXPECT_EQ(map::doubled_loop_area(Loop{{-3, -5}, {4, -2}, {-1, 6}}), 7 * 11 - 2 * 3);
 }
 
+TEST(owners_of, many_rings_in_any_number_of_threads) {
+  std::vector<Loop> loops;
+  std::vector<std::size_t> expected;
+  const auto add = [&](double west, double south, double size, bool is_hole) {
+    Loop loop = {
+        {west, south}, {west + size, south}, {west + size, south + size}, {west, south + size}};
+    if (is_hole) std::ranges::reverse(loop);
+    loops.push_back(std::move(loop));
+  };
+  for (const bool is_hole : {false, true}) {
+    for (std::size_t k = 0; k < 1000; ++k) {
+      const double off = is_hole ? 0.25 : 0;
+      add(static_cast<double>(k % 100) + off, static_cast<double>(k / 100) + off,
+          is_hole ? 0.25 : 0.75, is_hole);
+      expected.push_back(k);
+    }
+  }
+  for (const unsigned threads : {1U, 2U, 5U}) {
+    EXPECT_EQ(map::owners_of(loops, 1000, threads), expected) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test::of_nested
