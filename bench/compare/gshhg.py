@@ -89,24 +89,57 @@ def unrolled(ring: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return np.concatenate([ring, ring[:1]])
 
 
-def write_geojson(rings: dict[str, np.ndarray[Any, Any]], path: str) -> None:
-    """Writes lands and islands with their holes, a feature a line."""
-    parts: dict[int, list[int]] = defaultdict(list)
+def parts_of(rings: dict[str, np.ndarray[Any, Any]]) -> list[list[int]]:
+    """The rings of each land and each island in a lake: itself, and the lakes in it."""
+    shells: dict[int, list[int]] = defaultdict(list)
     for k in np.flatnonzero(np.isin(rings["level"], (LAND, ISLAND))):
-        parts[rings["gid"][k]].append(k)
-    features = [[k] for ks in parts.values() for k in ks]
+        shells[rings["gid"][k]].append(k)
+    features = [[k] for ks in shells.values() for k in ks]
     of_shell = {rings["gid"][ks[0]]: ks for ks in reversed(features)}
     for k in np.flatnonzero(np.isin(rings["level"], (LAKE, POND))):
         if rings["parent"][k] in of_shell:
             of_shell[rings["parent"][k]].append(k)
+    return features
+
+
+def polygon_of(
+    rings: dict[str, np.ndarray[Any, Any]], ks: list[int], is_unrolled: bool
+) -> list[np.ndarray[Any, Any]]:
+    """The closed rings of a polygon; unrolled, without jumps of longitude."""
     offsets = rings["rings"]
+    given = [rings["lonlat"][offsets[k] : offsets[k + 1]] for k in ks]
+    if not is_unrolled:
+        return [np.concatenate([ring, ring[:1]]) for ring in given]
+    made = [unrolled(ring) for ring in given]
+    for hole in made[1:]:
+        low, high = made[0][:, 0].min(), made[0][:, 0].max()
+        hole[:, 0] += 360 * ((hole[:, 0].min() < low) - int(hole[:, 0].max() > high))
+    return made
+
+
+def shapes_of(
+    rings: dict[str, np.ndarray[Any, Any]], is_unrolled: bool
+) -> np.ndarray[Any, np.dtype[np.object_]]:
+    """The polygons as those of shapely."""
+    import shapely
+
+    made = [polygon_of(rings, ks, is_unrolled) for ks in parts_of(rings)]
+    positions = [ring for polygon in made for ring in polygon]
+    sizes = np.cumsum([0] + [len(ring) for ring in positions])
+    ends = np.cumsum([0] + [len(polygon) for polygon in made])
+    kind = shapely.GeometryType.POLYGON
+    found: np.ndarray[Any, np.dtype[np.object_]] = shapely.from_ragged_array(
+        kind, np.concatenate(positions), (sizes, ends)
+    )
+    return found
+
+
+def write_geojson(rings: dict[str, np.ndarray[Any, Any]], path: str) -> None:
+    """Writes lands and islands with their holes, a feature a line."""
     with Path(path).open("w") as file:
         file.write('{"type":"FeatureCollection","features":[')
-        for number, ks in enumerate(features):
-            made = [unrolled(rings["lonlat"][offsets[k] : offsets[k + 1]]) for k in ks]
-            for hole in made[1:]:
-                low, high = made[0][:, 0].min(), made[0][:, 0].max()
-                hole[:, 0] += 360 * ((hole[:, 0].min() < low) - int(hole[:, 0].max() > high))
+        for number, ks in enumerate(parts_of(rings)):
+            made = polygon_of(rings, ks, True)
             geometry = {"type": "Polygon", "coordinates": [ring.tolist() for ring in made]}
             facts = {"id": int(rings["gid"][ks[0]]), "level": int(rings["level"][ks[0]])}
             feature = {"type": "Feature", "properties": facts, "geometry": geometry}
