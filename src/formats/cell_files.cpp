@@ -247,7 +247,7 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
   if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
-  const CellSet cells = of(read_cells(file), options.sides, execution);
+  CellSet cells = of(read_cells(file), options.sides, execution);
   if (options.invalid == InvalidPolygons::error) return cells;
   try {
     return cells.repaired(execution);
