@@ -5,8 +5,6 @@
 // in    netCDF with fields; a target: a named grid, netCDF with cells, or polygons
 // out   the same fields at the target
 // index places and cells in the order of their file or grid
-#include "rondel/regrid_files.h"
-
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,6 +18,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/named_grids.h"
+#include "rondel/regrid_files.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -27,9 +26,9 @@ namespace {
 
 // The options of `rondel regrid`.
 struct RegridCommandOptions {
-  CommonOptions common;       // INPUT: the fields; output and threads
-  std::string target;         // TARGET
-  std::string source;         // --source
+  CommonOptions common;  // INPUT: the fields; output and threads
+  std::string target;    // TARGET
+  std::string source;    // --source
   RegridFileOptions regrid;
 };
 
@@ -62,11 +61,10 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
                                        {"tiles", done_work.tiles},
                                        {"seconds", {{"total", job.seconds().total}}},
                                        {"peak_memory_bytes", peak_memory_bytes()}};
-  job.report(json.dump(2) + '\n',
-             count(done_work.fields, "field", "fields") + " from " +
-                 count(done_work.sources, "place", "places") + " to " +
-                 std::to_string(done_work.targets) +
-                 "; values missing: " + std::to_string(done_work.missing) + '\n');
+  job.report(json.dump(2) + '\n', count(done_work.fields, "field", "fields") + " from " +
+                                      count(done_work.sources, "place", "places") + " to " +
+                                      std::to_string(done_work.targets) + "; values missing: " +
+                                      std::to_string(done_work.missing) + '\n');
   return done;
 }
 
@@ -104,7 +102,8 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       parser, "--overlap", options.regrid.overlap, named_values<CellOverlap>(),
       "Cells of one side that overlap: error (default), first or share");
   const CLI::Option* const limiter = parser.add_option_function<std::string>(
-      "--limiter", [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
+      "--limiter",
+      [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
       "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
       "and the integral is kept");
   parser.get_option("--limiter")
@@ -135,9 +134,7 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   for (const CLI::Option* const option : {edges, invalid}) {
     require_effect(
         options.common, option,
-        [&options] {
-          return options.target.ends_with("json") || options.source.ends_with("json");
-        },
+        [&options] { return options.target.ends_with("json") || options.source.ends_with("json"); },
         "without polygons in .geojson");
   }
 }
@@ -176,8 +173,7 @@ Command add_regrid_command(CLI::App& tool) {
                    "The name of a grid (below), netCDF with cells, or .geojson with polygons")
       ->required()
       ->type_name("");
-  add_output_option(*parser, options->common,
-                    "Where to write the fields: .nc .nc4 .csv .tsv .npy")
+  add_output_option(*parser, options->common, "Where to write the fields: .nc .nc4 .csv .tsv .npy")
       ->required();
   parser
       ->add_option("--value", options->regrid.names,

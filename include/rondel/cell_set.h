@@ -49,12 +49,12 @@ struct GlobalGrid {
 
 /// How the cells of a file are read.
 struct CellFileOptions {
-  GridSides sides = GridSides::parallels;            ///< for coordinates along axes
-  PolygonEdges edges = PolygonEdges::lonlat;         ///< for polygons
+  GridSides sides = GridSides::parallels;     ///< for coordinates along axes
+  PolygonEdges edges = PolygonEdges::lonlat;  ///< for polygons
   /// For polygons; other cells are repaired() if they are to be.
   InvalidPolygons invalid = InvalidPolygons::error;
-  PolygonOverlap overlap = PolygonOverlap::keep;     ///< for polygons
-  FeatureChoice is_taken = {};                       ///< for polygons, as in PolygonOptions
+  PolygonOverlap overlap = PolygonOverlap::keep;  ///< for polygons
+  FeatureChoice is_taken = {};                    ///< for polygons, as in PolygonOptions
 };
 
 /// Cells prepared for overlays with others, and what is known of them. Copies share the memory;

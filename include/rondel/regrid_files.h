@@ -73,8 +73,8 @@ struct RegridFileReport {
   std::size_t sources = 0;
   std::size_t targets = 0;
   std::size_t fields = 0;
-  std::size_t missing = 0;  ///< values of targets that are missing
-  std::size_t tiles = 0;    ///< 0 if all weights were in memory
+  std::size_t missing = 0;                ///< values of targets that are missing
+  std::size_t tiles = 0;                  ///< 0 if all weights were in memory
   std::vector<std::string> remarks = {};  ///< what was left out, and why
 };
 

@@ -41,8 +41,8 @@ bool are_near(const PlaceList& a, const PlaceList& b, double max_apart_deg) {
 
 // Places in one file are the same if they are the same numbers, but for the rounding of single
 // precision.
-bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b,
-                                         const PlaceList& a, const PlaceList& b) const {
+bool FieldDimensionFinder::are_one_place(std::size_t lon_a, std::size_t lon_b, const PlaceList& a,
+                                         const PlaceList& b) const {
   const bool is_single = file_.variables()[lon_a].type == io::NetcdfType::float32 ||
                          file_.variables()[lon_b].type == io::NetcdfType::float32;
   return are_near(a, b, is_single ? 1e-4 : 1e-9);

@@ -39,7 +39,8 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       parts_of_grids_(parts_of_grids(headers_)) {
   // Places that are not as many as the points cannot be compared with them.
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
-  wanted_places_ = PlaceList(std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end()));
+  wanted_places_ =
+      PlaceList(std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end()));
   std::vector<const io::VariableInFile*> fields(variables.begin(), variables.end());
   // Coordinates are fields only if they are named.
   if (wanted.names.empty()) {

@@ -27,22 +27,11 @@ namespace rondel::formats {
 namespace {
 
 // Attributes that say how a file stores its numbers, or which other variables belong to them.
-constexpr std::string_view attributes_of_the_file[] = {"coordinates",
-                                                       "bounds",
-                                                       "climatology",
-                                                       "cell_measures",
-                                                       "grid_mapping",
-                                                       "formula_terms",
-                                                       "ancillary_variables",
-                                                       "mesh",
-                                                       "location",
-                                                       "compress",
-                                                       "interpolation",
-                                                       "grid",
-                                                       "CDI_grid_type",
-                                                       "_Unsigned",
-                                                       "_FillValue",
-                                                       "missing_value"};
+constexpr std::string_view attributes_of_the_file[] = {
+    "coordinates",   "bounds",        "climatology",         "cell_measures",
+    "grid_mapping",  "formula_terms", "ancillary_variables", "mesh",
+    "location",      "compress",      "interpolation",       "grid",
+    "CDI_grid_type", "_Unsigned",     "_FillValue",          "missing_value"};
 
 // Returns the texts that still hold for values at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(

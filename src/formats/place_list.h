@@ -68,8 +68,14 @@ class PlaceList {
   // good by themselves.
   template <class IsGood>
   [[nodiscard]] std::size_t first_not(const IsGood& is_good) const {
-    if (axes_ && std::ranges::all_of(axes_->lon_deg, [&](double x) { return is_good(LonLat{x, 0}); }) &&
-        std::ranges::all_of(axes_->lat_deg, [&](double y) { return is_good(LonLat{0, y}); })) {
+    if (axes_ &&
+        std::ranges::all_of(axes_->lon_deg,
+                            [&](double x) {
+                              return is_good(LonLat{x, 0});
+                            }) &&
+        std::ranges::all_of(axes_->lat_deg, [&](double y) {
+          return is_good(LonLat{0, y});
+        })) {
       return size();
     }
     std::size_t point = 0;
@@ -81,8 +87,8 @@ class PlaceList {
   [[nodiscard]] bool is_same(const PlaceList& other, const IsSame& is_same) const {
     if (size() != other.size()) return false;
     if (axes_ && other.axes_ && is_by_column_ == other.is_by_column_ &&
-        (axes_ == other.axes_ || (axes_->lon_deg == other.axes_->lon_deg &&
-                                  axes_->lat_deg == other.axes_->lat_deg))) {
+        (axes_ == other.axes_ ||
+         (axes_->lon_deg == other.axes_->lon_deg && axes_->lat_deg == other.axes_->lat_deg))) {
       return true;
     }
     std::size_t point = 0;

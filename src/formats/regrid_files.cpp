@@ -95,11 +95,10 @@ class RegridJob {
     if (names.empty() && !variable.empty()) names.push_back(variable);
     const bool is_compared = source_.num_places() <= max_compared;
     if (is_compared) places_ = source_.places();
-    fields_ = std::make_unique<FieldFile>(
-        file, names, source_.num_places(), ReadOptions{}, source_.shape(), WantedPlaces{places_},
-        FieldExtras{.has_others = true, .has_positions = false});
-    for (const auto& remarks :
-         {source_.remarks(), target_.remarks(), fields_->fields().remarks}) {
+    fields_ = std::make_unique<FieldFile>(file, names, source_.num_places(), ReadOptions{},
+                                          source_.shape(), WantedPlaces{places_},
+                                          FieldExtras{.has_others = true, .has_positions = false});
+    for (const auto& remarks : {source_.remarks(), target_.remarks(), fields_->fields().remarks}) {
       for (const std::string& remark : remarks) {
         if (std::ranges::count(report_.remarks, remark) == 0) report_.remarks.push_back(remark);
       }
@@ -189,8 +188,8 @@ class RegridJob {
     InterpolationOptions interpolation;
     interpolation.method = *from_name<Method>(name_of(method));
     interpolation.hashes = false;
-    Weights weights = Interpolator(triangulation)
-                          .weights(unit_vectors(targets), interpolation, execution_);
+    Weights weights =
+        Interpolator(triangulation).weights(unit_vectors(targets), interpolation, execution_);
     for (Index& column : weights.columns) column = numbers[column];
     weights.num_columns = places.size();
     return weights;
@@ -281,7 +280,9 @@ class RegridJob {
     const std::uint64_t room = options_.memory / 2;
     const bool is_streamed = tiled_target_->has_parallels() && of_field > room;
     const std::size_t of_group =
-        is_streamed ? 1 : std::clamp<std::uint64_t>(room / of_field, 1, std::max<std::size_t>(num_fields, 1));
+        is_streamed
+            ? 1
+            : std::clamp<std::uint64_t>(room / of_field, 1, std::max<std::size_t>(num_fields, 1));
     for (std::size_t first = 0; first < num_fields; first += of_group) {
       const std::size_t count = std::min(of_group, num_fields - first);
       SourceValues values(*fields_, array, first, count, report_.sources, has_windows);

@@ -52,10 +52,14 @@ double area_north_of(const Point& p, const Point& q) {
 // Turns a point around the axis by quarters of a turn, exactly.
 Point turned(const Point& p, std::int64_t quarters) {
   switch (quarters & 3) {
-    case 1: return {-p.y, p.x, p.z};
-    case 2: return {-p.x, -p.y, p.z};
-    case 3: return {p.y, -p.x, p.z};
-    default: return p;
+    case 1:
+      return {-p.y, p.x, p.z};
+    case 2:
+      return {-p.x, -p.y, p.z};
+    case 3:
+      return {p.y, -p.x, p.z};
+    default:
+      return p;
   }
 }
 
@@ -106,8 +110,8 @@ class HealpixGrid : public GridFormula {
     }
     const std::int64_t from_pole = p < in_cap ? p : all - 1 - p;
     // Ring i of a cap is behind 2 i (i - 1) others.
-    auto i = static_cast<std::int64_t>(
-        std::sqrt((1 + 2 * static_cast<double>(from_pole)) / 4) + 0.5);
+    auto i =
+        static_cast<std::int64_t>(std::sqrt((1 + 2 * static_cast<double>(from_pole)) / 4) + 0.5);
     while (2 * i * (i - 1) > from_pole) --i;
     while (2 * i * (i + 1) <= from_pole) ++i;
     const std::int64_t behind = from_pole - 2 * i * (i - 1);
@@ -117,7 +121,8 @@ class HealpixGrid : public GridFormula {
     // The center is between the lines of a lattice of half the step.
     const std::int64_t ring = (2 + pixel.face / 4) * side_ - pixel.x - pixel.y - 1;
     const std::int64_t steps = std::min({ring, side_, 4 * side_ - ring});
-    const std::int64_t quarter = pixel.face / 4 == 1 ? 2 * (pixel.face % 4) : 2 * (pixel.face % 4) + 1;
+    const std::int64_t quarter =
+        pixel.face / 4 == 1 ? 2 * (pixel.face % 4) : 2 * (pixel.face % 4) + 1;
     // 4 (position + first) for half steps.
     std::int64_t place = 2 * quarter * steps + 2 * (pixel.x - pixel.y);
     if (place < 0) place += 16 * steps;
@@ -229,8 +234,8 @@ class HealpixGrid : public GridFormula {
     double area = 0;  // between the curve and the north pole
     if (middle.ring > lattice_) {
       const double z = static_cast<double>(2 * (2 * lattice_ - middle.ring)) / (3 * n);
-      area = (1 - z) * static_cast<double>(end.position - start.position) *
-             (std::numbers::pi / 4) / n;
+      area =
+          (1 - z) * static_cast<double>(end.position - start.position) * (std::numbers::pi / 4) / n;
     } else {
       // The longitude is pi / 4 (k + c / J) and 1 - z is J^2 / (3 N^2).
       const std::int64_t k = (end.position - start.position) / (end.ring - start.ring);

@@ -51,8 +51,8 @@ class LatitudeIndex {
 
   std::vector<std::uint16_t> lowest_;  // of each cell
   std::vector<std::uint16_t> highest_;
-  std::vector<Index> sorted_;   // the cells by the band of their middle, ascending within a band
-  std::vector<Index> begins_;   // the first one of each band in sorted_, and the end
+  std::vector<Index> sorted_;    // the cells by the band of their middle, ascending within a band
+  std::vector<Index> begins_;    // the first one of each band in sorted_, and the end
   std::vector<unsigned> reach_;  // how many bands a cell reaches beyond its middle, by that band
 };
 

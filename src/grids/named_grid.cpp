@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "rondel/named_grids.h"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -18,6 +16,7 @@
 #include "io/number.h"
 #include "meshing/point_rings.h"
 #include "rondel/error.h"
+#include "rondel/named_grids.h"
 #include "system/arithmetic.h"
 #include "system/job.h"
 
@@ -48,8 +47,8 @@ std::uint64_t number_in(std::string_view text, std::uint64_t least, std::uint64_
                         std::string_view name, const char* what) {
   const auto number = number_of(text);
   if (number && *number >= least && *number <= most) return *number;
-  refuse(name, std::string(what) + " is from " + std::to_string(least) + " to " +
-                   std::to_string(most));
+  refuse(name,
+         std::string(what) + " is from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 // Returns the grid that the text after "grid:" describes.
@@ -135,7 +134,8 @@ std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides 
   if (name.starts_with(pixels)) return healpix(name.substr(pixels.size()), name, sides);
   const std::string_view number = name.substr(1);
   switch (name.front()) {
-    case 'R': return triangles(name);
+    case 'R':
+      return triangles(name);
     case 'C':
       return grids::cubed_sphere_grid(static_cast<unsigned>(
           number_in(number, 1, max_cube_side, name, "the number of cells along a face")));
@@ -183,8 +183,8 @@ NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), side
     lines_ = grid.lines();
     axes_ = grid.centers();
   } else if (name.front() == 'F') {
-    std::tie(lines_, axes_) = gaussian_grid(number_in(
-        name.substr(1), 1, max_gaussian, name, "the number of latitudes of a hemisphere"));
+    std::tie(lines_, axes_) = gaussian_grid(number_in(name.substr(1), 1, max_gaussian, name,
+                                                      "the number of latitudes of a hemisphere"));
   } else {
     formula_ = formula_of(name, sides);
   }
@@ -207,7 +207,8 @@ std::vector<LonLat> NamedGrid::centers() const {
 NamedGrid::GridMapping NamedGrid::mapping() const {
   constexpr std::string_view pixels = "healpix:";
   if (!name_.starts_with(pixels)) return {};
-  const std::string level = name_.substr(pixels.size(), name_.find(':', pixels.size()) - pixels.size());
+  const std::string level =
+      name_.substr(pixels.size(), name_.find(':', pixels.size()) - pixels.size());
   const bool is_in_rings = name_.ends_with(":ring");
   const auto order = *number_of(level);
   // The last two are those that tools for HEALPix had before.

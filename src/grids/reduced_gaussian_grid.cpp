@@ -86,8 +86,8 @@ class ReducedGaussianGrid : public GridFormula {
   [[nodiscard]] static Point point_on(const ParallelLine& parallel, std::int64_t numerator,
                                       std::int64_t n) {
     const std::int64_t reduced = (numerator + 2 * n) % (2 * n);
-    const exact::SineCosine turn = exact::sine_cosine_of_degrees(
-        static_cast<double>(180 * reduced) / static_cast<double>(n));
+    const exact::SineCosine turn =
+        exact::sine_cosine_of_degrees(static_cast<double>(180 * reduced) / static_cast<double>(n));
     return {parallel.cosine * turn.cosine, parallel.cosine * turn.sine, parallel.sine};
   }
 
@@ -104,10 +104,8 @@ struct ReducedGrid {
   std::string_view rows;
 };
 constexpr ReducedGrid reduced_grids[] = {
-    {32,
-     "20 27 36 40 45 50 60 64 72 75 80 90x2 96 100 108x2 120x3 128x12"},
-    {48,
-     "20 25 36 40 45 50 60x2 72 75 80 90 96 100 108 120x3 128 135 144x2 160x5 180x5 192x16"},
+    {32, "20 27 36 40 45 50 60 64 72 75 80 90x2 96 100 108x2 120x3 128x12"},
+    {48, "20 25 36 40 45 50 60x2 72 75 80 90 96 100 108 120x3 128 135 144x2 160x5 180x5 192x16"},
     {64,
      "20 30 40 48 54 64 72 80 90x2 100 108 120x2 128 144x3 150 160x2 180x3 192x3 200x2 "
      "216x3 240x7 250x4 256x21"},

@@ -130,7 +130,7 @@ bool TiledCells::has_parallels() const { return content_->grid.has_value(); }
 
 struct TiledRemap::TileMaker {
   TileMaker(const TiledCells& source_side, const TiledCells& target_side, TiledRemapOptions given,
-          const Execution& execution);
+            const Execution& execution);
 
   RemapTile tile(std::size_t number, const Execution& execution) const;
 
@@ -173,7 +173,7 @@ struct TiledRemap::TileMaker {
 };
 
 TiledRemap::TileMaker::TileMaker(const TiledCells& source_side, const TiledCells& target_side,
-                             TiledRemapOptions given, const Execution& execution)
+                                 TiledRemapOptions given, const Execution& execution)
     : source_cells(source_side), target_cells(target_side), options(std::move(given)) {
   require_mask(options.source_mask, source().num_cells(), "source");
   require_mask(options.target_mask, target().num_cells(), "target");
@@ -248,10 +248,9 @@ void TiledRemap::TileMaker::divide_rows() {
 
 // Returns the pieces of targets in the sources. No target reaches beyond the bands.
 PieceRows TiledRemap::TileMaker::pieces_in_cells(const CellSetData& targets, const BandRange& bands,
-                                               const Execution& execution) const {
+                                                 const Execution& execution) const {
   if (source().grid) return pieces(targets, *source().grid, false, execution, false);
-  const TileCells sources =
-      made(*source().formula, source_index->cells_touching(bands), execution);
+  const TileCells sources = made(*source().formula, source_index->cells_touching(bands), execution);
   PieceRows result = pieces(targets.subdivision(), targets.sizes(), sources.data().subdivision(),
                             false, execution);
   for (Index& column : result.columns) column = sources.names[column];
@@ -273,8 +272,8 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
     }
     return all;
   };
-  const TileCells near = made(*target().formula,
-                              target_index->cells_touching(reach(result.targets)), execution);
+  const TileCells near =
+      made(*target().formula, target_index->cells_touching(reach(result.targets)), execution);
   const PieceRows all = pieces_in_cells(near.data(), reach(near.names), execution);
   std::size_t next = 0;
   for (std::size_t k = 0; k < near.names.size() && next < result.targets.size(); ++k) {
@@ -296,10 +295,10 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
 // Returns the pieces of targets between parallels, which are found from the sources: those of each
 // source are in order. Sums are computed in the spatial order of the sources, as remap() does.
 PieceRows TiledRemap::TileMaker::pieces_by_source(unsigned first, unsigned end,
-                                                const Execution& execution) const {
+                                                  const Execution& execution) const {
   const PreparedGrid& grid = *target().grid;
-  const TileCells sources = made(
-      *source().formula, source_index->cells_touching(bands_of_rows(first, end)), execution);
+  const TileCells sources =
+      made(*source().formula, source_index->cells_touching(bands_of_rows(first, end)), execution);
   PieceRows found = pieces(sources.data(), grid, false, execution, false);
   const Index first_target = first * grid.num_columns_of_grid();
   const Index num_targets = (end - first) * grid.num_columns_of_grid();

@@ -20,7 +20,9 @@ using Face = std::array<Index, 3>;
 std::vector<Face> faces_of(const std::vector<Point>& corners) {
   std::vector<Face> faces;
   constexpr double between_neighbors = 0.3;  // the cosine of the angle is 1 / sqrt(5)
-  const auto are_near = [&](Index a, Index b) { return dot(corners[a], corners[b]) > between_neighbors; };
+  const auto are_near = [&](Index a, Index b) {
+    return dot(corners[a], corners[b]) > between_neighbors;
+  };
   for (Index a = 0; a < corners.size(); ++a) {
     for (Index b = a + 1; b < corners.size(); ++b) {
       for (Index c = b + 1; c < corners.size(); ++c) {
@@ -39,7 +41,9 @@ Point middle_of(const Point& a, const Point& b) { return normalized(a + b); }
 class TriangleGrid : public GridFormula {
  public:
   TriangleGrid(Index root, unsigned bisections)
-      : root_(root), bisections_(bisections), corners_(mesh::icosahedron()),
+      : root_(root),
+        bisections_(bisections),
+        corners_(mesh::icosahedron()),
         faces_(faces_of(corners_)) {}
 
   [[nodiscard]] Index num_cells() const override {
@@ -65,10 +69,18 @@ class TriangleGrid : public GridFormula {
       const Point ca = middle_of(c, a);
       const Point ab = middle_of(a, b);
       switch (cell >> (2 * level) & 3U) {
-        case 0: at = {bc, ca, ab}; break;
-        case 1: at = {a, ab, ca}; break;
-        case 2: at = {b, bc, ab}; break;
-        default: at = {c, ca, bc}; break;
+        case 0:
+          at = {bc, ca, ab};
+          break;
+        case 1:
+          at = {a, ab, ca};
+          break;
+        case 2:
+          at = {b, bc, ab};
+          break;
+        default:
+          at = {c, ca, bc};
+          break;
       }
     }
     return at;

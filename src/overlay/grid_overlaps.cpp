@@ -28,7 +28,7 @@ void GridOverlay::add_overlap(const LineOverlap& overlap, std::vector<LineOverla
 
 // Returns the ranges of longitude that columns of the two grids share. `first` is a column of a.
 std::vector<GridOverlay::LineOverlap> GridOverlay::shared_columns(const PreparedGrid& a,
-                                                                   const PreparedGrid& b) {
+                                                                  const PreparedGrid& b) {
   std::vector<LineOverlap> overlaps;
   for (Index i = 0; i < a.num_columns_of_grid(); ++i) {
     const double west = a.columns()[i].west_deg;
@@ -57,7 +57,7 @@ std::vector<GridOverlay::LineOverlap> GridOverlay::shared_columns(const Prepared
 
 // Returns the ranges of latitude that rows of the two grids share. `first` is a row of a.
 std::vector<GridOverlay::LineOverlap> GridOverlay::shared_rows(const PreparedGrid& a,
-                                                                const PreparedGrid& b) {
+                                                               const PreparedGrid& b) {
   std::vector<LineOverlap> overlaps;
   Index j = 0;
   for (Index i = 0; i < a.num_rows_of_grid(); ++i) {
@@ -124,9 +124,7 @@ void GridOverlay::append_row(const std::vector<BoxPiece>& row, bool has_moments,
 }
 
 GridOverlay::GridOverlay(const PreparedGrid& rows, const PreparedGrid& columns)
-    : columns_(columns),
-      along_(rows.num_columns_of_grid()),
-      across_(rows.num_rows_of_grid()) {
+    : columns_(columns), along_(rows.num_columns_of_grid()), across_(rows.num_rows_of_grid()) {
   const Index row_length = rows.num_columns_of_grid();
   for (const LineOverlap& overlap : shared_columns(rows, columns)) {
     const Index given = rows.cell(overlap.first, rows.first_row()) % row_length;
@@ -146,9 +144,9 @@ PieceRows GridOverlay::pieces(Index first, Index end, bool has_moments) const {
     row.clear();
     for (const LatRange& lat : across_[cell / row_length]) {
       for (const LonRange& lon : along_[cell % row_length]) {
-        const Point moment = has_moments ? moment_of_row(lat.south, lat.north, lat.height,
-                                                         lon.width, lon.run)
-                                         : Point{};
+        const Point moment =
+            has_moments ? moment_of_row(lat.south, lat.north, lat.height, lon.width, lon.run)
+                        : Point{};
         row.push_back({columns_.cell(lon.column, lat.row), lon.width * lat.height, moment});
       }
     }

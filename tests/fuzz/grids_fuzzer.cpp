@@ -28,15 +28,24 @@ namespace {
 std::string next_name(ByteSource& source) {
   const auto number = [&](std::size_t most) { return std::to_string(source.below(most + 1)); };
   switch (source.below(9)) {
-    case 0: return "grid:" + number(12) + "x" + number(9);
-    case 1: return "grid:" + std::to_string(10 + source.below(60));
-    case 2: return "healpix:" + number(3);
-    case 3: return "healpix:" + number(2) + ":ring";
-    case 4: return "F" + number(5);
-    case 5: return "O" + number(4);
-    case 6: return "C" + number(5);
-    case 7: return "R" + number(3) + "B" + number(2);
-    default: break;
+    case 0:
+      return "grid:" + number(12) + "x" + number(9);
+    case 1:
+      return "grid:" + std::to_string(10 + source.below(60));
+    case 2:
+      return "healpix:" + number(3);
+    case 3:
+      return "healpix:" + number(2) + ":ring";
+    case 4:
+      return "F" + number(5);
+    case 5:
+      return "O" + number(4);
+    case 6:
+      return "C" + number(5);
+    case 7:
+      return "R" + number(3) + "B" + number(2);
+    default:
+      break;
   }
   std::string text;
   while (!source.is_empty() && text.size() < 12) text += static_cast<char>(source.byte());
@@ -67,9 +76,9 @@ std::optional<CellSet> cells_of(const NamedGrid& grid) {
 
 void test_grid(const NamedGrid& grid, const CellSet& cells) {
   require(cells.covers_sphere() && cells.num_cells() == grid.num_cells(), "cells cover the sphere");
-  require(cells.facts().given_centers() == grid.centers() &&
-              grid.centers().size() == grid.num_cells(),
-          "a cell has a center");
+  require(
+      cells.facts().given_centers() == grid.centers() && grid.centers().size() == grid.num_cells(),
+      "a cell has a center");
   std::uint64_t product = 1;
   for (const std::uint64_t length : grid.shape()) product *= length;
   require(product == grid.num_cells(), "the shape has all cells");
@@ -86,8 +95,8 @@ std::vector<std::int32_t> next_mask(ByteSource& source, std::size_t n) {
   return mask;
 }
 
-void test_tiles(ByteSource& source, const CellSet& from, const CellSet& to, const TiledCells& source_cells,
-                const TiledCells& target_cells) {
+void test_tiles(ByteSource& source, const CellSet& from, const CellSet& to,
+                const TiledCells& source_cells, const TiledCells& target_cells) {
   TiledRemapOptions options;
   options.norm = source.below(2) == 0 ? RemapNorm::destarea : RemapNorm::fracarea;
   options.source_mask = next_mask(source, from.num_cells());

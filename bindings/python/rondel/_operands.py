@@ -218,7 +218,7 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
     if not isinstance(given, Iterable):
         raise TypeError(f"{name} must be polygons or a CellSet, not {type(given).__name__}")
     flat = given.ravel() if isinstance(given, np.ndarray) else list(given)
-    shape = given.shape if isinstance(given, np.ndarray) else (len(flat),)
+    shape: tuple[int, ...] = given.shape if isinstance(given, np.ndarray) else (len(flat),)
     shapes = shapely_array(flat)
     if shapes is not None:
         return Operand(name, shape, shapes)

@@ -27,9 +27,27 @@ namespace {
 constexpr double sphere_area = 4 * std::numbers::pi;
 
 std::vector<std::string> small_grids() {
-  return {"grid:30",   "grid:7x5",      "F8",          "N32", "O1", "O2",   "O16",
-          "C1",        "C2",            "C7",          "R1B0", "R1B3", "R2B2", "R3B1", "R7B0",
-          "healpix:0", "healpix:0:ring", "healpix:1", "healpix:2:ring", "healpix:4", "healpix:5:ring"};
+  return {"grid:30",
+          "grid:7x5",
+          "F8",
+          "N32",
+          "O1",
+          "O2",
+          "O16",
+          "C1",
+          "C2",
+          "C7",
+          "R1B0",
+          "R1B3",
+          "R2B2",
+          "R3B1",
+          "R7B0",
+          "healpix:0",
+          "healpix:0:ring",
+          "healpix:1",
+          "healpix:2:ring",
+          "healpix:4",
+          "healpix:5:ring"};
 }
 
 TEST(named_grids, cells_cover_the_sphere) {
@@ -121,9 +139,9 @@ TEST(named_grids, centers_are_the_point_sets) {
 // Numbers of points that ECMWF, Gorski et al. and ICON's documentation give.
 TEST(named_grids, have_published_numbers_of_cells) {
   const std::map<std::string, std::size_t> numbers = {
-      {"N32", 6114},      {"N80", 35718},     {"N320", 542080},     {"N640", 2140702},
-      {"O320", 421120},   {"O1280", 6599680}, {"F320", 819200},     {"healpix:10", 12582912},
-      {"R2B4", 20480},    {"R2B10", 83886080}, {"R3B7", 2949120},   {"C384", 884736},
+      {"N32", 6114},           {"N80", 35718},      {"N320", 542080},  {"N640", 2140702},
+      {"O320", 421120},        {"O1280", 6599680},  {"F320", 819200},  {"healpix:10", 12582912},
+      {"R2B4", 20480},         {"R2B10", 83886080}, {"R3B7", 2949120}, {"C384", 884736},
       {"grid:0.01", 648000000}};
   for (const auto& [name, number] : numbers) EXPECT_EQ(NamedGrid(name).num_cells(), number) << name;
 }
@@ -132,7 +150,8 @@ TEST(named_grids, names_are_told_from_files) {
   for (const char* name : {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4"}) {
     EXPECT_TRUE(NamedGrid::is_name(name)) << name;
   }
-  for (const char* name : {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32"}) {
+  for (const char* name :
+       {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32"}) {
     EXPECT_FALSE(NamedGrid::is_name(name)) << name;
   }
 }
@@ -146,15 +165,18 @@ TEST(named_grids, pixels_say_what_they_are) {
 }
 
 TEST(named_grids, refuse_what_is_none) {
-  const auto why = [](const char* name) { return thrown_message<InvalidInput>([&] { return NamedGrid(name); }); };
+  const auto why = [](const char* name) {
+    return thrown_message<InvalidInput>([&] { return NamedGrid(name); });
+  };
   EXPECT_EQ(why("N33"),
             "'N33' is no grid: N is one of 32, 48, 64, 80, 96, 128, 160, 200, 256, 320, 400, 512, "
             "640, 1024, 1280, 2000");
   EXPECT_EQ(why("healpix:14"), "'healpix:14' is no grid: the level of HEALPix is from 0 to 13");
   EXPECT_EQ(why("healpix:3:rings"), "'healpix:3:rings' is no grid: the order is nested or ring");
-  EXPECT_EQ(why("grid:7"),
-            "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has "
-            "NLON by NLAT cells");
+  EXPECT_EQ(
+      why("grid:7"),
+      "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has "
+      "NLON by NLAT cells");
   EXPECT_EQ(why("R2B15"), "'R2B15' is no grid: it has too many cells");
   EXPECT_EQ(why("C0"), "'C0' is no grid: the number of cells along a face is from 1 to 20000");
 }

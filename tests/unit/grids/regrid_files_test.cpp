@@ -106,8 +106,7 @@ TEST(regrid_files, conservative_values_are_means_over_cells) {
   const std::string in = temporary_path("in.nc");
   const FieldSet fields = write_input(in, "grid:10");
   for (const char* const target : {"healpix:2", "healpix:2:ring", "F4", "O4", "C4", "R2B1"}) {
-    const Remap remap =
-        rondel::remap(NamedGrid("grid:10").cells(), NamedGrid(target).cells());
+    const Remap remap = rondel::remap(NamedGrid("grid:10").cells(), NamedGrid(target).cells());
     const FieldSet out = regridded(in, target, temporary_path("out.nc"));
     ASSERT_EQ(out.arrays.size(), 3U);
     EXPECT_EQ(out.arrays[0].name, "warm");
@@ -156,10 +155,10 @@ TEST(regrid_files, methods_between_places_are_those_of_the_interpolator) {
   }
   const FieldSet out = regridded(in, "O3", temporary_path("out.nc"),
                                  {.names = {"patchy"}, .method = FieldMethod::bilinear});
-  expect_values(out.arrays[0].values,
-                applied(bilinear_weights(*source.axes(), target.centers()),
-                        fields.arrays[2].values, 1),
-                0, "bilinear");
+  expect_values(
+      out.arrays[0].values,
+      applied(bilinear_weights(*source.axes(), target.centers()), fields.arrays[2].values, 1), 0,
+      "bilinear");
 }
 
 TEST(regrid_files, bytes_depend_on_neither_tiles_nor_memory_nor_threads) {
@@ -215,8 +214,8 @@ TEST(regrid_files, targets_need_enough_of_what_covers_them) {
   side.shape = {4, 4};
   write_fields({in, {}}, fields, side);
   const auto known = [&](double max_missing) {
-    const FieldSet out = regridded(in, "grid:30", temporary_path("out.nc"),
-                                   {.max_missing = max_missing});
+    const FieldSet out =
+        regridded(in, "grid:30", temporary_path("out.nc"), {.max_missing = max_missing});
     std::size_t count = 0;
     for (const double value : out.arrays[0].values) {
       if (std::isnan(value)) continue;
@@ -239,8 +238,9 @@ TEST(regrid_files, refuse_what_does_not_fit) {
   const std::string out = temporary_path("refused.nc");
   write_input(in, "grid:30");
   const auto why = [&](const std::string& target, const RegridFileOptions& options = {}) {
-    return thrown_message<FileError>(
-        [&] { return regrid_file({in, {}}, {target, {}}, {out, {}}, options); });
+    return thrown_message<FileError>([&] {
+      return regrid_file({in, {}}, {target, {}}, {out, {}}, options);
+    });
   };
   EXPECT_EQ(why("N33").substr(0, 20), "'N33' is no grid: N ");
   EXPECT_EQ(why("nothing"),
@@ -248,9 +248,9 @@ TEST(regrid_files, refuse_what_does_not_fit) {
             "polygons");
   EXPECT_EQ(why("grid:60", {.source = FileName{"healpix:1", {}}}),
             in + ": no variable has 48 points");
-  EXPECT_EQ(why("grid:60", {.source = FileName{"C3", {}}, .method = FieldMethod::bilinear})
-                .substr(0, 4),
-            in.substr(0, 4));
+  EXPECT_EQ(
+      why("grid:60", {.source = FileName{"C3", {}}, .method = FieldMethod::bilinear}).substr(0, 4),
+      in.substr(0, 4));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

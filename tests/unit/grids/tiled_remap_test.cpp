@@ -32,8 +32,8 @@ std::size_t expect_rows_of(const Remap& whole, const TiledRemap& tiled, const st
       const std::uint64_t size = whole.weights.offsets[target + std::size_t{1}] - begin;
       const std::uint64_t own = tile.weights.offsets[r];
       if (tile.weights.offsets[r + 1] - own != size) {
-        ADD_FAILURE() << what << ": row " << target << " has "
-                      << tile.weights.offsets[r + 1] - own << " entries, not " << size;
+        ADD_FAILURE() << what << ": row " << target << " has " << tile.weights.offsets[r + 1] - own
+                      << " entries, not " << size;
         return 0;
       }
       for (std::uint64_t k = 0; k < size; ++k) {
@@ -52,8 +52,8 @@ std::size_t expect_rows_of(const Remap& whole, const TiledRemap& tiled, const st
 }
 
 TEST(tiled_remap, rows_are_those_of_whole_sides) {
-  const std::vector<std::string> grids = {"grid:6",    "F12", "N32", "O20", "C9", "R2B2",
-                                          "R3B1",      "healpix:3:ring", "healpix:4"};
+  const std::vector<std::string> grids = {
+      "grid:6", "F12", "N32", "O20", "C9", "R2B2", "R3B1", "healpix:3:ring", "healpix:4"};
   for (const std::string& source : grids) {
     for (const std::string& target : grids) {
       const Remap whole = remap(NamedGrid(source).cells(), NamedGrid(target).cells());
@@ -83,15 +83,16 @@ TEST(tiled_remap, masks_and_norms_are_those_of_remap) {
     for (std::int32_t& value : mask) value = random() % 3 == 0 ? 0 : 1;
     return mask;
   };
-  for (const auto& [from, to] : {std::pair{"grid:10", "healpix:3"}, {"O10", "grid:8x9"},
-                                 {"C5", "R2B1"}, {"F6", "grid:9"}}) {
+  for (const auto& [from, to] :
+       {std::pair{"grid:10", "healpix:3"}, {"O10", "grid:8x9"}, {"C5", "R2B1"}, {"F6", "grid:9"}}) {
     const NamedGrid source(from);
     const NamedGrid target(to);
     const auto source_mask = mask_of(source.num_cells());
     const auto target_mask = mask_of(target.num_cells());
     for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
-      const Remap whole = remap(source.cells(), target.cells(),
-                                {.norm = norm, .source_mask = source_mask, .target_mask = target_mask});
+      const Remap whole =
+          remap(source.cells(), target.cells(),
+                {.norm = norm, .source_mask = source_mask, .target_mask = target_mask});
       const TiledRemap tiled(TiledCells(source), TiledCells(target),
                              {norm, source_mask, target_mask, 200});
       expect_rows_of(whole, tiled, std::string(from) + " to " + to);
@@ -107,7 +108,9 @@ TEST(tiled_remap, refuses_what_is_no_cover) {
   EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledCells(CellSet::polygons(one)); }),
             "the cells do not cover the sphere");
   const TiledCells grid{NamedGrid("grid:30")};
-  EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledRemap(grid, grid, {.source_mask = {1, 0}}); }),
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              return TiledRemap(grid, grid, {.source_mask = {1, 0}});
+            }),
             "the mask of the source has 2 values for 72 cells");
 }
 

@@ -130,7 +130,8 @@ TEST(overlay_limiter, fields_do_not_touch_each_other) {
     const std::vector<double> one(values.begin() + first, values.begin() + first + 200);
     std::vector<double> limited(900);
     apply_limited(remap, one, limited, 1, {}, {.threads = 1});
-    EXPECT_TRUE(std::equal(limited.begin(), limited.end(), all.begin() + static_cast<std::ptrdiff_t>(900 * f)));
+    EXPECT_TRUE(std::equal(limited.begin(), limited.end(),
+                           all.begin() + static_cast<std::ptrdiff_t>(900 * f)));
   }
 }
 
