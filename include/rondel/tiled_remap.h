@@ -70,7 +70,7 @@ class RONDEL_API TiledRemap {
  public:
   /// Sorts the cells of both sides by latitude; this needs 8 bytes for each cell that is not
   /// between parallels. \throws InvalidInput if a mask has another length than its side
-  TiledRemap(TiledCells source, TiledCells target, TiledRemapOptions options = {},
+  TiledRemap(const TiledCells& source, const TiledCells& target, TiledRemapOptions options = {},
              const Execution& execution = {});
   ~TiledRemap();
   TiledRemap(TiledRemap&&) noexcept;

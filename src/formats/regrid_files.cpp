@@ -46,7 +46,7 @@ bool is_conservative(FieldMethod method) {
 
 class RegridJob {
  public:
-  RegridJob(const FileName& in, const FileName& target, const FileName& out,
+  RegridJob(const FileName& in, const FileName& target, FileName out,
             const RegridFileOptions& options, const Execution& execution)
       : options_(options),
         execution_(execution),
@@ -54,7 +54,7 @@ class RegridJob {
         source_(options.source.value_or(file_and_variable(in).first), options.cells, needs_cells_,
                 execution),
         target_(target, options.cells, needs_cells_, execution),
-        out_(out) {
+        out_(std::move(out)) {
     open(in);
   }
 
@@ -109,7 +109,7 @@ class RegridJob {
     if (options_.history.empty()) return;
     for (auto& [name, text] : written.attributes) {
       if (name != "history") continue;
-      text = options_.history + "\n" + text;
+      text.insert(0, options_.history + "\n");
       return;
     }
     written.attributes.emplace_back("history", options_.history);

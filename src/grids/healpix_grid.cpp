@@ -110,8 +110,7 @@ class HealpixGrid : public GridFormula {
     }
     const std::int64_t from_pole = p < in_cap ? p : all - 1 - p;
     // Ring i of a cap is behind 2 i (i - 1) others.
-    auto i =
-        static_cast<std::int64_t>(std::sqrt((1 + 2 * static_cast<double>(from_pole)) / 4) + 0.5);
+    auto i = static_cast<std::int64_t>(std::sqrt(static_cast<double>(from_pole) / 2)) + 1;
     while (2 * i * (i - 1) > from_pole) --i;
     while (2 * i * (i + 1) <= from_pole) ++i;
     const std::int64_t behind = from_pole - 2 * i * (i - 1);

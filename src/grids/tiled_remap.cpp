@@ -129,10 +129,10 @@ std::size_t TiledCells::num_cells() const { return content_->num_cells(); }
 bool TiledCells::has_parallels() const { return content_->grid.has_value(); }
 
 struct TiledRemap::TileMaker {
-  TileMaker(const TiledCells& source_side, const TiledCells& target_side, TiledRemapOptions given,
+  TileMaker(TiledCells source_side, TiledCells target_side, TiledRemapOptions given,
             const Execution& execution);
 
-  RemapTile tile(std::size_t number, const Execution& execution) const;
+  [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const;
 
   TiledCells source_cells;
   TiledCells target_cells;
@@ -172,9 +172,11 @@ struct TiledRemap::TileMaker {
   void drop_masked(TilePieces& tile) const;
 };
 
-TiledRemap::TileMaker::TileMaker(const TiledCells& source_side, const TiledCells& target_side,
+TiledRemap::TileMaker::TileMaker(TiledCells source_side, TiledCells target_side,
                                  TiledRemapOptions given, const Execution& execution)
-    : source_cells(source_side), target_cells(target_side), options(std::move(given)) {
+    : source_cells(std::move(source_side)),
+      target_cells(std::move(target_side)),
+      options(std::move(given)) {
   require_mask(options.source_mask, source().num_cells(), "source");
   require_mask(options.target_mask, target().num_cells(), "target");
   if (source().formula) source_index.emplace(*source().formula, execution.threads);
@@ -397,8 +399,8 @@ RemapTile TiledRemap::TileMaker::tile(std::size_t number, const Execution& execu
   return result;
 }
 
-TiledRemap::TiledRemap(TiledCells source, TiledCells target, TiledRemapOptions options,
-                       const Execution& execution) {
+TiledRemap::TiledRemap(const TiledCells& source, const TiledCells& target,
+                       TiledRemapOptions options, const Execution& execution) {
   const system::Call call(execution);
   maker_ = std::make_unique<TileMaker>(source, target, std::move(options), execution);
 }

@@ -58,7 +58,7 @@ TEST(tiled_remap, rows_are_those_of_whole_sides) {
     for (const std::string& target : grids) {
       const Remap whole = remap(NamedGrid(source).cells(), NamedGrid(target).cells());
       std::size_t most = 0;
-      for (const std::size_t cells : {100, 1500, 1 << 20}) {
+      for (const std::size_t cells : {100U, 1500U, 1U << 20U}) {
         const TiledRemap tiled(TiledCells(NamedGrid(source)), TiledCells(NamedGrid(target)),
                                {.cells_per_tile = cells});
         most = std::max(most, expect_rows_of(whole, tiled, source + " to " + target));
