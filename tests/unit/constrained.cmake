@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(constrained_test
   constrained/constrained_oracle.cpp
+  constrained/arc_insertion_test.cpp
   constrained/constrained_errors_test.cpp
   constrained/constrained_features_test.cpp
   constrained/constrained_graphs_test.cpp
