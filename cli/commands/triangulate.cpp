@@ -26,7 +26,6 @@
 #include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
 #include "rondel/geometries.h"
-#include "rondel/some_triangles.h"
 #include "rondel/triangle_files.h"
 #include "triangle_output.h"
 

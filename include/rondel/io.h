@@ -210,6 +210,13 @@ RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
                                 const Triangulation& triangulation,
                                 const Execution& execution = {});
 
+/// Writes some faces, such as those in polygons, in this order, as write_triangles() writes all.
+/// \param faces  indices of faces
+/// \throws InvalidInput as write_triangles(); (the position in `faces`) if there is no such face.
+RONDEL_API void write_some_triangles(const FileName& file, const SiteTable& table,
+                                     const Triangulation& triangulation,
+                                     std::span<const Index> faces, const Execution& execution = {});
+
 /// The least tolerance in degrees: a tenth of a millimetre on the earth.
 inline constexpr double min_tolerance_deg = 1e-9;
 

@@ -15,7 +15,6 @@
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
-#include "rondel/some_triangles.h"
 #include "system/job.h"
 
 namespace rondel {

@@ -15,7 +15,6 @@
 #include "fuzz/table_input.h"
 #include "rondel/error.h"
 #include "rondel/polygons.h"
-#include "rondel/some_triangles.h"
 
 namespace rondel::fuzz {
 namespace {
