@@ -19,7 +19,9 @@ const withoutInside = ["Point", "MultiPoint", "LineString", "MultiLineString"];
  * @param {number[]} lonLat
  */
 function addPosition(position, feature, lonLat) {
-  const [lon, lat] = Array.isArray(position) || ArrayBuffer.isView(position) ? /** @type {any} */ (position) : [];
+  const isArray = Array.isArray(position) || ArrayBuffer.isView(position);
+  const lon = isArray ? /** @type {any} */ (position)[0] : undefined;
+  const lat = isArray ? /** @type {any} */ (position)[1] : undefined;
   if (typeof lon !== "number" || typeof lat !== "number") {
     throw new RondelError(`feature ${feature}: ${JSON.stringify(position)} is no [longitude, latitude]`, feature);
   }

@@ -118,7 +118,7 @@ export function triangulate(object, { spacing = 0, ...options } = {}) {
         n,
         scope.copy(wideOffsets(polygons)),
         scope.copy(wideOffsets(rings)),
-        scope.copy(Float64Array.from(lonLat)),
+        scope.copy(new Float64Array(lonLat)),
       ),
     (made) =>
       withMade(
