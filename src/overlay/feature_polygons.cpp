@@ -109,6 +109,7 @@ struct CheckedFeature {
   std::string fault;                   // what is wrong with it, or an empty text
   std::vector<map::LonLatRing> rings;  // those of the region, with the corners on their sides
   std::optional<PlaneRegion> region;   // known where straight sides were swept without a fault
+  std::optional<CellRings> cell;       // known where geodesic sides have no fault
 };
 
 // True if rings are swept alike.
@@ -156,18 +157,23 @@ class FeatureCells {
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
   // Throws FeatureFault if the only feature is not valid. Straight lines need not become arcs for
-  // that, unless parts of the feature are 360 degrees apart; then the region is returned.
-  std::optional<PlaneRegion> check() {
-    if (options_.edges == PolygonEdges::geodesic || is_wide(0)) {
+  // that, unless parts of the feature are 360 degrees apart. What is found is kept.
+  void check(CheckedFeature& checked) {
+    if (options_.edges == PolygonEdges::geodesic) {
+      checked.cell = (*this)();
+      return;
+    }
+    if (is_wide(0)) {
       (void)(*this)();
-      return {};
+      return;
     }
     require_turns(0);
     require_lines(features_, 0, false);
     (void)share_corners(features_, execution_.threads);
     PlaneRegion region = swept(0);
     (void)area_of(region, 0);
-    return region;
+    checked.region = std::move(region);
+    checked.rings = std::move(features_.rings.front());
   }
   // Returns the lines of all features.
   [[nodiscard]] FeatureLines& lines() { return lines_; }
@@ -325,15 +331,14 @@ class FeatureCells {
     }
     return faulty;
   }
-  // Replaces the cells of features that are to be repaired.
-  template <class Repair>
-  void repair(CellRings& cells, const Repair& repaired) {
-    if (checked_.empty()) return;
+  // Makes the cells of all features: kept(f) where there is no fault, and repaired(f) elsewhere.
+  template <class Keep, class Repair>
+  void repair(CellRings& cells, const Keep& kept, const Repair& repaired) {
     CellRings result;
     std::vector<std::size_t> features;
     for (std::size_t f = 0; f < checked_.size(); ++f) {
       if (!is_faulty(f)) {
-        append(one_cell(cells, static_cast<Index>(f)), result);
+        append(kept(f), result);
         continue;
       }
       features.push_back(f);
@@ -367,8 +372,11 @@ class FeatureCells {
   CellRings all_geodesic_cells() {
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     lines_ = geodesic_lines(features_);
-    CellRings cells = geodesic_cells(features_, !checked_.empty(), quiet());
-    repair(cells, [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
+    if (checked_.empty()) return geodesic_cells(features_, quiet());
+    CellRings cells;
+    repair(
+        cells, [&](std::size_t f) { return one_cell(*checked_[f].cell, 0); },
+        [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
     return cells;
   }
 
@@ -423,7 +431,9 @@ class FeatureCells {
         cells.whole.push_back(static_cast<Index>(f));
       }
     }
-    repair(cells, [&](std::size_t f) {
+    if (checked_.empty()) return cells;
+    const auto kept = [&](std::size_t f) { return one_cell(cells, static_cast<Index>(f)); };
+    repair(cells, kept, [&](std::size_t f) {
       std::vector<std::span<const LonLat>> rows;
       const std::size_t end = f + 1 < faulty.size() ? first_sides[f + 1] : first_of_lines;
       for (std::size_t s = first_sides[f]; s < end; ++s) rows.push_back(divided[s]);
@@ -576,9 +586,7 @@ std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& feature
       if (!checked[f].fault.empty()) return;
     }
     try {
-      checked[f].region =
-          FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check();
-      checked[f].rings = std::move(one.rings.front());
+      FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check(checked[f]);
     } catch (const FeatureFault& fault) {
       checked[f].fault = fault.fault();
     }

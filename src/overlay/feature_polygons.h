@@ -122,10 +122,8 @@ class FeatureFault : public FileError {
 // 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts
 //    cover the sphere is in `whole`.
 // 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
-//    polygon, for parts that overlap, and for sides of a feature that cross; but sides are not
-//    looked at if it is known that none cross.
-CellRings geodesic_cells(const map::PolygonFeatures& features, bool has_no_crossings,
-                         const Execution& execution);
+//    polygon, for parts that overlap, and for sides of a feature that cross.
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
 
 // Returns the corners of a ring, oriented with the inside of its polygon to the left, so that a
 // shell is around its smaller side.

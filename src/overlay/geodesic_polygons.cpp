@@ -55,12 +55,8 @@ bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Poin
 // Converts all features.
 class GeodesicCells {
  public:
-  GeodesicCells(const map::PolygonFeatures& features, bool has_no_crossings,
-                const Execution& execution)
-      : features_(features),
-        has_no_crossings_(has_no_crossings),
-        execution_(execution),
-        areas_(features.rings.size(), 0) {}
+  GeodesicCells(const map::PolygonFeatures& features, const Execution& execution)
+      : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
 
   // Returns the cells of all features. Throws FileError.
   CellRings operator()() {
@@ -88,7 +84,7 @@ class GeodesicCells {
       }
       given.end_cell();
     }
-    if (!has_no_crossings_) require_no_crossings(given);
+    require_no_crossings(given);
     CellRings cells = rings_around(arcs_, features_.rings.size(), execution_.threads);
     take_whole(given, cells);
     return cells;
@@ -183,7 +179,6 @@ class GeodesicCells {
   }
 
   const map::PolygonFeatures& features_;
-  bool has_no_crossings_;
   const Execution& execution_;
   std::vector<KeyedArc> arcs_;
   std::vector<double> areas_;  // of each feature: the sum over its rings, without holes
@@ -191,9 +186,8 @@ class GeodesicCells {
 
 }  // namespace
 
-CellRings geodesic_cells(const map::PolygonFeatures& features, bool has_no_crossings,
-                         const Execution& execution) {
-  return GeodesicCells(features, has_no_crossings, execution)();
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution) {
+  return GeodesicCells(features, execution)();
 }
 
 std::vector<Point> geodesic_ring(const map::LonLatRing& ring) {
@@ -227,7 +221,7 @@ void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t fea
     alone.rings.push_back({std::move(ring)});
   }
   const std::vector<CrossingCells> overlaps =
-      overlapping_cells(geodesic_cells(alone, false, execution), execution);
+      overlapping_cells(geodesic_cells(alone, execution), execution);
   const auto overlap = [&](Index a, Index b) {
     return std::ranges::any_of(overlaps, [&](const CrossingCells& pair) {
       return std::minmax(pair.first, pair.second) == std::minmax(a, b);
