@@ -392,7 +392,8 @@ class FeatureCells {
       one.rings.push_back(std::move(before.rings));
       one.lines.resize(1);
       try {
-        FeatureCells(one, alone, {}, quiet()).check();
+        CheckedFeature checked;
+        FeatureCells(one, alone, {}, quiet()).check(checked);
       } catch (const FeatureFault& fault) {
         refuse(before.feature, fault.fault());
       }
