@@ -20,6 +20,7 @@
 #include "rondel/compressed_rows.h"
 #include "rondel/error.h"
 #include "system/distinct.h"
+#include "system/hash.h"
 #include "system/parallel.h"
 #include "system/row_assembly.h"
 
@@ -278,7 +279,17 @@ CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide>
   return result;
 }
 
+void ArcBalance::add(std::span<const KeyedArc> arcs) {
+  const auto hash = [](const Point& p, const Point& q) {
+    return system::hash_of(q, system::hash_of(p));
+  };
+  for (const auto& [key, from, to] : arcs) sum_ += hash(from, to) - hash(to, from);
+}
+
 bool is_nothing(std::span<const KeyedArc> arcs) {
+  ArcBalance balance;
+  balance.add(arcs);
+  if (!balance.may_be_nothing()) return false;
   using Ends = std::tuple<double, double, double, double, double, double>;
   std::vector<Ends> there;
   std::vector<Ends> back;

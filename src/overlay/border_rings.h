@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -48,5 +49,16 @@ CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide>
 
 // True if between any two points as many arcs lead back as forth, so that the arcs bound no region.
 bool is_nothing(std::span<const KeyedArc> arcs);
+
+// Knows of arcs that are added one after the other, without keeping them, that they bound a region.
+class ArcBalance {
+ public:
+  void add(std::span<const KeyedArc> arcs);
+  // False if is_nothing() is certainly false for all arcs. It is true by chance hardly ever.
+  [[nodiscard]] bool may_be_nothing() const { return sum_ == 0; }
+
+ private:
+  std::uint64_t sum_ = 0;  // of hashes of arcs, less those of the arcs back
+};
 
 }  // namespace rondel::overlay

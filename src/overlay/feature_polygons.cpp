@@ -21,13 +21,13 @@
 #include "overlay/border_rings.h"
 #include "overlay/disjoint_cells.h"
 #include "overlay/feature_repairs.h"
+#include "overlay/overlaps.h"
 #include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
 #include "overlay/single_cells.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
-#include "rondel/relate.h"
 #include "system/distinct.h"
 #include "system/parallel.h"
 
@@ -155,6 +155,12 @@ class FeatureCells {
         (overlaps.size() == 1
              ? ""
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
+  }
+  // True if the only feature has geodesic sides and is valid at first sight, so that check() finds
+  // no fault.
+  [[nodiscard]] bool is_plain() const {
+    return options_.edges == PolygonEdges::geodesic && features_.lines.front().empty() &&
+           is_plainly_valid(features_.rings.front(), quiet());
   }
   // Throws FeatureFault if the only feature is not valid. Straight lines need not become arcs for
   // that, unless parts of the feature are 360 degrees apart. What is found is kept.
@@ -284,16 +290,7 @@ class FeatureCells {
     }
     merge_equal_points(repaired);
     const CellRings& judged = checked_.empty() ? cells : repaired;
-    if (!are_exactly_valid(judged)) (void)overlaps_in(judged, features);
-  }
-  // True if no cell crosses or overlaps itself, not even by rounding.
-  [[nodiscard]] bool are_exactly_valid(const CellRings& cells) const {
-    try {
-      (void)relate_pairs(cells, cells, {}, quiet());
-      return true;
-    } catch (const InvalidInput&) {
-      return false;
-    }
+    if (!are_exactly_valid(judged, quiet())) (void)overlaps_in(judged, features);
   }
 
   // True if places of a feature are more than 360 degrees apart.
@@ -571,12 +568,14 @@ class FeatureCells {
   std::vector<CellFacts> facts_;  // of each file: the remarks
 };
 
-// Checks each feature alone.
+// Checks each feature alone. Where no cells are needed, a feature with geodesic sides that is valid
+// at first sight gets none.
 std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& features,
-                                             const PolygonOptions& options,
+                                             const PolygonOptions& options, bool needs_cells,
                                              const Execution& execution) {
   std::vector<CheckedFeature> checked(features.rings.size());
   const PolygonOptions alone{.edges = options.edges, .tolerance_deg = options.tolerance_deg};
+  const Execution one_thread{.threads = 1, .stop = execution.stop};
   const auto check = [&](std::size_t f) {
     map::PolygonFeatures one;
     one.rings = {features.rings[f]};
@@ -587,7 +586,8 @@ std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& feature
       if (!checked[f].fault.empty()) return;
     }
     try {
-      FeatureCells(one, alone, {}, {.threads = 1, .stop = execution.stop}).check(checked[f]);
+      FeatureCells of_one(one, alone, {}, one_thread);
+      if (needs_cells || !of_one.is_plain()) of_one.check(checked[f]);
     } catch (const FeatureFault& fault) {
       checked[f].fault = fault.fault();
     }
@@ -632,7 +632,7 @@ ConvertedFeatures converted_features(map::PolygonFeatures& features, const Polyg
   };
   features.lines.resize(features.rings.size());
   if (options.invalid == InvalidPolygons::error) return converted({});
-  std::vector<CheckedFeature> checked = checked_features(features, options, execution);
+  std::vector<CheckedFeature> checked = checked_features(features, options, true, execution);
   const auto given = std::pair(features.rings, features.lines);
   for (;;) {
     // A feature that is valid alone may become invalid by corners of others on its sides.
@@ -651,7 +651,7 @@ ConvertedFeatures converted_features(map::PolygonFeatures& features, const Polyg
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
                                             const PolygonOptions& options,
                                             const Execution& execution) {
-  std::vector<CheckedFeature> checked = checked_features(features, options, execution);
+  std::vector<CheckedFeature> checked = checked_features(features, options, false, execution);
   return taken_faults(checked);
 }
 

@@ -129,6 +129,10 @@ CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& 
 // shell is around its smaller side.
 std::vector<Point> geodesic_ring(const map::LonLatRing& ring);
 
+// True if a feature with geodesic sides is valid at first sight: its rings touch neither each other
+// nor themselves, and agree on what is inside. False says nothing.
+bool is_plainly_valid(std::span<const map::LonLatRing> rings, const Execution& execution);
+
 // Throws FileError if a hole of the feature is outside of its polygon or in another hole.
 void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,
                            const Execution& execution);

@@ -64,6 +64,7 @@ class GeodesicCells {
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {
       const std::vector<map::LonLatRing>& rings = features_.rings[f];
       std::size_t part = arcs_.size();
+      ArcBalance balance;  // of the part
       Index shell = 0;
       for (Index r = 0; r < rings.size(); ++r) {
         const std::size_t first = arcs_.size();
@@ -77,7 +78,11 @@ class GeodesicCells {
         if (!rings[r].is_hole) {
           part = first;
           shell = r;
-        } else if (is_nothing(std::span(arcs_).subspan(part))) {
+          balance = {};
+        }
+        balance.add(std::span(arcs_).subspan(first));
+        if (rings[r].is_hole && balance.may_be_nothing() &&
+            is_nothing(std::span(arcs_).subspan(part))) {
           refuse_feature(features_, f,
                          "the holes of " + ring_name(rings, shell) + " leave nothing of it");
         }

@@ -24,6 +24,7 @@
 #include "overlay/cover_triangulation.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
+#include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
@@ -131,6 +132,15 @@ CrossingCells named(Index a, Index b, const Point& place) {
 }
 
 }  // namespace
+
+bool are_exactly_valid(const CellRings& cells, const Execution& execution) {
+  try {
+    (void)relate_pairs(cells, cells, {}, execution);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
 
 CellRings rings_of(const Subdivision& cells, std::span<const Index> some) {
   CellRings rings;
@@ -249,6 +259,7 @@ class OverlapFinder {
   // Tests one cell of Shape::other for crossing sides.
   Soundness find_in_itself(Index cell) {
     const CellRings rings = rings_of(cells_, std::span(&cell, 1));
+    if (are_exactly_valid(rings, told_)) return Soundness::sound;
     const Subdivision one(rings, false, 1);
     const std::optional<SideConflict> conflict = side_conflict(one, told_);
     if (!conflict) return Soundness::sound;

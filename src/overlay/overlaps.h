@@ -31,6 +31,10 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
 std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,
                                                      const Execution& execution);
 
+// True if no cell crosses or overlaps itself, not even by rounding. That is found faster than a
+// place where a cell does.
+bool are_exactly_valid(const CellRings& cells, const Execution& execution);
+
 // Returns the pairs of cells that may overlap, also by less than rounding, with the lower index of
 // the input first. Others are certainly apart.
 std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsigned threads);

@@ -39,6 +39,7 @@ std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& 
   std::vector<OwnedSide> all;
   for (const auto& [place, area] : known.areas_of_others) {
     const Index cell = known.names[place];
+    if (are_exactly_valid(one_cell(cells, cell), execution)) continue;
     const std::vector<OwnedSide> sides = sides_of_cell(cells, cell, cell);
     if (Snaps(cells.points, sides).is_empty()) continue;
     const Subdivision one(rings_of(known, std::span(&place, 1)), false, 1);

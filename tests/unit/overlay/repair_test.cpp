@@ -319,6 +319,55 @@ TEST(overlay_repair, other_features_do_not_make_a_feature_valid) {
   EXPECT_GT(num_refused, 500U);
 }
 
+// A feature of shells and holes on a grid: some are valid, as boxes in boxes.
+LonLatMultiPolygons random_rings(Random& random) {
+  LonLatMultiPolygons feature;
+  auto& polygons = feature.rows;
+  std::vector<LonLat>& positions = polygons.rows.values;
+  for (std::uint64_t r = 1 + random.below(4); r > 0; --r) {
+    const std::size_t first = positions.size();
+    if (random.below(2) == 0) {
+      const auto west = static_cast<double>(random.below(6));
+      const auto south = static_cast<double>(random.below(6));
+      const double size = 0.5 + static_cast<double>(random.below(6));
+      positions.insert(
+          positions.end(),
+          {{west, south}, {west + size, south}, {west + size, south + size}, {west, south + size}});
+    } else {
+      for (std::uint64_t k = 3 + random.below(3); k > 0; --k) {
+        const auto lon = static_cast<double>(random.below(6));
+        positions.push_back({lon, static_cast<double>(random.below(6))});
+      }
+    }
+    positions.push_back(positions[first]);
+    polygons.rows.end_row();
+    // The next ring is a hole of this polygon, or the shell of another one.
+    if (r == 1 || random.below(3) == 0) polygons.end_group();
+  }
+  feature.end_group();
+  return feature;
+}
+
+// Faults are found without cells where a feature is valid at first sight.
+TEST(overlay_repair, geodesic_faults_are_those_of_reading) {
+  const PolygonOptions geodesic{.edges = PolygonEdges::geodesic};
+  std::size_t num_valid = 0;
+  std::size_t num_with_holes = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    Random random(seed);
+    const LonLatMultiPolygons feature = random_rings(random);
+    const std::vector<std::string> faults = polygon_faults(feature, geodesic);
+    const std::string found =
+        thrown_message<InvalidInput>([&] { (void)cells_of_polygons(feature, geodesic); });
+    ASSERT_EQ(found, faults[0].empty() ? "" : "feature 0: " + faults[0]) << seed;
+    if (!found.empty()) continue;
+    ++num_valid;
+    if (feature.rows.rows.size() > 1) ++num_with_holes;
+  }
+  EXPECT_GT(num_valid, 500U);
+  EXPECT_GT(num_with_holes, 100U);
+}
+
 TEST(overlay_repair, lines_do_not_make_a_feature_valid) {
   // A bow tie, and a line that ends where its sides cross.
   LonLatGeometries tie;
