@@ -189,7 +189,7 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
     if isinstance(given, (CellSet, Regions)):
         rings = given._rings if isinstance(given, Regions) else given._cells.rings()
         unchecked = given if isinstance(given, CellSet) and not given._is_sound else None
-        shape = (rings.num_cells,)
+        shape: tuple[int, ...] = (rings.num_cells,)
         return Operand(name, shape, is_of_cells=True, cells=rings, unchecked=unchecked)
     if is_file(given):
         raise TypeError(f"{name} is the name of a file; rondel.CellSet.read() reads its polygons")
@@ -218,7 +218,7 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
     if not isinstance(given, Iterable):
         raise TypeError(f"{name} must be polygons or a CellSet, not {type(given).__name__}")
     flat = given.ravel() if isinstance(given, np.ndarray) else list(given)
-    shape: tuple[int, ...] = given.shape if isinstance(given, np.ndarray) else (len(flat),)
+    shape = given.shape if isinstance(given, np.ndarray) else (len(flat),)
     shapes = shapely_array(flat)
     if shapes is not None:
         return Operand(name, shape, shapes)

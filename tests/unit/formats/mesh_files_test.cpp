@@ -358,7 +358,7 @@ TEST(overlay_mesh_files, cf_lines_between_coordinates) {
   EXPECT_EQ(table.grid->lon_deg, (Doubles{-45, 45, 135, 225, 315}));
   EXPECT_EQ(table.grid->lat_deg, (Doubles{90, 40, 0, -40, -90}));
   EXPECT_EQ(table.facts.shape, (std::vector<std::uint64_t>{4, 4}));
-  EXPECT_EQ(table.facts.centers[5], (LonLat{90, 20}));
+  EXPECT_EQ(table.facts.given_centers()[5], (LonLat{90, 20}));
   EXPECT_TRUE(CellSet::of(table).covers_sphere());
   EXPECT_FALSE(CellSet::of(table, GridSides::great_circles).areas().empty());
   // A region, and rows with the poles as coordinates.
