@@ -3,10 +3,17 @@
 
 #include "formats/regrid_side.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "io/bad_value.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
 #include "rondel/error.h"
 #include "rondel/regrid.h"
 
@@ -22,19 +29,64 @@ std::set<std::string> taken_names(const FieldSet& fields) {
   return names;
 }
 
+// Returns the number that an attribute has, or nothing.
+std::optional<double> number_of(const io::VariableInFile& variable, std::string_view name) {
+  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
+  if (attribute == nullptr || attribute->numbers.empty()) return std::nullopt;
+  return attribute->numbers.front();
+}
+
+// Returns the name of the grid whose pixels a variable says that points are, or an empty text: by
+// CF's attributes, or by those that tools for HEALPix had before.
+std::string pixels_of(const io::VariableInFile& variable) {
+  if (io::netcdf_text(variable.attributes, "grid_mapping_name") != "healpix") return {};
+  std::optional<double> level = number_of(variable, "refinement_level");
+  if (const auto side = number_of(variable, "healpix_nside"); side && !level) {
+    for (int k = 0; k < 14; ++k) {
+      if (*side == static_cast<double>(1U << static_cast<unsigned>(k))) level = k;
+    }
+  }
+  if (!level || *level != std::floor(*level)) return {};
+  std::string order = io::netcdf_text(variable.attributes, "indexing_scheme");
+  if (order.empty()) order = io::netcdf_text(variable.attributes, "healpix_order");
+  if (order != "ring" && order != "nested" && order != "nest") return {};
+  return "healpix:" + std::to_string(static_cast<int>(*level)) +
+         (order == "ring" ? ":ring" : ":nested");
+}
+
+// Returns the name of the grid that netCDF says its points are on, or an empty text.
+std::string grid_named_by(const FileName& file) {
+  io::FileBytes bytes(file_and_variable(file).first, true);
+  if (!io::is_netcdf(bytes.head())) return {};
+  return io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    for (const io::VariableInFile& variable : reader.variables()) {
+      const std::string name = pixels_of(variable);
+      if (name.empty()) continue;
+      // A file may also have some of the pixels, with their longitudes and latitudes.
+      const std::size_t all = NamedGrid(name).num_cells();
+      if (std::ranges::count(reader.dimensions(), all, &io::NetcdfDimension::size) != 0)
+        return name;
+    }
+    return std::string();
+  });
+}
+
 }  // namespace
 
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
                        const Execution& execution)
     : name_(file.path), options_(options) {
-  if (!NamedGrid::is_name(file.path)) {
+  const bool is_name = NamedGrid::is_name(file.path);
+  const std::string grid = is_name ? file.path : grid_named_by(file);
+  if (grid.empty()) {
     read_file(file, has_cells, execution);
     return;
   }
   try {
-    named_.emplace(file.path, options.sides);
+    named_.emplace(grid, options.sides);
   } catch (const InvalidInput& error) {
-    throw FileError(error.what());
+    throw FileError((is_name ? "" : file.path + ": ") + error.what());
   }
   shape_ = named_->shape();
   if (named_->axes() != nullptr) axes_ = *named_->axes();

@@ -126,6 +126,22 @@ class Regrid(unittest.TestCase):
             self.assertEqual(out.title, "made")
             self.assertEqual(out.history, "rondel regrid in.nc healpix:2\nyesterday: made")
 
+    def test_pixels_are_known_by_their_file(self):
+        self.write("in.nc", "NETCDF4", False)
+        for grid in ("healpix:3", "healpix:2:ring"):
+            self.regrid("in.nc", grid, "-o", "pixels.nc")
+            self.regrid("pixels.nc", "grid:30", "-o", "known.nc")
+            self.regrid("pixels.nc", "grid:30", "-o", "said.nc", "--source", grid)
+            with netCDF4.Dataset(self.folder / "known.nc") as known, netCDF4.Dataset(self.folder / "said.nc") as said:
+                np.testing.assert_array_equal(known["t"][:], said["t"][:])
+            # As tools for HEALPix wrote it before CF had it.
+            with netCDF4.Dataset(self.folder / "pixels.nc", "a") as file:
+                file["crs"].delncattr("refinement_level")
+                file["crs"].delncattr("indexing_scheme")
+            self.regrid("pixels.nc", "grid:30", "-o", "before.nc")
+            with netCDF4.Dataset(self.folder / "before.nc") as before, netCDF4.Dataset(self.folder / "said.nc") as said:
+                np.testing.assert_array_equal(before["t"][:], said["t"][:])
+
     def test_tiles_have_the_same_bytes(self):
         self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
         for target in ("healpix:3", "grid:7.5", "O8"):
