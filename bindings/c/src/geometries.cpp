@@ -24,7 +24,7 @@ struct rondel_lonlat_geometries {
   rondel::RowGroups<rondel::CompressedRows<rondel::LonLat>> lines;
   rondel_features polygons;
 
-  explicit rondel_lonlat_geometries(rondel::LonLatGeometries made)
+  explicit rondel_lonlat_geometries(rondel::LonLatGeometries&& made)
       : lines(std::move(made.lines)), polygons{std::move(made.polygons)} {}
   // Returns a copy.
   [[nodiscard]] rondel::LonLatGeometries geometries() const { return {lines, polygons.features}; }
@@ -34,7 +34,7 @@ struct rondel_geometries {
   rondel::FeatureLines lines;
   rondel_polygons polygons;
 
-  explicit rondel_geometries(rondel::Geometries made)
+  explicit rondel_geometries(rondel::Geometries&& made)
       : lines(std::move(made.lines)), polygons(std::move(made.polygons)) {}
   // Returns a copy.
   [[nodiscard]] rondel::Geometries geometries() const { return {lines, polygons.rings}; }
