@@ -97,7 +97,7 @@ bool is_plainly_valid(std::span<const map::LonLatRing> rings, const Execution& e
     sides.append(corners);
   }
   // Rings also agree on the region outside of a hole that has its shell inside.
-  const bool has_area = rings.size() < 2 || sum > rounding;
+  const bool has_area = sum > rounding || rings.size() < 2;
   return has_area && are_plain(sides) && do_agree(sides, rings.size(), execution);
 }
 
