@@ -124,8 +124,9 @@ TEST(owners_of, many_rings_in_any_number_of_threads) {
   for (const bool is_hole : {false, true}) {
     for (std::size_t k = 0; k < 1000; ++k) {
       const double off = is_hole ? 0.25 : 0;
-      add(static_cast<double>(k % 100) + off, static_cast<double>(k / 100) + off,
-          is_hole ? 0.25 : 0.75, is_hole);
+      const std::size_t row = k / 100;
+      add(static_cast<double>(k % 100) + off, static_cast<double>(row) + off, is_hole ? 0.25 : 0.75,
+          is_hole);
       expected.push_back(k);
     }
   }
