@@ -61,7 +61,7 @@ std::string grid_named_by(const FileName& file) {
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
     for (const io::VariableInFile& variable : reader.variables()) {
-      const std::string name = pixels_of(variable);
+      std::string name = pixels_of(variable);
       if (name.empty()) continue;
       // A file may also have some of the pixels, with their longitudes and latitudes.
       const std::size_t all = NamedGrid(name).num_cells();
