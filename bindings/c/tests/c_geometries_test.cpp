@@ -196,7 +196,8 @@ TEST_F(CGeometries, go_through_arrow) {
       return rondel_lonlat_geometries_import_arrow(&schema, &array, made);
     });
     expect_lonlat(taken.get(), expected);
-    EXPECT_EQ(expected.lines.rows.size(), (std::array<std::size_t, 3>{3, 2, 0}[parts]));
+    EXPECT_EQ(expected.lines.rows.size(),
+              (std::array<std::size_t, 3>{3, 2, 0}[static_cast<std::size_t>(parts)]));
     EXPECT_EQ(expected.polygons.rows.size(), parts == RONDEL_POLYGON_PARTS ? 1U : 0U);
     array.release(&array);
     schema.release(&schema);
