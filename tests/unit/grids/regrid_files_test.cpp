@@ -243,9 +243,12 @@ TEST(regrid_files, refuse_what_does_not_fit) {
     });
   };
   EXPECT_EQ(why("N33").substr(0, 20), "'N33' is no grid: N ");
-  EXPECT_EQ(why("nothing"),
-            "nothing: it is neither the name of a grid, nor netCDF with cells, nor .geojson with "
-            "polygons");
+  EXPECT_EQ(why("nothing"), "nothing: No such file or directory");
+  const std::string table = temporary_path("points.csv");
+  std::ofstream(table) << "lon,lat\n0,0\n";
+  EXPECT_EQ(why(table), table +
+                            ": it is neither the name of a grid, nor netCDF with cells, nor "
+                            ".geojson with polygons");
   EXPECT_EQ(why("grid:60", {.source = FileName{"healpix:1", {}}}),
             in + ": no variable has 48 points");
   EXPECT_EQ(
