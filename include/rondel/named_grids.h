@@ -25,6 +25,13 @@ namespace grids {
 class GridFormula;
 }  // namespace grids
 
+/// The attributes by which files say on which grid points are (CF 1.13, appendix F): none but for
+/// HEALPix.
+struct GridMapping {
+  std::vector<std::pair<std::string, std::string>> texts = {};
+  std::vector<std::pair<std::string, double>> numbers = {};
+};
+
 /// A grid of the whole sphere that is given by its name:
 ///
 /// | name | cells |
@@ -61,12 +68,7 @@ class RONDEL_API NamedGrid {
   /// Returns the lengths of the dimensions of the cells, the last one varying fastest: nlat, nlon
   /// for `grid:` and `F`; 6, n, n for `C`; otherwise the number of cells.
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
-  /// The attributes by which files say that points are the pixels of HEALPix (CF 1.13, appendix F):
-  /// none for other grids.
-  struct GridMapping {
-    std::vector<std::pair<std::string, std::string>> texts = {};
-    std::vector<std::pair<std::string, double>> numbers = {};
-  };
+  /// Returns the attributes by which files say that points are the pixels of HEALPix.
   [[nodiscard]] GridMapping mapping() const;
   /// Returns the axes of the centers of `grid:` and `F`, else null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }

@@ -177,7 +177,7 @@ WeightSide RegridSide::description(bool has_axes) const {
 
 void RegridSide::add_mapping(FieldSet& fields) const {
   if (!named_) return;
-  const NamedGrid::GridMapping mapping = named_->mapping();
+  const GridMapping mapping = named_->mapping();
   if (mapping.texts.empty()) return;
   FieldArray crs;
   crs.name = free_names({"crs"}, taken_names(fields)).front();

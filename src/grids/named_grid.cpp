@@ -204,7 +204,7 @@ std::vector<LonLat> NamedGrid::centers() const {
   return centers;
 }
 
-NamedGrid::GridMapping NamedGrid::mapping() const {
+GridMapping NamedGrid::mapping() const {
   constexpr std::string_view pixels = "healpix:";
   if (!name_.starts_with(pixels)) return {};
   const std::string level =

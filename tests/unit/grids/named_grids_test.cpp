@@ -157,7 +157,7 @@ TEST(named_grids, names_are_told_from_files) {
 }
 
 TEST(named_grids, pixels_say_what_they_are) {
-  const NamedGrid::GridMapping mapping = NamedGrid("healpix:5:ring").mapping();
+  const GridMapping mapping = NamedGrid("healpix:5:ring").mapping();
   EXPECT_EQ(mapping.texts[1], (std::pair<std::string, std::string>("indexing_scheme", "ring")));
   EXPECT_EQ(mapping.numbers[0], (std::pair<std::string, double>("refinement_level", 5)));
   EXPECT_EQ(mapping.numbers[1], (std::pair<std::string, double>("healpix_nside", 32)));
