@@ -262,6 +262,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   FieldSet out;
   out.num_points = weights.num_rows();
   out.arrays = in.fields().arrays;
+  for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
   out.axes = in.fields().axes;
   out.fill = options.apply.fill;
   // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it

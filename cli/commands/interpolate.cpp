@@ -119,6 +119,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   FieldSet out;
   out.num_points = targets.table.sites.size();
   out.arrays = in.fields().arrays;
+  for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
   out.axes = in.fields().axes;
   tell(file.path, in.fields().remarks);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);

@@ -154,9 +154,9 @@ class RegridJob {
       is_covered.push_back(is_enough(fraction) ? 1 : 0);
     }
     made.weights = with_rows(made.weights, is_covered);
-    Weights weights = made.weights;
-    if (options.order == 2 && options_.is_limited) second_ = std::move(made);
-    return weights;
+    if (options.order != 2 || !options_.is_limited) return std::move(made.weights);
+    second_ = std::move(made);
+    return second_->weights;
   }
   [[nodiscard]] bool is_enough(double fraction) const {
     constexpr double rounding = 1e-9;
