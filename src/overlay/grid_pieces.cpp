@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -104,7 +107,9 @@ class GridPieceMaker {
         walk_(grid, has_moments),
         has_moments_(has_moments) {}
 
-  std::span<const GridPiece> operator()(Index cell) {
+  // GCC takes this and what it calls for code that seldom runs, and makes it small and slow, where it
+  // is a part of its one caller.
+  [[gnu::noinline]] std::span<const GridPiece> operator()(Index cell) {
     const Subdivision& subdivision = cells_.subdivision();
     strips_.clear();
     for (Index ring = subdivision.cells[cell]; ring < subdivision.cells[cell + 1]; ++ring) {
@@ -121,19 +126,17 @@ class GridPieceMaker {
     if (strips_.empty()) return pieces_;
     const bool has_pole = has_north_pole(area);
     if (is_within_one() && !has_pole) {
-      const Index there = grid_.cell(strips_[0].column, strips_[0].row);
+      const Index there = grid_.cell(strips_.front().column, strips_.front().row);
       if (there != no_index && area > 0)
         pieces_.push_back({there, area, 0, cells_.moments()[name]});
       return pieces_;
     }
-    std::ranges::stable_sort(strips_, [](const Strip& a, const Strip& b) {
-      return a.column != b.column ? a.column < b.column : a.row > b.row;
-    });
+    order_strips();
     std::size_t next = 0;
     for (Index column = 0; column < grid_.columns().size(); ++column) {
       if (!has_pole) {
         if (next == strips_.size()) break;
-        column = strips_[next].column;
+        column = strip_at(next).column;
       }
       next = add_column(column, next, has_pole);
     }
@@ -141,8 +144,7 @@ class GridPieceMaker {
       require_sum(pieces_, area, cells_.lengths()[name], name);
     }
     drop_rounding(pieces_, area, cells_.lengths()[name]);
-    std::ranges::sort(pieces_, {}, &GridPiece::cell);
-    return pieces_;
+    return in_order();
   }
   static Index column(const GridPiece& piece) { return piece.cell; }
   static Index place(const GridPiece& piece) { return piece.cell; }
@@ -163,28 +165,55 @@ class GridPieceMaker {
   [[nodiscard]] bool is_within_one() const {
     double width = 0;
     for (const Strip& strip : strips_) {
-      if (strip.column != strips_[0].column || strip.row != strips_[0].row) return false;
+      if (strip.column != strips_.front().column || strip.row != strips_.front().row) return false;
       width += strip.width;
     }
     return std::abs(width) < 1;
   }
 
+  // Orders the strips by column, and in one column from north to south. Strips and pieces stay where
+  // they are, since they are much larger than what they are ordered by.
+  void order_strips() {
+    order_.clear();
+    for (const Strip& strip : strips_) {
+      const std::uint64_t southward = std::numeric_limits<Index>::max() - strip.row;
+      order_.push_back({std::uint64_t{strip.column} << 32U | southward, order_.size()});
+    }
+    std::ranges::sort(order_);
+  }
+  // Returns a strip by its number in that order.
+  [[nodiscard]] const Strip& strip_at(std::size_t k) const { return strips_[order_[k].number]; }
+  // Returns the pieces in the order of their cells.
+  std::span<const GridPiece> in_order() {
+    order_.clear();
+    for (const GridPiece& piece : pieces_) order_.push_back({piece.cell, order_.size()});
+    std::ranges::sort(order_);
+    ordered_.clear();
+    for (const Rank& rank : order_) ordered_.push_back(pieces_[rank.number]);
+    return ordered_;
+  }
+
   // Appends the pieces of a column, whose strips begin with strip `next`. Returns the first strip
   // after them.
-  std::size_t add_column(Index column, std::size_t next, bool has_pole) {
+  [[gnu::noinline]] std::size_t add_column(Index column, std::size_t next, bool has_pole) {
     Fill fill;
     if (has_pole) fill = filled(column);
     std::size_t end = next;
-    while (end < strips_.size() && strips_[end].column == column) ++end;
-    Index row = has_pole ? grid_.num_rows() - 1 : strips_[next].row;
+    while (end < strips_.size() && strip_at(end).column == column) ++end;
+    Index row = has_pole ? grid_.num_rows() - 1 : strip_at(next).row;
     for (;; --row) {
+      const Index southern = next < end ? strip_at(next).row + 1 : 0;  // of the rows without strips
+      if (row >= southern) {
+        add_rows(column, row, southern, fill);
+        if (next == end) return end;
+        row = southern - 1;
+      }
       GridPiece piece = row_of(column, row, fill);
       Fill below = fill;
       RowStrips strips;
       const double rise = grid_.parallel(row + 1).sine - grid_.parallel(row).sine;
-      const double run = grid_.parallel(row + 1).cosine - grid_.parallel(row).cosine;
-      for (; next < end && strips_[next].row == row; ++next) {
-        const Strip& strip = strips_[next];
+      for (; next < end && strip_at(next).row == row; ++next) {
+        const Strip& strip = strip_at(next);
         strips.add(strip, rise);
         piece.length += strip.length;
         piece.moment = piece.moment + strip.moment;
@@ -198,11 +227,22 @@ class GridPieceMaker {
       fill = rounded(below, column, next == end);
       piece.area = strips.area(grid_, row, width_above, fill.width);
       piece.length += fill.size * grid_.parallel(row).cosine;
-      const double chord = std::sqrt(rise * rise + run * run);  // along a meridian
-      piece.length += chord * strips.extent(is_below, width_above != 0);
+      piece.length += grid_.chord(row) * strips.extent(is_below, width_above != 0);
       if (piece.cell != no_index) pieces_.push_back(piece);
       if (row == 0 || (next == end && fill.width == 0)) return end;
-      if (fill.width == 0) row = strips_[next].row + 1;
+      if (fill.width == 0) row = strip_at(next).row + 1;
+    }
+  }
+
+  // Appends the pieces of rows without strips, where the cell is as wide as at the parallel above.
+  [[gnu::noinline]] void add_rows(Index column, Index northern, Index southern, const Fill& fill) {
+    for (Index row = northern + 1; row-- > southern;) {
+      GridPiece piece = row_of(column, row, fill);
+      if (piece.cell == no_index) continue;
+      piece.area = fill.width * grid_.height(row);
+      piece.length += fill.size * grid_.parallel(row).cosine;
+      piece.length += grid_.chord(row);
+      pieces_.push_back(piece);
     }
   }
 
@@ -241,13 +281,22 @@ class GridPieceMaker {
     return piece;
   }
 
+  // What strips and pieces are ordered by: a key of their own, then their number.
+  struct Rank {
+    std::uint64_t key;
+    std::size_t number;
+    auto operator<=>(const Rank&) const = default;
+  };
+
   const CellSetData& cells_;
   const PreparedGrid& grid_;
   std::span<const PlaceInGrid> places_;
   GridWalk walk_;
   bool has_moments_;
   std::vector<Strip> strips_;
+  std::vector<Rank> order_;
   std::vector<GridPiece> pieces_;
+  std::vector<GridPiece> ordered_;
 };
 
 }  // namespace

@@ -134,12 +134,13 @@ PlaceInGrid GridWalk::place_of(const Point& point) const {
   if (turn - column.start - place.offset > pi) place.offset += 2 * pi;
   if (turn - column.start - place.offset < -pi) place.offset -= 2 * pi;
   place.offset = std::clamp(place.offset, 0.0, column.width);
+  place.row = row_of(place.height());
   return place;
 }
 
-Index GridWalk::row_of(const SphereHeight& height) const {
-  Index low = 0;
-  Index high = grid_.num_rows();
+Index GridWalk::row_between(const SphereHeight& height, Index southern, Index northern) const {
+  Index low = southern;
+  Index high = northern + 1;
   const bool is_near_pole = std::abs(height.sine) > polar_sine;
   while (high - low > 1) {
     const Index middle = low + (high - low) / 2;
@@ -177,6 +178,7 @@ void GridWalk::append(const PlaceInGrid& from, const PlaceInGrid& to,
     turned_to.point = is_first ? west->point : east->point;
     turned_to.radius = 0;
     turned_to.gap = 0;
+    turned_to.row = row_of(turned_to.height());
     append_columns(is_first ? *west : turned_to, is_first ? turned_to : *east, out);
     return;
   }
@@ -202,9 +204,9 @@ bool GridWalk::has_extreme(const PlaceInGrid& from, const PlaceInGrid& to,
   const bool is_rising = rise(from.height(), to.height()) > 0;
   const SphereHeight south = (is_rising ? from : to).height();
   const SphereHeight north = (is_rising ? to : from).height();
-  const Index row = row_of(extreme.height());
-  const Index southern = row_of(south);
-  const Index northern = row_of(north);
+  const Index row = extreme.row;
+  const Index southern = (is_rising ? from : to).row;
+  const Index northern = (is_rising ? to : from).row;
   // An arc that comes back to a parallel from beyond it, and ends there, has met it before.
   const bool comes_back = row == northern ? is_about_on(north, grid_.parallel(row))
                                           : is_about_on(south, grid_.parallel(row + 1));
@@ -231,8 +233,8 @@ void GridWalk::append_columns(const PlaceInGrid& from, const PlaceInGrid& to,
   if (!is_wrapped && to.column < from.column) return;  // the arc has no width except for rounding
   Index steps = to.column - from.column + (is_wrapped ? num_columns : 0);
   PlaceInGrid last = from;
-  Index row = row_of(from.height());
-  const Index last_row = row_of(to.height());
+  Index row = from.row;
+  const Index last_row = to.row;
   // The arc is in the rows of its ends and between them, but its points on meridians are rounded.
   const Index southern = std::min(row, last_row);
   const Index northern = std::max(row, last_row);
@@ -250,7 +252,7 @@ void GridWalk::append_columns(const PlaceInGrid& from, const PlaceInGrid& to,
       next.gap = to.gap;
     }
     next.offset = grid_.columns()[last.column].width;
-    const Index next_row = std::clamp(row_of(next.height()), southern, northern);
+    const Index next_row = row_between(next.height(), southern, northern);
     append_rows(last, row, next, next_row, out);
     last = next;
     row = next_row;
@@ -310,11 +312,13 @@ PlaceInGrid GridWalk::on_parallel(const PlaceInGrid& from, const PlaceInGrid& to
 void GridWalk::append_strip(const PlaceInGrid& from, const PlaceInGrid& to, Index row,
                             const Out& out) const {
   const PreparedGrid::Parallel& parallel = grid_.parallel(row);
-  Strip strip{from.column, row};
   const exact::DoubleDouble width = exact::two_diff(to.offset, from.offset);
+  if (width.hi == 0) return;
+  Strip& strip = out.strips.emplace_back();
+  strip.column = from.column;
+  strip.row = row;
   strip.width = out.sign * width.hi;
   strip.width_rest = out.sign * width.lo;
-  if (strip.width == 0) return;
   strip.length = rough_length(from.point, to.point);
   if (is_polar(from.height(), to.height())) {
     strip.pole = from.point.z > 0 ? 1 : -1;
@@ -335,7 +339,6 @@ void GridWalk::append_strip(const PlaceInGrid& from, const PlaceInGrid& to, Inde
          (moment_of_meridian(parallel, to, east) - moment_of_meridian(parallel, from, west)) -
          moment_of_arc(from.point, to.point));
   }
-  out.strips.push_back(strip);
 }
 
 }  // namespace rondel::overlay

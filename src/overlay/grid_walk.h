@@ -25,6 +25,7 @@ struct PlaceInGrid {
   double radius = 0;  // distance from the axis
   double gap = 0;     // see SphereHeight
   Index column = 0;
+  Index row = 0;
   double offset = 0;  // radians east of the column's western meridian
 
   [[nodiscard]] SphereHeight height() const { return {point.z, gap}; }
@@ -67,7 +68,11 @@ class GridWalk {
   [[nodiscard]] double turn(const PlaceInGrid& place) const {
     return grid_.columns()[place.column].start + place.offset;
   }
-  [[nodiscard]] Index row_of(const SphereHeight& height) const;
+  [[nodiscard]] Index row_of(const SphereHeight& height) const {
+    return row_between(height, 0, grid_.num_rows() - 1);
+  }
+  // Returns the row of a height that is in one of these rows but for rounding.
+  [[nodiscard]] Index row_between(const SphereHeight& height, Index southern, Index northern) const;
   [[nodiscard]] bool has_extreme(const PlaceInGrid& from, const PlaceInGrid& to,
                                  PlaceInGrid& extreme) const;
   [[nodiscard]] PlaceInGrid on_parallel(const PlaceInGrid& from, const PlaceInGrid& to,

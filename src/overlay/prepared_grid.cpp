@@ -111,6 +111,9 @@ void PreparedGrid::take_rows(std::vector<double> lat) {
   }
   for (std::size_t r = 0; r + 1 < parallels_.size(); ++r) {
     heights_.push_back(height_between(parallels_[r], parallels_[r + 1]));
+    const double rise = parallels_[r + 1].sine - parallels_[r].sine;
+    const double run = parallels_[r + 1].cosine - parallels_[r].cosine;
+    chords_.push_back(std::sqrt(rise * rise + run * run));
   }
 }
 

@@ -100,6 +100,8 @@ class PreparedGrid {
   }
   // Returns the difference between the sines of a row's parallels.
   [[nodiscard]] double height(Index row) const { return heights_[row]; }
+  // Returns the chord along a meridian from one of a row's parallels to the other.
+  [[nodiscard]] double chord(Index row) const { return chords_[row]; }
   // Returns the point where the meridian `offset` radians east of a column's western meridian meets
   // the equator.
   [[nodiscard]] Point meridian(Index column, double offset) const;
@@ -136,6 +138,7 @@ class PreparedGrid {
   std::vector<Lune> columns_;
   std::vector<Parallel> parallels_;
   std::vector<double> heights_;  // of each row, the difference of sines
+  std::vector<double> chords_;
   std::vector<double> latitudes_;
 };
 
