@@ -13,7 +13,7 @@ from ._arrays import as_threads, unit_vectors
 from ._geo import polygon_shapes
 from ._geometries import Edges, is_geodesic
 from ._pickled import with_arrays
-from ._types import FloatArray
+from ._types import BoolArray, FloatArray
 
 UNSURE_AREA = 1e-10  # steradians, of rounding
 ROUNDING = 8  # of a coordinate that became a unit vector and is computed from it, in ulps
@@ -27,8 +27,6 @@ def shapes_of(
     drawing: str,
 ) -> np.ndarray[Any, Any]:
     """Polygons and multipolygons of shapely; those of cells without a place are empty."""
-    import shapely
-
     are_arcs = is_geodesic(edges)
     # Arcs stay what they are between positions that will be joined by arcs.
     tolerance = 180.0 if are_arcs else float(tolerance_deg)
@@ -38,7 +36,7 @@ def shapes_of(
         positions, rings = _with_ends_of_arcs(positions, rings)
         _require_smaller_sides(positions, rings, drawn, cells.areas())
     shapes = _shapes_at(_rounded(positions), rings, drawn, cells.num_cells)
-    if not shapely.is_valid(shapes).all():
+    if not are_valid(shapes).all():
         shapes = _shapes_at(positions, rings, drawn, cells.num_cells)
     return shapes
 
@@ -71,6 +69,39 @@ def shapes_of_geometries(
     is_empty = shapely.is_empty(shapes)
     shapes[is_empty] = shapely.GeometryCollection()
     return shapes
+
+
+def are_valid(shapes: np.ndarray[Any, Any]) -> BoolArray:
+    """Which polygons are valid for shapely, of those that are valid on the sphere.
+
+    It looks for each hole along all of its shell, which takes long where there are thousands of
+    holes. Holes that meet no other ring are not shown to it.
+    """
+    import shapely
+
+    result: BoolArray = shapely.is_simple(shapely.boundary(shapes))
+    for k in np.flatnonzero(~result):
+        result[k] = shapely.is_valid(_without_free_holes(shapes[k]))
+    return result
+
+
+def _without_free_holes(shape: Any) -> Any:
+    import shapely
+
+    rings, owners = shapely.get_rings(shapely.get_parts(shape), return_index=True)
+    larger, other = shapely.STRtree(rings).query(rings)  # whose boxes meet
+    rank = np.argsort(np.argsort(shapely.get_num_coordinates(rings), kind="stable"))
+    is_pair = rank[larger] > rank[other]
+    larger, other = larger[is_pair], other[is_pair]
+    shapely.prepare(rings)  # for the first of two that are compared
+    meet = shapely.intersects(rings[larger], rings[other])
+    is_kept = np.isin(np.arange(len(rings)), [larger[meet], other[meet]])
+    is_kept |= np.diff(owners, prepend=-1) > 0  # shells
+    rings, owners = rings[is_kept], owners[is_kept]
+    begins = np.flatnonzero(np.diff(owners, prepend=-1))
+    return shapely.multipolygons(
+        [shapely.Polygon(ring, holes) for ring, *holes in np.split(rings, begins[1:])]
+    )
 
 
 def _collected(parts: list[Any]) -> Any:

@@ -12,7 +12,7 @@ from . import _core
 from ._arrays import as_threads, degrees_of
 from ._geometries import Edges
 from ._operands import cell_set, faults_of, like, operand_of, repaired_cells
-from ._shapes import shapes_of
+from ._shapes import are_valid, shapes_of
 
 VALID = "Valid Geometry"
 
@@ -78,10 +78,9 @@ def make_valid(
     is_faulty = np.array([fault != "" for fault in faults_of(given, edges, threads)], bool)
     shapes = given.shapes()
     if edges == "lonlat":
-        import shapely
-
         # Rings may meet themselves here, but not in shapely.
-        is_faulty |= ~shapely.is_valid(shapes) & ~given.is_missing
+        is_sound = ~is_faulty & ~given.is_missing
+        is_faulty[is_sound] = ~are_valid(shapes[is_sound])
     if is_faulty.any():
         cells = repaired_cells(given, is_faulty, edges, threads)
         shapes[is_faulty] = shapes_of(cells, edges, tolerance_deg, threads, "apart")[is_faulty]

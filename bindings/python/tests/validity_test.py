@@ -349,3 +349,19 @@ def test_rings_that_meet_themselves_become_those_of_shapely():
         assert made.is_valid
         assert abs(made.area - given.area) < 1e-9
     assert rondel.make_valid(shapely.box(0, 0, 1, 1)) == shapely.box(0, 0, 1, 1)
+
+
+def test_holes_that_meet_nothing_hide_no_ring_that_does():
+    free = [shapely.box(x, y, x + 0.5, y + 0.5).exterior for x in range(1, 9) for y in (1, 7)]
+    chain = [shapely.Polygon([(x, 4), (x + 1, 3), (x + 2, 4), (x + 1, 5)]) for x in range(0, 10, 2)]
+    touching = [diamond.exterior for diamond in chain]
+    shell = shapely.box(0, 0, 10, 10).exterior
+    cut = shapely.Polygon(shell, free + touching)  # the diamonds divide it
+    whole = shapely.Polygon(shell, free + touching[:3])
+    assert not cut.is_valid
+    assert rondel.is_valid([cut, whole]).all()
+    made = rondel.make_valid([cut, whole])
+    assert shapely.is_valid(made).all()
+    assert made[0].geom_type == "MultiPolygon"
+    assert made[1] is whole
+    assert abs(made[0].area - cut.area) < 1e-9
