@@ -245,6 +245,15 @@ bool ValueRules::is_missing(double value) const {
 
 void ValueRules::apply(std::span<double> values) const {
   const auto is_outside = [&](double value) { return value < lowest_ || value > highest_; };
+  const bool has_only_missing = wrapped_ == 0 && !is_packed() && !has_unpacked_range_ &&
+                                (!is_single_ || type_ == io::NetcdfType::float32);
+  if (has_only_missing) {  // nearly all fields of floats; without branches
+    for (const double missing : missing_) {
+      for (double& value : values) value = value == missing ? no_number : value;
+    }
+    for (double& value : values) value = is_outside(value) ? no_number : value;
+    return;
+  }
   for (double& value : values) {
     if (wrapped_ != 0) value = as_type(value);
     if (is_missing(value) || (!has_unpacked_range_ && is_outside(value))) {
