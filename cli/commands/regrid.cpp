@@ -59,12 +59,17 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
                                        {"fields", done_work.fields},
                                        {"missing", done_work.missing},
                                        {"tiles", done_work.tiles},
+                                       {"resumed", done_work.resumed},
                                        {"seconds", {{"total", job.seconds().total}}},
                                        {"peak_memory_bytes", peak_memory_bytes()}};
+  const std::string resumed =
+      done_work.resumed == 0
+          ? std::string()
+          : "; " + count(done_work.resumed, "value", "values") + " of an earlier run";
   job.report(json.dump(2) + '\n', count(done_work.fields, "field", "fields") + " from " +
                                       count(done_work.sources, "place", "places") + " to " +
                                       std::to_string(done_work.targets) + "; values missing: " +
-                                      std::to_string(done_work.missing) + '\n');
+                                      std::to_string(done_work.missing) + resumed + '\n');
   return done;
 }
 
@@ -119,6 +124,10 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
   for (const CLI::Option* const option : {norm, overlap}) {
     require_effect(options.common, option, is_of_cells, "with a method between places");
   }
+  require_effect(
+      options.common, norm,
+      [&options] { return options.regrid.method != FieldMethod::largest_share; },
+      "with --method largest-share, which compares the parts of a target");
 }
 
 void add_cells(CLI::App& parser, RegridCommandOptions& options) {
@@ -144,15 +153,24 @@ void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
       .add_option_function<std::string>(
           "--memory",
           [&options](const std::string& text) { options.regrid.memory = bytes_of(text); },
-          "About how many bytes may be in use, such as 500M (default 2G). Larger grids that\n"
-          "cover the sphere are regridded tile by tile, with the same values")
+          "About how many bytes may be in use, such as 500M (default 2G). Weights that need\n"
+          "more are computed tile by tile, with the same values, or the error says how many\n"
+          "bytes are enough")
       ->check(bytes_error)
       ->type_name("BYTES");
-  parser
-      .add_option("--tile", options.regrid.cells_per_tile,
-                  "The number of cells of a tile (default: as --memory says)")
-      ->check([](const std::string& text) { return whole_error(text, 1, 1'000'000'000); })
-      ->type_name("N");
+  const CLI::Option* const tile =
+      parser
+          .add_option("--tile", options.regrid.cells_per_tile,
+                      "The number of cells of a tile (default: as --memory says)")
+          ->check([](const std::string& text) { return whole_error(text, 1, 1'000'000'000); })
+          ->type_name("N");
+  require_effect(
+      options.common, tile,
+      [&options] { return options.regrid.method != FieldMethod::conservative_2nd; },
+      "with --method conservative-2nd, whose weights are computed as a whole");
+  parser.add_flag("--resume", options.regrid.resume,
+                  "Keep what is computed in OUTPUT.partial until OUTPUT is complete, and begin\n"
+                  "with what a run that ended early left there");
   add_netcdf_options(parser, options.common, options.regrid.netcdf, [&options] {
     return if_of_format(options.common.target(), {"nc", "nc4"});
   });

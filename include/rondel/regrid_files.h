@@ -59,13 +59,19 @@ struct RegridFileOptions {
   double max_missing = 0.5;
   CellFileOptions cells = {};                ///< of both sides
   CellOverlap overlap = CellOverlap::error;  ///< of both sides
-  /// About how many bytes may be in use. Above, conservative weights of grids that cover the sphere
-  /// are computed tile by tile, and again for each group of fields; the values are the same.
+  /// About how many bytes may be in use, beside some 30 MiB of the program itself. Weights that need
+  /// more are computed tile by tile, and again for each group of fields; the values are the same.
+  /// Those of conservative_2nd, and those of cells from files that do not cover the sphere or have a
+  /// mask, have no tiles.
   std::uint64_t memory = std::uint64_t{2} << 30U;
-  /// The number of cells of a tile; 0: as `memory` says.
+  /// The number of cells of a tile, or of targets with a method between places; 0: as `memory` says.
   std::size_t cells_per_tile = 0;
   NetcdfOptions netcdf = {};
   std::string history = {};  ///< a line for the attribute `history` of the output
+  /// Whether to keep what is computed in a file beside the output, "out.nc.partial", until the output
+  /// is complete, and to begin with what a run that was cut short has left there. The output is the
+  /// same. Threads, memory, tiles and the format of the output may differ between the runs.
+  bool resume = false;
 };
 
 /// What regrid_file() did.
@@ -76,6 +82,7 @@ struct RegridFileReport {
   std::size_t missing = 0;                ///< values of targets that are missing
   std::size_t tiles = 0;                  ///< 0 if all weights were in memory
   std::vector<std::string> remarks = {};  ///< what was left out, and why
+  std::uint64_t resumed = 0;              ///< values that an earlier run had computed
 };
 
 /// Regrids the fields of a file.
@@ -88,9 +95,12 @@ struct RegridFileReport {
 ///         writes them: means over polygons with their properties.
 ///
 /// Values are the same bytes for any number of threads, memory and tiles. The output appears when
-/// it is complete.
+/// it is complete. All files that are read must stay as they are meanwhile.
 /// \throws FileError also for a method that the sides do not admit: conservative methods need cells
-///         on both, bilinear a source along axes; and InvalidInput as remap() does
+///         on both, bilinear a source along axes; if the output is a file that is read, if such a file
+///         changes, or if what is to be resumed is a run with other files or options
+/// \throws InvalidInput if the memory is too small, with the number of bytes that are enough; and as
+///         remap() does
 RONDEL_API RegridFileReport regrid_file(const FileName& in, const FileName& target,
                                         const FileName& out, const RegridFileOptions& options = {},
                                         const Execution& execution = {});

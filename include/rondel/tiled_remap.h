@@ -28,9 +28,8 @@ class RONDEL_API TiledCells {
   /// Takes cells between meridians and parallels.
   /// \throws InvalidInput as CellSet::lonlat_grid() does
   explicit TiledCells(const LonLatGrid& lines);
-  /// Takes cells that are in memory.
-  /// \throws InvalidInput if they do not cover the sphere (CellSet::covers_sphere()) and are no grid
-  ///         between parallels
+  /// Takes cells that are in memory; they may be those of a region.
+  /// \throws InvalidInput if cells overlap, or one is the whole sphere
   explicit TiledCells(const CellSet& cells);
 
   [[nodiscard]] std::size_t num_cells() const;
@@ -69,7 +68,8 @@ struct RemapTile {
 class RONDEL_API TiledRemap {
  public:
   /// Sorts the cells of both sides by latitude; this needs 8 bytes for each cell that is not
-  /// between parallels. \throws InvalidInput if a mask has another length than its side
+  /// between parallels. \throws InvalidInput if a mask has another length than its side, or if
+  /// neither side covers the sphere (CellSet::covers_sphere()) or is between parallels
   TiledRemap(const TiledCells& source, const TiledCells& target, TiledRemapOptions options = {},
              const Execution& execution = {});
   ~TiledRemap();
@@ -80,6 +80,8 @@ class RONDEL_API TiledRemap {
   [[nodiscard]] std::size_t num_targets() const;
   /// Returns the number of tiles; each target is in one of them.
   [[nodiscard]] std::size_t num_tiles() const;
+  /// Returns the number of targets of a tile, without computing it.
+  [[nodiscard]] std::size_t num_targets(std::size_t number) const;
   /// Computes the weights of a tile. Several threads may do so at once.
   [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution = {}) const;
 

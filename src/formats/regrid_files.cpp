@@ -2,25 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Regrids the fields of a file: reads them slice by slice, applies weights, and writes them. Weights
-// are computed once for each method and kept; where they would not fit into memory, conservative
-// ones are computed tile by tile.
+// are computed once for each method and kept; where they would not fit into memory, they are
+// computed tile by tile.
 #include "rondel/regrid_files.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <span>
+#include <system_error>
 #include <utility>
 
+#include "formats/regrid_carry.h"
+#include "formats/regrid_inputs.h"
+#include "formats/regrid_output.h"
+#include "formats/regrid_plan.h"
+#include "formats/regrid_processes.h"
 #include "formats/regrid_side.h"
-#include "rondel/delaunay.h"
+#include "formats/regrid_tiles.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
-#include "rondel/interpolate.h"
-#include "rondel/names.h"
-#include "rondel/regrid.h"
 #include "rondel/tiled_remap.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -29,12 +33,11 @@
 namespace rondel {
 namespace {
 
+using formats::PlannedWeights;
+using formats::RegridOutput;
+using formats::RegridRanks;
 using formats::RegridSide;
 
-// A slice of fields has 32 MiB; larger ones are not faster.
-constexpr std::size_t values_per_slice = std::size_t{1} << 22U;
-// What remap() needs for each cell of both sides, about.
-constexpr std::uint64_t bytes_per_cell = 250;
 // Places that are compared with those of the fields' file; more are known by their number alone.
 constexpr std::size_t max_compared = std::size_t{1} << 24U;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -47,14 +50,17 @@ bool is_conservative(FieldMethod method) {
 class RegridJob {
  public:
   RegridJob(const FileName& in, const FileName& target, FileName out,
-            const RegridFileOptions& options, const Execution& execution)
+            const RegridFileOptions& options, const RegridRanks& ranks, const Execution& execution)
       : options_(options),
+        ranks_(ranks),
         execution_(execution),
+        inputs_(inputs_of(in, target, options)),
         needs_cells_(!options.method || is_conservative(*options.method)),
         source_(options.source.value_or(file_and_variable(in).first), options.cells, needs_cells_,
                 execution),
         target_(target, options.cells, needs_cells_, execution),
         out_(std::move(out)) {
+    inputs_.require_other(out_);
     open(in);
   }
 
@@ -71,26 +77,34 @@ class RegridJob {
     written.dimension = "cell";
     target_.add_mapping(written);
     add_history(written);
+    make_plan();
     const bool is_netcdf = is_netcdf_file(out_);
     const WeightSide side = target_.description(is_netcdf);
-    FieldWriter writer(out_, written, side, options_.netcdf);
-    const bool has_tiles = must_be_tiled();
+    std::optional<RegridOutput> output;
+    if (ranks_.is_first()) {
+      output.emplace(out_, written, side, options_.netcdf);
+      if (options_.resume) output->keep(partial_name(), facts());
+    } else {
+      output.emplace();
+    }
+    if (ranks_.size > 1) output->set_num_kept(ranks_.number_of_first(output->num_kept()));
+    report_.resumed = output->num_kept();
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {
-      const FieldMethod method = method_of(in.arrays[a]);
-      if (has_tiles && method == FieldMethod::conservative) {
-        carry_by_tiles(a, writer);
-      } else {
-        carry(a, method, writer);
-      }
+      carry(a, method_of(in.arrays[a]), *output);
       report_.fields += in.arrays[a].num_fields();
     }
-    writer.finish();
+    inputs_.require_unchanged();
+    // All ranks have come so far before the file appears.
+    if (ranks_.size > 1) ranks_.number_of_first(0);
+    report_.missing = output->num_missing();
+    output->finish();
     return std::move(report_);
   }
 
  private:
   void open(const FileName& in) {
     auto [file, variable] = file_and_variable(in);
+    fields_name_ = file.path;
     std::vector<std::string> names = options_.names;
     if (names.empty() && !variable.empty()) names.push_back(variable);
     const bool is_compared = source_.num_places() <= max_compared;
@@ -123,14 +137,49 @@ class RegridJob {
                                                   : FieldMethod::conservative;
   }
 
-  // True if the weights of all cells would take more memory than there is.
-  [[nodiscard]] bool must_be_tiled() {
-    if (!needs_cells_) return false;
-    const std::uint64_t needed = bytes_per_cell * (source_.num_places() + target_.num_places());
-    if (options_.cells_per_tile == 0 && needed <= options_.memory) return false;
-    tiled_source_ = source_.tiled(execution_);
-    tiled_target_ = target_.tiled(execution_);
-    return tiled_source_ && tiled_target_;
+  // Decides what is in memory at a time. All methods of a file have weights of one kind.
+  void make_plan() {
+    formats::RegridTask task;
+    task.sources = report_.sources;
+    task.targets = report_.targets;
+    for (const FieldArray& array : fields_->fields().arrays) {
+      task.fields = std::max<std::uint64_t>(task.fields, array.num_fields());
+    }
+    task.memory = options_.memory;
+    task.tile = options_.cells_per_tile;
+    task.threads = system::num_threads(execution_.threads);
+    task.num_processes = ranks_.size;
+    if (needs_cells_) {
+      const bool is_second = options_.method == FieldMethod::conservative_2nd;
+      task.weights = is_second ? PlannedWeights::of_cells_2nd : PlannedWeights::of_cells;
+      task.has_tiles = !is_second && source_.has_tiles(execution_) &&
+                       target_.has_tiles(execution_) &&
+                       (source_.is_walked() || target_.is_walked());
+      task.is_in_order = target_.has_parallels();
+      task.has_windows = source_.has_parallels();
+      task.rows = target_.has_parallels() ? target_.axes()->lat_deg.size() : 1;
+      task.stored_cells = source_.num_stored() + target_.num_stored();
+    } else {
+      const bool is_bilinear = options_.method == FieldMethod::bilinear;
+      task.weights = is_bilinear ? PlannedWeights::bilinear : PlannedWeights::of_places;
+      task.has_tiles = true;
+      task.is_in_order = true;
+    }
+    plan_ = plan_of(task);
+    // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
+    // for each group, which takes as long as some fields do.
+    constexpr std::size_t fields_to_lose = 16;
+    if (options_.resume && plan_.has_tiles) {
+      plan_.fields_at_once = std::min(plan_.fields_at_once, fields_to_lose);
+    }
+    if (task.tile > 0 && !plan_.has_tiles) {
+      report_.remarks.emplace_back(
+          task.weights == PlannedWeights::of_cells_2nd
+              ? "the number of cells of a tile has no effect: weights of order 2 are computed as a "
+                "whole"
+              : "the number of cells of a tile has no effect: cells overlap, or neither side "
+                "covers the sphere or is between parallels");
+    }
   }
 
   // Returns the weights of a method; those of targets with too small a part that is covered are
@@ -139,7 +188,11 @@ class RegridJob {
     if (method == FieldMethod::largest_share) method = FieldMethod::conservative;
     const auto known = weights_.find(method);
     if (known != weights_.end()) return known->second;
-    Weights made = is_conservative(method) ? conservative_weights(method) : place_weights(method);
+    Weights made = is_conservative(method)
+                       ? conservative_weights(method)
+                       : formats::PlaceTiles(source_, target_, method, report_.targets, execution_)
+                             .tile(0, execution_)
+                             .weights;
     return weights_.emplace(method, std::move(made)).first->second;
   }
 
@@ -151,201 +204,169 @@ class RegridJob {
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
     std::vector<std::int32_t> is_covered;
     for (const double fraction : made.target_fractions) {
-      is_covered.push_back(is_enough(fraction) ? 1 : 0);
+      is_covered.push_back(formats::is_enough(fraction, options_.max_missing) ? 1 : 0);
     }
     made.weights = with_rows(made.weights, is_covered);
     if (options.order != 2 || !options_.is_limited) return std::move(made.weights);
     second_ = std::move(made);
     return second_->weights;
   }
-  [[nodiscard]] bool is_enough(double fraction) const {
-    constexpr double rounding = 1e-9;
-    return fraction > 0 && fraction >= 1 - options_.max_missing - rounding;
-  }
 
-  Weights place_weights(FieldMethod method) {
-    const std::vector<LonLat> targets = target_.places();
-    if (method == FieldMethod::bilinear) {
-      if (source_.axes() == nullptr) {
-        throw FileError(source_.name() +
-                        ": the method bilinear needs a grid along axes of longitude and latitude; "
-                        "linear takes any places");
-      }
-      const Weights weights =
-          bilinear_weights(*source_.axes(), targets, rounding_of(*source_.axes()));
-      return source_.mask().empty() ? weights : without_columns(weights, source_.mask());
-    }
-    std::vector<Index> numbers;
-    std::vector<Point> sites;
-    const std::vector<LonLat> places = source_.places();
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const bool is_masked = !source_.mask().empty() && source_.mask()[i] == 0;
-      if (is_masked || std::isnan(places[i].lon_deg) || std::isnan(places[i].lat_deg)) continue;
-      numbers.push_back(static_cast<Index>(i));
-      sites.push_back(unit_vector(places[i]));
-    }
-    const Triangulation triangulation = delaunay(sites, {}, execution_);
-    InterpolationOptions interpolation;
-    interpolation.method = *from_name<Method>(name_of(method));
-    interpolation.hashes = false;
-    Weights weights =
-        Interpolator(triangulation).weights(unit_vectors(targets), interpolation, execution_);
-    for (Index& column : weights.columns) column = numbers[column];
-    weights.num_columns = places.size();
-    return weights;
-  }
-
-  // Carries the fields of an array, as many at a time as a slice has room for.
-  void carry(std::size_t array, FieldMethod method, FieldWriter& writer) {
-    const Weights& weights = weights_of(method);
+  // Carries the fields of an array.
+  void carry(std::size_t array, FieldMethod method, RegridOutput& output) {
     const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
-    const std::size_t largest = std::max({report_.sources, report_.targets, std::size_t{1}});
-    const std::size_t of_slice = std::max<std::size_t>(values_per_slice / largest, 1);
-    std::vector<double> values;
+    if (!plan_.has_tiles) {
+      carry_slices(array, num_fields, method, output);
+      return;
+    }
+    const formats::ArrayToCarry job{.file = *fields_,
+                                    .array = array,
+                                    .num_fields = num_fields,
+                                    .sources = report_.sources,
+                                    .targets = report_.targets,
+                                    .has_windows = needs_cells_ && source_.has_parallels(),
+                                    .is_largest_share = method == FieldMethod::largest_share,
+                                    .max_missing = options_.max_missing};
+    formats::TileCarrier(tiles(method), plan_, job, output, ranks_, execution_).run();
+  }
+
+  // Returns how many fields are carried at once. Each process gets some; and a run that may be
+  // resumed loses those of one slice.
+  [[nodiscard]] std::size_t fields_of_slice(std::size_t num_fields) const {
+    constexpr std::size_t values_to_lose = std::size_t{1} << 20U;
+    std::size_t most = plan_.fields_at_once;
+    if (options_.resume)
+      most = std::min(most, values_to_lose / std::max<std::size_t>(report_.targets, 1));
+    most = std::min(most, (num_fields + ranks_.size - 1) / ranks_.size);
+    return std::max<std::size_t>(most, 1);
+  }
+
+  // Carries fields with the weights of all targets, as many at a time as a slice has room for.
+  void carry_slices(std::size_t array, std::size_t num_fields, FieldMethod method,
+                    RegridOutput& output) {
+    const std::size_t begin = output.skip_fields(num_fields, report_.targets);
+    const std::size_t of_slice = fields_of_slice(num_fields);
+    const std::size_t num_slices = (num_fields - begin + of_slice - 1) / of_slice;
     std::vector<double> carried;
-    for (std::size_t first = 0; first < num_fields; first += of_slice) {
+    const auto compute = [&](std::size_t slice) {
+      const std::size_t first = begin + slice * of_slice;
       const std::size_t count = std::min(of_slice, num_fields - first);
-      values.resize(count * report_.sources);
       carried.resize(count * report_.targets);
-      fields_->read(array, first, values);
-      const ApplyOptions rules{.fill = missing, .max_missing = options_.max_missing};
-      if (method == FieldMethod::largest_share) {
-        apply_largest_share(weights, values, carried, count, rules, execution_);
-      } else if (second_ && method == FieldMethod::conservative_2nd) {
-        apply_limited(*second_, values, carried, count, rules, execution_);
-      } else {
-        apply(weights, values, carried, count, rules, execution_);
-      }
-      write(carried, writer);
+      carry_slice(array, first, count, method, carried);
       system::announce(execution_, "regrid", first + count, num_fields);
+    };
+    if (ranks_.size == 1) {
+      for (std::size_t slice = 0; slice < num_slices; ++slice) {
+        compute(slice);
+        output.write(carried);
+      }
+      return;
+    }
+    formats::deal_units(
+        ranks_, 0, num_slices,
+        [&](std::size_t slice) {
+          compute(slice);
+          const auto bytes = std::as_bytes(std::span<const double>(carried));
+          return RegridRanks::Message(bytes.begin(), bytes.end());
+        },
+        [&](std::size_t /*slice*/, std::span<const std::byte> message) {
+          std::vector<double> values(message.size() / sizeof(double));
+          std::memcpy(values.data(), message.data(), message.size());
+          output.write(values);
+        });
+  }
+
+  void carry_slice(std::size_t array, std::size_t first, std::size_t count, FieldMethod method,
+                   std::span<double> carried) {
+    const Weights& weights = weights_of(method);
+    std::vector<double> values(count * report_.sources);
+    fields_->read(array, first, values);
+    const ApplyOptions rules{.fill = missing, .max_missing = options_.max_missing};
+    if (method == FieldMethod::largest_share) {
+      apply_largest_share(weights, values, carried, count, rules, execution_);
+    } else if (second_ && method == FieldMethod::conservative_2nd) {
+      apply_limited(*second_, values, carried, count, rules, execution_);
+    } else {
+      apply(weights, values, carried, count, rules, execution_);
     }
   }
 
-  void write(std::span<const double> values, FieldWriter& writer) {
-    report_.missing += static_cast<std::size_t>(
-        std::ranges::count_if(values, [](double value) { return std::isnan(value); }));
-    writer.write(values);
-  }
-
-  const TiledRemap& tiles() {
+  const formats::RegridTiles& tiles(FieldMethod method) {
     if (tiles_) return *tiles_;
-    TiledRemapOptions options;
-    options.norm = options_.norm;
-    options.source_mask = source_.mask();
-    options.target_mask = target_.mask();
-    if (options_.cells_per_tile > 0) options.cells_per_tile = options_.cells_per_tile;
-    tiles_.emplace(*tiled_source_, *tiled_target_, std::move(options), execution_);
+    if (needs_cells_) {
+      TiledRemapOptions options;
+      options.norm = options_.norm;
+      options.source_mask = source_.mask();
+      options.target_mask = target_.mask();
+      options.cells_per_tile = plan_.cells_per_tile;
+      tiles_ = std::make_unique<formats::ConservativeTiles>(source_.tiled(), target_.tiled(),
+                                                            std::move(options), execution_);
+    } else {
+      tiles_ = std::make_unique<formats::PlaceTiles>(source_, target_, method, plan_.cells_per_tile,
+                                                     execution_);
+    }
     report_.tiles = tiles_->num_tiles();
     return *tiles_;
   }
 
-  // The values of one or several fields at the sources, as far as a tile needs them: read when they
-  // are asked for if sources are between parallels, and otherwise once.
-  class SourceValues {
-   public:
-    SourceValues(const FieldFile& fields, std::size_t array, std::size_t first, std::size_t count,
-                 std::size_t num_sources, bool has_windows)
-        : fields_(fields), array_(array), first_(first), num_sources_(num_sources) {
-      if (has_windows) return;
-      whole_.resize(count * num_sources);
-      fields.read(array, first, whole_);
-    }
-    // Returns the values of a field at the sources from `begin` on.
-    std::span<const double> of(std::size_t field, std::size_t begin, std::size_t count) {
-      if (!whole_.empty()) {
-        return std::span(whole_).subspan(field * num_sources_ + begin, count);
-      }
-      window_.resize(count);
-      fields_.read_points(array_, first_ + field, begin, window_);
-      return window_;
-    }
-
-   private:
-    const FieldFile& fields_;
-    std::size_t array_;
-    std::size_t first_;
-    std::size_t num_sources_;
-    std::vector<double> whole_;
-    std::vector<double> window_;
-  };
-
-  // Carries the fields of an array in groups: the weights of each tile are applied to all fields of
-  // a group. Targets between parallels are written tile by tile if a field is too large.
-  void carry_by_tiles(std::size_t array, FieldWriter& writer) {
-    const TiledRemap& remap = tiles();
-    const bool has_windows = tiled_source_->has_parallels();
-    const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
-    const std::uint64_t of_field =
-        sizeof(double) * (report_.targets + (has_windows ? 0 : report_.sources));
-    const std::uint64_t room = options_.memory / 2;
-    const bool is_streamed = tiled_target_->has_parallels() && of_field > room;
-    const std::size_t of_group =
-        is_streamed
-            ? 1
-            : std::clamp<std::uint64_t>(room / of_field, 1, std::max<std::size_t>(num_fields, 1));
-    for (std::size_t first = 0; first < num_fields; first += of_group) {
-      const std::size_t count = std::min(of_group, num_fields - first);
-      SourceValues values(*fields_, array, first, count, report_.sources, has_windows);
-      std::vector<double> carried(is_streamed ? 0 : count * report_.targets, missing);
-      for_each_tile(remap, [&](const RemapTile& tile, std::size_t number) {
-        for (std::size_t f = 0; f < count; ++f) {
-          const std::vector<double> applied = applied_to(tile, values, f);
-          if (is_streamed) {
-            write(applied, writer);
-          } else {
-            for (std::size_t r = 0; r < applied.size(); ++r) {
-              carried[f * report_.targets + tile.targets[r]] = applied[r];
-            }
-          }
-        }
-        system::announce(execution_, "regrid", first * remap.num_tiles() + count * (number + 1),
-                         num_fields * remap.num_tiles());
-      });
-      if (!is_streamed) write(carried, writer);
-    }
+  static formats::RegridInputs inputs_of(const FileName& in, const FileName& target,
+                                         const RegridFileOptions& options) {
+    formats::RegridInputs inputs;
+    inputs.add("input", in);
+    inputs.add("target", target);
+    if (options.source) inputs.add("source", *options.source);
+    return inputs;
   }
 
-  // Returns the values of one field at the targets of a tile.
-  std::vector<double> applied_to(const RemapTile& tile, SourceValues& values, std::size_t field) {
-    std::vector<double> applied(tile.targets.size());
-    apply(tile.weights, values.of(field, tile.first_source, tile.weights.num_columns), applied, 1,
-          {.fill = missing, .max_missing = options_.max_missing}, execution_);
-    for (std::size_t r = 0; r < applied.size(); ++r) {
-      if (!is_enough(tile.fractions[r])) applied[r] = missing;
+  // Returns the name of the journal. Throws FileError if the work cannot be resumed.
+  [[nodiscard]] std::string partial_name() const {
+    if (!inputs_.has("input")) {
+      throw FileError(fields_name_ + ": a run can be resumed if its input is a file");
     }
-    return applied;
+    std::error_code error;
+    const bool is_other = std::filesystem::exists(out_.path, error) &&
+                          !std::filesystem::is_regular_file(out_.path, error);
+    if (out_.bytes != nullptr || out_.path == "-" || is_other) {
+      throw FileError(out_.path + ": a run can be resumed if its output is a file");
+    }
+    return out_.path + ".partial";
   }
 
-  // Calls take(tile, number) for all tiles in turn; the threads compute several at a time.
-  template <class Take>
-  void for_each_tile(const TiledRemap& remap, const Take& take) {
-    const std::size_t at_once = 2 * std::size_t{system::num_threads(execution_.threads)};
-    std::vector<RemapTile> tiles(at_once);
-    for (std::size_t first = 0; first < remap.num_tiles(); first += at_once) {
-      const std::size_t count = std::min(at_once, remap.num_tiles() - first);
-      system::parallel_for(execution_.threads, count, 1, [&](std::size_t k, std::size_t /*end*/) {
-        tiles[k] = remap.tile(first + k, {.threads = 1});
-      });
-      for (std::size_t k = 0; k < count; ++k) {
-        take(tiles[k], first + k);
-        tiles[k] = {};
-      }
-    }
+  // Returns what the values depend on.
+  [[nodiscard]] std::vector<formats::JournalFact> facts() const {
+    std::vector<formats::JournalFact> facts = inputs_.facts();
+    facts.push_back({"target", target_.name()});
+    facts.push_back({"source", source_.name()});
+    std::string names;
+    for (const FieldArray& array : fields_->fields().arrays) names += array.name + ' ';
+    facts.push_back({"variables", names});
+    facts.push_back(
+        {"method", options_.method ? std::string(name_of(*options_.method)) : "by kind"});
+    facts.push_back({"norm", std::string(name_of(options_.norm))});
+    facts.push_back({"limiter", options_.is_limited ? "bounds" : "none"});
+    facts.push_back({"max_missing", system::shortest_text(options_.max_missing)});
+    facts.push_back({"overlap", std::string(name_of(options_.overlap))});
+    facts.push_back({"sides", std::string(name_of(options_.cells.sides))});
+    facts.push_back({"edges", std::string(name_of(options_.cells.edges))});
+    facts.push_back({"invalid", std::string(name_of(options_.cells.invalid))});
+    return facts;
   }
 
   const RegridFileOptions& options_;
+  const RegridRanks& ranks_;
   const Execution& execution_;
+  formats::RegridInputs inputs_;
   bool needs_cells_;
   RegridSide source_;
   RegridSide target_;
   FileName out_;
+  std::string fields_name_;  // of the file of the fields
   std::vector<LonLat> places_;
   std::unique_ptr<FieldFile> fields_;
   std::map<FieldMethod, Weights> weights_;
   std::optional<Remap> second_;  // of order 2, if its values are limited
-  std::optional<TiledCells> tiled_source_;
-  std::optional<TiledCells> tiled_target_;
-  std::optional<TiledRemap> tiles_;
+  formats::RegridPlan plan_;
+  std::unique_ptr<formats::RegridTiles> tiles_;
   RegridFileReport report_;
 };
 
@@ -359,12 +380,22 @@ std::string_view name_of(FieldMethod method) noexcept {
 
 RegridFileReport regrid_file(const FileName& in, const FileName& target, const FileName& out,
                              const RegridFileOptions& options, const Execution& execution) {
+  return formats::regrid_by_ranks(in, target, out, options, {}, execution);
+}
+
+namespace formats {
+
+RegridFileReport regrid_by_ranks(const FileName& in, const FileName& target, const FileName& out,
+                                 const RegridFileOptions& options, const RegridRanks& ranks,
+                                 const Execution& execution) {
   const system::Call call(execution);
   if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
     throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
                        ", not in [0, 1]");
   }
-  return RegridJob(in, target, out, options, execution).run();
+  return RegridJob(in, target, out, options, ranks, execution).run();
 }
+
+}  // namespace formats
 
 }  // namespace rondel

@@ -14,6 +14,7 @@
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "overlay/cell_set_data.h"
 #include "rondel/error.h"
 #include "rondel/regrid.h"
 
@@ -154,13 +155,26 @@ const CellSet& RegridSide::cells(const Execution& execution) {
   return *cells_;
 }
 
-std::optional<TiledCells> RegridSide::tiled(const Execution& execution) {
+bool RegridSide::has_tiles(const Execution& execution) const {
+  if (named_ || lines_) return true;
+  const overlay::CellSetData& data = overlay::CellSetData::of(*cells_);
+  return data.whole() == no_index && data.overlaps(execution).empty();
+}
+
+bool RegridSide::is_walked() const { return named_ || lines_ || cells_->covers_sphere(); }
+
+bool RegridSide::has_parallels() const {
+  return options_.sides == GridSides::parallels && (lines_ || (named_ && axes_));
+}
+
+std::size_t RegridSide::num_stored() const {
+  const bool is_computed = has_parallels() || (named_ && !axes_);
+  return is_computed ? 0 : num_places();
+}
+
+TiledCells RegridSide::tiled() const {
   if (named_) return TiledCells(*named_);
-  if (lines_) return TiledCells(*lines_);
-  if (cells(execution).covers_sphere() && cells_->facts().mask.empty()) {
-    return TiledCells(*cells_);
-  }
-  return std::nullopt;
+  return lines_ ? TiledCells(*lines_) : TiledCells(*cells_);
 }
 
 WeightSide RegridSide::description(bool has_axes) const {

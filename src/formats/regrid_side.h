@@ -39,8 +39,16 @@ class RegridSide {
   [[nodiscard]] std::vector<LonLat> places() const;
   // Returns the cells of a side that was read with cells. They are computed by the first call.
   [[nodiscard]] const CellSet& cells(const Execution& execution);
-  // Returns the cells for tiles, or nothing if they do not cover the sphere.
-  [[nodiscard]] std::optional<TiledCells> tiled(const Execution& execution);
+  // True if a side that was read with cells can be divided into tiles.
+  [[nodiscard]] bool has_tiles(const Execution& execution) const;
+  // True if its cells cover the sphere or are between parallels: tiles need that of one side.
+  [[nodiscard]] bool is_walked() const;
+  // True if its cells are between meridians and parallels.
+  [[nodiscard]] bool has_parallels() const;
+  // Returns the number of cells that are in memory, since no formula has them.
+  [[nodiscard]] std::size_t num_stored() const;
+  // Returns the cells for tiles. Precondition: has_tiles().
+  [[nodiscard]] TiledCells tiled() const;
   // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no
   // list of places.
   [[nodiscard]] WeightSide description(bool has_axes) const;

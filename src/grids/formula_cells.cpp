@@ -3,6 +3,8 @@
 
 #include "grids/formula_cells.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -20,9 +22,27 @@ struct RingBlock {
   std::vector<Point> points;
 };
 
+// Returns some of the cells, with points of their own.
+CellRings some_of(const CellRings& all, std::span<const Index> cells) {
+  CellRings result;
+  for (const Index cell : cells) {
+    for (std::uint64_t ring = all.cells[cell]; ring < all.cells[cell + std::size_t{1}]; ++ring) {
+      for (const Index corner : all.corners_of(ring)) {
+        result.corners.push_back(static_cast<Index>(result.points.size()));
+        result.points.push_back(all.points[corner]);
+      }
+      result.end_ring();
+    }
+    result.end_cell();
+  }
+  overlay::merge_equal_points(result);
+  return result;
+}
+
 }  // namespace
 
 CellRings rings_of(const GridFormula& grid, std::span<const Index> cells, unsigned threads) {
+  if (const CellRings* const all = grid.stored()) return some_of(*all, cells);
   std::vector<RingBlock> blocks(system::num_pieces(cells.size(), overlay::cells_per_task));
   system::parallel_for(threads, cells.size(), overlay::cells_per_task,
                        [&](std::size_t begin, std::size_t end) {

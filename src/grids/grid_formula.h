@@ -14,13 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
 #include "rondel/types.h"
 
 namespace rondel::grids {
 
-// The cells of a grid, which cover the sphere: none overlaps another, and each is convex or nearly
-// so. Several threads may use one.
+// The cells of a grid: none overlaps another, and each is convex or nearly so unless it is stored.
+// Several threads may use one.
 class GridFormula {
  public:
   GridFormula() = default;
@@ -32,6 +33,11 @@ class GridFormula {
   [[nodiscard]] virtual LonLat center(Index cell) const = 0;
   // Appends the corners of a cell, counterclockwise. Cells that share a corner get it bit by bit.
   virtual void append_ring(Index cell, std::vector<Point>& ring) const = 0;
+  // Returns cells that are in memory, which may have several rings, or null. Then append_ring()
+  // appends the corners of all of them.
+  [[nodiscard]] virtual const CellRings* stored() const { return nullptr; }
+  // Returns the area of a stored cell in steradians, and otherwise 0.
+  [[nodiscard]] virtual double area(Index /*cell*/) const { return 0; }
   // Returns the lengths of the dimensions of an array of the cells; the last one varies fastest.
   [[nodiscard]] virtual std::vector<std::uint64_t> shape() const { return {num_cells()}; }
 };

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numbers>
 #include <span>
 
 #include "exact/vector.h"
@@ -18,8 +18,10 @@ namespace {
 
 // Returns the bands of a ring of arcs. An arc of chord c is at most c^2 / 8 beyond the coordinates
 // of its ends, and somewhat more where it is long. A ring that is nearer to a pole than to its own
-// corners may go around it.
-BandRange bands_of_ring(std::span<const Point> ring) {
+// corners may go around it. A cell with a larger area than the cap around its corners reaches beyond
+// that cap; a cell without corners is empty.
+BandRange bands_of_ring(std::span<const Point> ring, double area) {
+  if (ring.empty()) return {num_bands / 2, num_bands / 2};
   double least = 1;
   double most = -1;
   double longest = 0;  // squared chord
@@ -38,6 +40,7 @@ BandRange bands_of_ring(std::span<const Point> ring) {
   double cosine = 1;  // of the angle to the farthest corner
   for (const Point& corner : ring) cosine = std::min(cosine, dot(center, corner));
   const double nearly = cosine - bulge;
+  if (area > 2 * std::numbers::pi * (1 - nearly)) return {0, num_bands - 1};
   return {center.z < -nearly ? 0 : band_of(least - bulge),
           center.z > nearly ? num_bands - 1 : band_of(most + bulge)};
 }
@@ -55,17 +58,17 @@ LatitudeIndex::LatitudeIndex(const GridFormula& grid, unsigned threads)
       sorted_(grid.num_cells()),
       begins_(num_bands + 1, 0),
       reach_(num_bands, 0) {
-  system::parallel_for(threads, lowest_.size(), overlay::cells_per_task,
-                       [&](std::size_t begin, std::size_t end) {
-                         std::vector<Point> ring;
-                         for (std::size_t i = begin; i < end; ++i) {
-                           ring.clear();
-                           grid.append_ring(static_cast<Index>(i), ring);
-                           const BandRange bands = bands_of_ring(ring);
-                           lowest_[i] = static_cast<std::uint16_t>(bands.first);
-                           highest_[i] = static_cast<std::uint16_t>(bands.last);
-                         }
-                       });
+  system::parallel_for(
+      threads, lowest_.size(), overlay::cells_per_task, [&](std::size_t begin, std::size_t end) {
+        std::vector<Point> ring;
+        for (std::size_t i = begin; i < end; ++i) {
+          ring.clear();
+          grid.append_ring(static_cast<Index>(i), ring);
+          const BandRange bands = bands_of_ring(ring, grid.area(static_cast<Index>(i)));
+          lowest_[i] = static_cast<std::uint16_t>(bands.first);
+          highest_[i] = static_cast<std::uint16_t>(bands.last);
+        }
+      });
   std::vector<Index> next(num_bands + 1, 0);
   for (Index i = 0; i < lowest_.size(); ++i) ++next[middle_of(i) + 1];
   system::sum_counts(next);

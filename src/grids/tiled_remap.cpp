@@ -42,17 +42,15 @@ class StoredCells : public grids::GridFormula {
   explicit StoredCells(CellSet cells) : cells_(std::move(cells)), rings_(cells_.given_rings()) {}
 
   [[nodiscard]] Index num_cells() const override { return static_cast<Index>(cells_.num_cells()); }
-  [[nodiscard]] LonLat center(Index cell) const override {
-    Point sum{};
-    for (const Index corner : rings_.corners_of(rings_.cells[cell])) {
-      sum = sum + rings_.points[corner];
-    }
-    return lonlats(std::vector<Point>{sum})[0];
-  }
+  [[nodiscard]] LonLat center(Index cell) const override { return cells_.places()[cell]; }
   void append_ring(Index cell, std::vector<Point>& ring) const override {
-    for (const Index corner : rings_.corners_of(rings_.cells[cell])) {
-      ring.push_back(rings_.points[corner]);
-    }
+    const std::uint64_t begin = rings_.rings[rings_.cells[cell]];
+    const std::uint64_t end = rings_.rings[rings_.cells[cell + std::size_t{1}]];
+    for (std::uint64_t k = begin; k < end; ++k) ring.push_back(rings_.points[rings_.corners[k]]);
+  }
+  [[nodiscard]] const CellRings* stored() const override { return &rings_; }
+  [[nodiscard]] double area(Index cell) const override {
+    return CellSetData::of(cells_).areas()[cell];
   }
 
  private:
@@ -74,6 +72,17 @@ TileCells made(const grids::GridFormula& formula, std::vector<Index> names,
   return {std::move(names), std::move(cells)};
 }
 
+// Returns the bands that some cells are in, together with others.
+BandRange reach_of(const grids::LatitudeIndex& index, std::span<const Index> cells,
+                   const BandRange& others = {grids::num_bands - 1, 0}) {
+  BandRange all = others;
+  for (const Index cell : cells) {
+    const BandRange own = index.bands_of(cell);
+    all = {std::min(all.first, own.first), std::max(all.last, own.last)};
+  }
+  return all;
+}
+
 // Throws InvalidInput if there is a mask of another length.
 void require_mask(const std::vector<std::int32_t>& mask, std::size_t num_cells, const char* name) {
   if (mask.empty() || mask.size() == num_cells) return;
@@ -92,6 +101,7 @@ struct TiledCells::CellsOfTiles {
   std::optional<PreparedGrid> grid;  // cells between parallels
   std::vector<double> latitudes;     // the lines of the grid, as given
   std::shared_ptr<const grids::GridFormula> formula;
+  bool covers_sphere = true;  // what a walk through the cells needs
 
   [[nodiscard]] std::size_t num_cells() const {
     return grid ? grid->num_cells() : formula->num_cells();
@@ -118,11 +128,14 @@ TiledCells::TiledCells(const CellSet& cells) {
     return;
   }
   const CellSetData& data = CellSetData::of(cells);
-  if (!data.covers_sphere() || data.whole() != no_index) {
-    throw InvalidInput("the cells do not cover the sphere");
+  if (data.whole() != no_index) {
+    throw InvalidInput("a cell that is the whole sphere has no tiles", data.whole());
   }
-  content_ = std::make_shared<const CellsOfTiles>(
-      CellsOfTiles{std::nullopt, {}, std::make_shared<const StoredCells>(cells)});
+  if (!data.overlaps({}).empty()) {
+    throw InvalidInput("cells that overlap have no tiles", data.overlaps({}).front().second);
+  }
+  content_ = std::make_shared<const CellsOfTiles>(CellsOfTiles{
+      std::nullopt, {}, std::make_shared<const StoredCells>(cells), data.covers_sphere()});
 }
 
 std::size_t TiledCells::num_cells() const { return content_->num_cells(); }
@@ -133,6 +146,7 @@ struct TiledRemap::TileMaker {
             const Execution& execution);
 
   [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const;
+  [[nodiscard]] std::size_t num_targets(std::size_t number) const;
 
   TiledCells source_cells;
   TiledCells target_cells;
@@ -167,8 +181,10 @@ struct TiledRemap::TileMaker {
                                            const Execution& execution) const;
   [[nodiscard]] PieceRows pieces_in_cells(const CellSetData& targets, const BandRange& bands,
                                           const Execution& execution) const;
-  [[nodiscard]] PieceRows pieces_by_source(unsigned first, unsigned end,
+  [[nodiscard]] TilePieces pieces_in_cover(const BandRange& bands,
                                            const Execution& execution) const;
+  [[nodiscard]] static PieceRows by_target(const PieceRows& found, const TileCells& sources,
+                                           std::span<const Index> targets);
   void drop_masked(TilePieces& tile) const;
 };
 
@@ -179,6 +195,12 @@ TiledRemap::TileMaker::TileMaker(TiledCells source_side, TiledCells target_side,
       options(std::move(given)) {
   require_mask(options.source_mask, source().num_cells(), "source");
   require_mask(options.target_mask, target().num_cells(), "target");
+  const auto is_walked = [](const TiledCells::CellsOfTiles& side) {
+    return side.grid || side.covers_sphere;
+  };
+  if (!is_walked(source()) && !is_walked(target())) {
+    throw InvalidInput("neither side covers the sphere or is between parallels");
+  }
   if (source().formula) source_index.emplace(*source().formula, execution.threads);
   if (target().formula) target_index.emplace(*target().formula, execution.threads);
   if (source().grid && target().grid) boxes.emplace(*target().grid, *source().grid);
@@ -266,17 +288,14 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
   TilePieces result;
   result.targets = target_index->cells_with_middles(bands);
   if (result.targets.empty()) return result;
-  const auto reach = [&](std::span<const Index> cells) {
-    BandRange all{grids::num_bands - 1, 0};
-    for (const Index cell : cells) {
-      const BandRange own = target_index->bands_of(cell);
-      all = {std::min(all.first, own.first), std::max(all.last, own.last)};
-    }
-    return all;
-  };
+  // In a grid between parallels each target has its pieces alone.
   const TileCells near =
-      made(*target().formula, target_index->cells_touching(reach(result.targets)), execution);
-  const PieceRows all = pieces_in_cells(near.data(), reach(near.names), execution);
+      made(*target().formula,
+           source().grid ? result.targets
+                         : target_index->cells_touching(reach_of(*target_index, result.targets)),
+           execution);
+  const PieceRows all =
+      pieces_in_cells(near.data(), reach_of(*target_index, near.names), execution);
   std::size_t next = 0;
   for (std::size_t k = 0; k < near.names.size() && next < result.targets.size(); ++k) {
     if (near.names[k] != result.targets[next]) continue;
@@ -294,36 +313,61 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
   return result;
 }
 
-// Returns the pieces of targets between parallels, which are found from the sources: those of each
-// source are in order. Sums are computed in the spatial order of the sources, as remap() does.
-PieceRows TiledRemap::TileMaker::pieces_by_source(unsigned first, unsigned end,
-                                                  const Execution& execution) const {
-  const PreparedGrid& grid = *target().grid;
-  const TileCells sources =
-      made(*source().formula, source_index->cells_touching(bands_of_rows(first, end)), execution);
-  PieceRows found = pieces(sources.data(), grid, false, execution, false);
-  const Index first_target = first * grid.num_columns_of_grid();
-  const Index num_targets = (end - first) * grid.num_columns_of_grid();
-  // Other targets that the sources touch are dropped.
+// Returns the pieces of targets, in ascending order, from those of sources, whose rows `found` has.
+// Other targets are dropped. Sums are computed in the spatial order of the sources, as remap() does.
+PieceRows TiledRemap::TileMaker::by_target(const PieceRows& found, const TileCells& sources,
+                                           std::span<const Index> targets) {
+  const bool is_range = targets.back() - targets.front() + std::size_t{1} == targets.size();
+  const auto row_of = [&](Index target) {
+    if (target < targets.front() || target > targets.back()) return no_index;
+    if (is_range) return target - targets.front();
+    const auto at = std::ranges::lower_bound(targets, target);
+    return *at == target ? static_cast<Index>(at - targets.begin()) : no_index;
+  };
   PieceRows kept;
   for (std::size_t row = 0; row + 1 < found.offsets.size(); ++row) {
     for (std::uint64_t k = found.offsets[row]; k < found.offsets[row + 1]; ++k) {
-      const Index target = found.columns[k] - first_target;
-      if (target >= num_targets) continue;
+      const Index target = row_of(found.columns[k]);
+      if (target == no_index) continue;
       kept.columns.push_back(target);
       kept.areas.push_back(found.areas[k]);
     }
     kept.end_row();
   }
-  std::vector<exact::DoubleDouble> sums(num_targets);
+  std::vector<exact::DoubleDouble> sums(targets.size());
   for (const Index row : sources.data().subdivision().names) {
     for (std::uint64_t k = kept.offsets[row]; k < kept.offsets[row + std::size_t{1}]; ++k) {
       add_term(kept.areas[k], sums[kept.columns[k]]);
     }
   }
-  PieceRows result = transposed(kept, num_targets);
+  PieceRows result = transposed(kept, targets.size());
   for (Index& column : result.columns) column = sources.names[column];
   for (const exact::DoubleDouble& sum : sums) result.row_sums.push_back(sum.hi + sum.lo);
+  return result;
+}
+
+// Sources of a region are cut by targets that cover the sphere. As above, they are made together
+// with all that may share a side with them, and the targets with all that these touch.
+TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_in_cover(
+    const BandRange& bands, const Execution& execution) const {
+  TilePieces result;
+  result.targets = target_index->cells_with_middles(bands);
+  if (result.targets.empty()) return result;
+  const BandRange own = reach_of(*target_index, result.targets);
+  const BandRange touched = reach_of(*source_index, source_index->cells_touching(own), own);
+  const TileCells sources =
+      made(*source().formula, source_index->cells_touching(touched), execution);
+  const BandRange all = reach_of(*source_index, sources.names, own);
+  const TileCells cover = made(*target().formula, target_index->cells_touching(all), execution);
+  PieceRows found = pieces(sources.data().subdivision(), sources.data().sizes(),
+                           cover.data().subdivision(), false, execution);
+  for (Index& column : found.columns) column = cover.names[column];
+  result.pieces = by_target(found, sources, result.targets);
+  for (const Index target : result.targets) {
+    const auto at = std::ranges::lower_bound(cover.names, target) - cover.names.begin();
+    result.areas.push_back(cover.data().areas()[static_cast<std::size_t>(at)]);
+    result.lengths.push_back(cover.data().lengths()[static_cast<std::size_t>(at)]);
+  }
   return result;
 }
 
@@ -338,7 +382,11 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_rows(
     result.pieces = boxes->pieces(first * row_length, end * row_length, false);
     find_row_sums(result.pieces);
   } else {
-    result.pieces = pieces_by_source(first, end, execution);
+    // The pieces of each source in the grid are in order.
+    const TileCells sources =
+        made(*source().formula, source_index->cells_touching(bands_of_rows(first, end)), execution);
+    result.pieces =
+        by_target(pieces(sources.data(), grid, false, execution, false), sources, result.targets);
   }
   for (const Index target : result.targets) {
     const PreparedGrid::CellSize size = grid.size_of(target);
@@ -365,11 +413,21 @@ void TiledRemap::TileMaker::drop_masked(TilePieces& tile) const {
   tile.pieces = std::move(kept);
 }
 
+std::size_t TiledRemap::TileMaker::num_targets(std::size_t number) const {
+  std::size_t count = 0;
+  for (unsigned k = begins[number]; k < begins[number + 1]; ++k) {
+    count += target_index ? target_index->num_middles(k) : target().grid->num_columns_of_grid();
+  }
+  return count;
+}
+
 RemapTile TiledRemap::TileMaker::tile(std::size_t number, const Execution& execution) const {
   const unsigned begin = begins[number];
   const unsigned end = begins[number + 1];
-  TilePieces found = target_index ? pieces_of_bands({begin, end - 1}, execution)
-                                  : pieces_of_rows(begin, end, execution);
+  const bool is_source_walked = source().grid || source().covers_sphere;
+  TilePieces found = !target_index      ? pieces_of_rows(begin, end, execution)
+                     : is_source_walked ? pieces_of_bands({begin, end - 1}, execution)
+                                        : pieces_in_cover({begin, end - 1}, execution);
   drop_masked(found);
   RemapTile result;
   const PieceRows& pieces = found.pieces;
@@ -411,6 +469,10 @@ TiledRemap& TiledRemap::operator=(TiledRemap&&) noexcept = default;
 std::size_t TiledRemap::num_sources() const { return maker_->source_cells.num_cells(); }
 std::size_t TiledRemap::num_targets() const { return maker_->target_cells.num_cells(); }
 std::size_t TiledRemap::num_tiles() const { return maker_->begins.size() - 1; }
+
+std::size_t TiledRemap::num_targets(std::size_t number) const {
+  return maker_->num_targets(number);
+}
 
 RemapTile TiledRemap::tile(std::size_t number, const Execution& execution) const {
   const system::Call call(execution);

@@ -146,7 +146,7 @@ class Regrid(unittest.TestCase):
         self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
         for target in ("healpix:3", "grid:7.5", "O8"):
             self.regrid("in.nc", target, "-o", "whole.nc", "--json")
-            for options in (("--tile", "200"), ("--tile", "900", "--memory", "1", "--threads", "1")):
+            for options in (("--tile", "200"), ("--tile", "900", "--memory", "1M", "--threads", "1")):
                 said = self.regrid("in.nc", target, "-o", "tiles.nc", "--json", *options)
                 self.assertGreater(json.loads(said.stdout)["tiles"], 2)
                 self.assertEqual((self.folder / "tiles.nc").read_bytes(), (self.folder / "whole.nc").read_bytes())

@@ -27,7 +27,8 @@ void add_regrid_files(nb::module_& module) {
       .def_ro("fields", &RegridFileReport::fields)
       .def_ro("missing", &RegridFileReport::missing)
       .def_ro("tiles", &RegridFileReport::tiles)
-      .def_ro("remarks", &RegridFileReport::remarks);
+      .def_ro("remarks", &RegridFileReport::remarks)
+      .def_ro("resumed", &RegridFileReport::resumed);
   module.def(
       "regrid_file",
       [](const std::string& in, const std::string& target, const std::string& out,
@@ -35,7 +36,7 @@ void add_regrid_files(nb::module_& module) {
          const nb::object& method, nb::handle norm, double max_missing, nb::handle sides,
          nb::handle edges, nb::handle invalid, nb::handle overlap, std::uint64_t memory,
          std::size_t cells_per_tile, int deflate, const std::string& history, unsigned threads,
-         const nb::object& progress) {
+         const nb::object& progress, bool resume) {
         RegridFileOptions options;
         options.names = names;
         if (source) options.source = FileName{*source, {}};
@@ -50,6 +51,7 @@ void add_regrid_files(nb::module_& module) {
         options.cells_per_tile = cells_per_tile;
         options.netcdf.deflate = deflate;
         options.history = history;
+        options.resume = resume;
         constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
         return watched(many, threads, progress, [&](const Execution& execution) {
           return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
@@ -59,7 +61,8 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("source").none(), nb::arg("method").none(), nb::arg("norm").none(),
       nb::arg("max_missing"), nb::arg("sides").none(), nb::arg("edges").none(),
       nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
-      nb::arg("deflate"), nb::arg("history"), nb::arg("threads"), nb::arg("progress").none());
+      nb::arg("deflate"), nb::arg("history"), nb::arg("threads"), nb::arg("progress").none(),
+      nb::arg("resume"));
 }
 
 }  // namespace rondel::python

@@ -45,6 +45,8 @@ class RegridReport:
         The number of tiles in which weights were computed, or 0 if all were in memory.
     remarks : tuple of str
         What was left out, and why.
+    resumed : int
+        The number of values that an earlier run had computed.
 
     """
 
@@ -54,6 +56,7 @@ class RegridReport:
     missing: int
     tiles: int
     remarks: tuple[str, ...]
+    resumed: int = 0
 
 
 def regrid_file(
@@ -76,6 +79,7 @@ def regrid_file(
     history: str = "",
     threads: int | None = None,
     progress: Progress = None,
+    resume: bool = False,
 ) -> RegridReport:
     """Brings the fields of a file to another grid.
 
@@ -112,10 +116,12 @@ def regrid_file(
     overlap : {'error', 'first', 'share'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
     memory : int, optional
-        About how many bytes may be in use; by default 2 GiB. Conservative weights of larger grids
-        are computed tile by tile, with the same values.
+        About how many bytes may be in use, beside those of the process; by default 2 GiB. Weights
+        that need more are computed tile by tile, with the same values; those of
+        'conservative_2nd', and of meshes of a region, are not.
     tile : int, optional
-        The number of cells of a tile; by default as `memory` says.
+        The number of cells of a tile, or of targets with a method between places; by default as
+        `memory` says.
     deflate : int, optional
         The effort of compression in netCDF-4, from 0 to 9; by default 1.
     history : str, optional
@@ -124,6 +130,11 @@ def regrid_file(
         The largest number of threads; by default one for each core.
     progress : callable, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+    resume : bool, optional
+        Whether to keep what is computed in a file beside the output, ``out + ".partial"``, until
+        the output is complete, and to begin with what a run that ended early left there; by
+        default False. The output is the same. `threads`, `memory`, `tile` and `deflate` may
+        differ between the runs.
 
     Returns
     -------
@@ -133,10 +144,12 @@ def regrid_file(
     Raises
     ------
     OSError
-        If a file cannot be read or written.
+        If a file cannot be read or written, is read and written, or changes while it is read; or if
+        what is to be resumed is a run with other files or options.
     ValueError
         If there is no such grid, the file has no fields at the source's places, or the method does
-        not fit it; `InvalidInput` if cells overlap.
+        not fit it; `InvalidInput` if cells overlap, or if `memory` is too small, with the number
+        of bytes that are enough.
 
     Examples
     --------
@@ -165,7 +178,14 @@ def regrid_file(
         history,
         as_threads(threads),
         progress,
+        bool(resume),
     )
     return RegridReport(
-        made.sources, made.targets, made.fields, made.missing, made.tiles, tuple(made.remarks)
+        made.sources,
+        made.targets,
+        made.fields,
+        made.missing,
+        made.tiles,
+        tuple(made.remarks),
+        made.resumed,
     )

@@ -124,6 +124,51 @@ def test_progress_is_told_and_may_end_the_work(made, tmp_path):
         rondel.regrid_file(path, "grid:30", tmp_path / "none.nc", tile=40, progress=stop)
 
 
+def test_a_run_that_ended_early_goes_on(tmp_path):
+    lon, lat = np.arange(0.5, 360), np.arange(-89.5, 90)
+    values = np.random.default_rng(8).normal(size=(40, lat.size, lon.size)).astype("f4")
+    path, out = tmp_path / "in.nc", tmp_path / "out.nc"
+    xarray.Dataset(
+        {"t": (("time", "lat", "lon"), values)},
+        {
+            "lat": ("lat", lat, {"units": "degrees_north"}),
+            "lon": ("lon", lon, {"units": "degrees_east"}),
+        },
+    ).to_netcdf(path)
+    rondel.regrid_file(path, "healpix:4", out)
+    wanted = out.read_bytes()
+    out.unlink()
+
+    def stop_late(stage, fraction):
+        if fraction > 0.5:
+            raise KeyboardInterrupt
+
+    # So little memory that the weights are computed again for every few times.
+    options = {"tile": 100, "memory": 6 << 20, "resume": True}
+    with pytest.raises(KeyboardInterrupt):
+        rondel.regrid_file(path, "healpix:4", out, progress=stop_late, **options)
+    partial = tmp_path / "out.nc.partial"
+    assert partial.exists()
+    assert not out.exists()
+    with pytest.raises(OSError, match=r"out\.nc\.partial: of a run with 'method: by kind', not"):
+        rondel.regrid_file(path, "healpix:4", out, method="nearest", resume=True)
+    report = rondel.regrid_file(path, "healpix:4", out, resume=True)
+    assert report.resumed > 3072
+    assert out.read_bytes() == wanted
+    assert not partial.exists()
+
+
+def test_too_little_memory_and_files_that_are_read_are_refused(made, tmp_path):
+    path, _ = made
+    before = path.read_bytes()
+    with pytest.raises(rondel.InvalidInput, match=r"memory of 100 bytes is too small: \d+M are"):
+        rondel.regrid_file(path, "healpix:2", tmp_path / "out.nc", memory=100)
+    with pytest.raises(OSError, match=r"in\.nc: it is the file of the input, too"):
+        rondel.regrid_file(path, "healpix:2", path)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
 def test_datasets_are_regridded_in_one_call(made):
     _, data = made
     kind = (np.abs(data.lat) // 30).astype("i1").expand_dims({"lon": data.lon}, axis=1)

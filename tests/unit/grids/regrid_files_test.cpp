@@ -170,7 +170,7 @@ TEST(regrid_files, bytes_depend_on_neither_tiles_nor_memory_nor_threads) {
     regridded(in, target, out);
     const std::string whole = file_bytes(out);
     for (const std::size_t tile : {300U, 3000U}) {
-      for (const std::uint64_t memory : {std::uint64_t{1}, std::uint64_t{1} << 30U}) {
+      for (const std::uint64_t memory : {std::uint64_t{1} << 21U, std::uint64_t{1} << 30U}) {
         for (const unsigned threads : {1U, 3U}) {
           regridded(in, target, other, {.memory = memory, .cells_per_tile = tile},
                     {.threads = threads});

@@ -7,12 +7,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondel/error.h"
+#include "rondel/regions.h"
 #include "rondel/remap.h"
 #include "support/thrown.h"
 
@@ -100,13 +103,82 @@ TEST(tiled_remap, masks_and_norms_are_those_of_remap) {
   }
 }
 
-TEST(tiled_remap, refuses_what_is_no_cover) {
+// Returns the cells of a named grid whose numbers fulfil a condition.
+template <class Keep>
+CellSet some_of(const std::string& name, const Keep& keep) {
+  const CellRings all = NamedGrid(name, GridSides::great_circles).cells().rings();
+  const std::vector<LonLat> centers = NamedGrid(name).centers();
+  CellRings some;
+  some.points = all.points;
+  for (std::size_t i = 0; i < all.num_cells(); ++i) {
+    if (keep(centers[i])) some.append_cell(all, i);
+  }
+  return CellSet::polygons(some);
+}
+
+// Returns polygons with holes and several parts: each has the cells of some squares of a board.
+CellSet board_of(const std::string& name) {
+  const NamedGrid grid(name, GridSides::great_circles);
+  std::vector<Index> groups;
+  for (const LonLat& place : grid.centers()) {
+    const auto column = static_cast<Index>((place.lon_deg + 540) / 25) % 4;
+    const auto row = static_cast<Index>((place.lat_deg + 90) / 17) % 3;
+    const bool is_out = place.lat_deg < -80 || column + row == 1;
+    groups.push_back(is_out ? no_index : column * 3 + row);
+  }
+  return CellSet::polygons(dissolve(grid.cells().rings(), groups, 12));
+}
+
+TEST(tiled_remap, cells_of_a_region_are_divided_as_well) {
+  const auto near = [](const LonLat& place) {
+    return place.lat_deg > 20 && std::abs(place.lon_deg) < 130;
+  };
+  const auto scattered = [](const LonLat& place) {
+    return std::fmod(place.lon_deg + 720, 50) < 30 && place.lat_deg < 70;
+  };
+  const auto polar = [](const LonLat& place) { return place.lat_deg < -50; };
+  const CellSet regions[] = {some_of("R2B2", near), some_of("healpix:3", scattered),
+                             some_of("C8", polar), some_of("O16", scattered), board_of("grid:10")};
+  const LonLatGrid lines{{-20, -13, 0, 4, 21, 60}, {70, 50, 44, 13, -9}};
+  std::size_t number = 0;
+  for (const CellSet& region : regions) {
+    const std::string what = "region " + std::to_string(number++);
+    std::vector<std::pair<CellSet, TiledCells>> others;
+    for (const char* const name : {"grid:9", "grid:45", "healpix:3", "R2B1"}) {
+      others.emplace_back(NamedGrid(name).cells(), TiledCells(NamedGrid(name)));
+    }
+    others.emplace_back(CellSet::lonlat_grid(lines), TiledCells(lines));
+    for (const auto& [cells, tiled_cells] : others) {
+      for (const std::size_t size : {40U, 700U, 1U << 20U}) {
+        const TiledRemap to(tiled_cells, TiledCells(region), {.cells_per_tile = size});
+        expect_rows_of(remap(cells, region), to, "to " + what);
+        const TiledRemap from(TiledCells(region), tiled_cells, {.cells_per_tile = size});
+        expect_rows_of(remap(region, cells), from, "from " + what);
+      }
+    }
+  }
+}
+
+TEST(tiled_remap, refuses_cells_without_tiles) {
   CellRings one;
   one.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  one.append_ring(std::vector<Index>{0, 1, 2});
-  one.end_cell();
+  for (int k = 0; k < 2; ++k) {
+    one.append_ring(std::vector<Index>{0, 1, 2});
+    one.end_cell();
+  }
   EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledCells(CellSet::polygons(one)); }),
-            "the cells do not cover the sphere");
+            "cells that overlap have no tiles");
+  one.cells.pop_back();
+  one.rings.pop_back();
+  one.corners.resize(3);
+  const TiledCells part{CellSet::polygons(one)};
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledRemap(part, part); }),
+            "neither side covers the sphere or is between parallels");
+  CellRings whole;
+  whole.whole = {0};
+  whole.end_cell();
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return TiledCells(CellSet::polygons(whole)); }),
+            "a cell that is the whole sphere has no tiles");
   const TiledCells grid{NamedGrid("grid:30")};
   EXPECT_EQ(thrown_message<InvalidInput>([&] {
               return TiledRemap(grid, grid, {.source_mask = {1, 0}});

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Carries the fields of one array of a file to the targets, with weights in tiles.
+//
+// in    fields at sources, tiles of weights
+// out   values at targets, field by field
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "formats/regrid_output.h"
+#include "formats/regrid_plan.h"
+#include "formats/regrid_processes.h"
+#include "formats/regrid_tiles.h"
+#include "rondel/fields.h"
+
+namespace rondel::formats {
+
+// The array, and what is done with it.
+struct ArrayToCarry {
+  const FieldFile& file;
+  std::size_t array;
+  std::size_t num_fields;
+  std::size_t sources;
+  std::size_t targets;
+  bool has_windows;  // whether a tile needs consecutive sources
+  bool is_largest_share;
+  double max_missing;
+};
+
+// True if so much of a target is covered that it has a value.
+bool is_enough(double fraction, double max_missing);
+
+// Calls compute(unit) for units of work of this process, and take(unit, message) for all of them in
+// turn on rank 0.
+void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,
+                const std::function<RegridRanks::Message(std::size_t)>& compute,
+                const std::function<void(std::size_t, std::span<const std::byte>)>& take);
+
+// The weights of each tile are applied to all fields of a group; of a streamed plan a group is one
+// field, and tiles are written one by one. The tiles are divided among the processes.
+class TileCarrier {
+ public:
+  TileCarrier(const RegridTiles& tiles, const RegridPlan& plan, const ArrayToCarry& job,
+              RegridOutput& out, const RegridRanks& ranks, const Execution& execution);
+
+  void run();
+
+ private:
+  class SourceValues;
+
+  void carry_group(std::size_t first, std::size_t count);
+  // Returns the values of the fields of a group at the targets of a tile, field by field.
+  [[nodiscard]] std::vector<double> applied(const RemapTile& tile, SourceValues& values,
+                                            std::size_t count) const;
+  // Computes tiles and calls visit(number, tile) for them in turn.
+  void for_tiles(std::size_t begin, std::size_t end,
+                 const std::function<void(std::size_t, const RemapTile&)>& visit) const;
+
+  const RegridTiles& tiles_;
+  RegridPlan plan_;
+  const ArrayToCarry& job_;
+  RegridOutput& out_;
+  const RegridRanks& ranks_;
+  const Execution& execution_;
+};
+
+}  // namespace rondel::formats

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How a regridding divides its work so that it stays within its memory.
+//
+// in    the numbers of cells of both sides, and what can be done in parts
+// out   whether weights are whole or in tiles, and how much is in memory at a time
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace rondel::formats {
+
+// The weights that a plan is about. Conservative ones of order 2 have no tiles.
+enum class PlannedWeights : std::uint8_t { of_cells, of_cells_2nd, of_places, bilinear };
+
+struct RegridTask {
+  PlannedWeights weights = PlannedWeights::of_cells;
+  std::uint64_t sources = 0;
+  std::uint64_t targets = 0;
+  std::uint64_t fields = 0;  // of one array
+  // Cells of a side that are in memory anyway, since they are from a file.
+  std::uint64_t stored_cells = 0;
+  bool has_tiles = false;    // whether weights can be computed in tiles
+  bool is_in_order = false;  // whether the targets of a tile are consecutive
+  bool has_windows = false;  // whether a tile needs consecutive sources, as far as a row of them
+  std::uint64_t rows = 1;    // parallels between targets, if these are in rows
+  std::uint64_t memory = 0;  // what may be in use
+  std::size_t tile = 0;      // cells of a tile; 0: as the plan says
+  unsigned threads = 1;
+  std::size_t num_processes = 1;  // which share the tiles
+};
+
+struct RegridPlan {
+  bool has_tiles = false;
+  std::size_t cells_per_tile = 0;
+  std::size_t tiles_at_once = 1;
+  std::size_t fields_at_once = 1;
+  // Whether each tile is written when it is computed, since one field is too large to be kept.
+  bool is_streamed = false;
+};
+
+// Returns the plan with the least work. Throws InvalidInput if no plan keeps within the memory,
+// with the number of bytes that one needs.
+RegridPlan plan_of(const RegridTask& task);
+
+}  // namespace rondel::formats

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "formats/regrid_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "rondel/error.h"
+#include "rondel/names.h"
+#include "rondel/regrid.h"
+
+namespace rondel::formats {
+
+PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
+                       std::size_t targets_per_tile, const Execution& execution)
+    : source_(source),
+      method_(method),
+      targets_per_tile_(std::max<std::size_t>(targets_per_tile, 1)),
+      targets_(target.places()) {
+  if (method != FieldMethod::bilinear) {
+    triangulate(execution);
+  } else if (source.axes() == nullptr) {
+    throw FileError(source.name() +
+                    ": the method bilinear needs a grid along axes of longitude and latitude; "
+                    "linear takes any places");
+  }
+}
+
+// Sites are the sources that take part.
+void PlaceTiles::triangulate(const Execution& execution) {
+  std::vector<Point> sites;
+  const std::vector<LonLat> places = source_.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool is_masked = !source_.mask().empty() && source_.mask()[i] == 0;
+    if (is_masked || std::isnan(places[i].lon_deg) || std::isnan(places[i].lat_deg)) continue;
+    numbers_.push_back(static_cast<Index>(i));
+    sites.push_back(unit_vector(places[i]));
+  }
+  interpolator_.emplace(delaunay(sites, {}, execution));
+}
+
+std::size_t PlaceTiles::num_tiles() const {
+  return (targets_.size() + targets_per_tile_ - 1) / targets_per_tile_;
+}
+
+std::size_t PlaceTiles::num_targets(std::size_t tile) const {
+  return std::min(targets_per_tile_, targets_.size() - tile * targets_per_tile_);
+}
+
+RemapTile PlaceTiles::tile(std::size_t number, const Execution& execution) const {
+  RemapTile result;
+  const std::size_t begin = number * targets_per_tile_;
+  result.targets.resize(num_targets(number));
+  std::iota(result.targets.begin(), result.targets.end(), static_cast<Index>(begin));
+  const auto places = std::span(targets_).subspan(begin, result.targets.size());
+  if (method_ == FieldMethod::bilinear) {
+    const LonLatAxes& axes = *source_.axes();
+    result.weights = bilinear_weights(axes, places, rounding_of(axes));
+    if (!source_.mask().empty()) {
+      result.weights = without_columns(result.weights, source_.mask());
+    }
+    return result;
+  }
+  InterpolationOptions options;
+  options.method = *from_name<Method>(name_of(method_));
+  options.hashes = false;
+  result.weights = interpolator_->weights(unit_vectors(places), options, execution);
+  for (Index& column : result.weights.columns) column = numbers_[column];
+  result.weights.num_columns = source_.num_places();
+  return result;
+}
+
+}  // namespace rondel::formats

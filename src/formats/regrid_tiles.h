@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The weights of a regridding, tile by tile: conservative ones, and those between places.
+//
+// in    two sides
+// out   rows of weights of some targets at a time; each row has the same bytes for any tiles
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "formats/regrid_side.h"
+#include "rondel/delaunay.h"
+#include "rondel/interpolate.h"
+#include "rondel/regrid_files.h"
+#include "rondel/tiled_remap.h"
+
+namespace rondel::formats {
+
+class RegridTiles {
+ public:
+  RegridTiles() = default;
+  RegridTiles(const RegridTiles&) = delete;
+  RegridTiles& operator=(const RegridTiles&) = delete;
+  virtual ~RegridTiles() = default;
+
+  [[nodiscard]] virtual std::size_t num_tiles() const = 0;
+  [[nodiscard]] virtual std::size_t num_targets(std::size_t tile) const = 0;
+  // Computes the weights of a tile. Several threads may call it.
+  [[nodiscard]] virtual RemapTile tile(std::size_t number, const Execution& execution) const = 0;
+};
+
+// Conservative weights of order 1.
+class ConservativeTiles : public RegridTiles {
+ public:
+  ConservativeTiles(const TiledCells& source, const TiledCells& target, TiledRemapOptions options,
+                    const Execution& execution)
+      : remap_(source, target, std::move(options), execution) {}
+
+  [[nodiscard]] std::size_t num_tiles() const override { return remap_.num_tiles(); }
+  [[nodiscard]] std::size_t num_targets(std::size_t tile) const override {
+    return remap_.num_targets(tile);
+  }
+  [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const override {
+    return remap_.tile(number, execution);
+  }
+
+ private:
+  TiledRemap remap_;
+};
+
+// Weights of a method between places: those of consecutive targets at a time.
+class PlaceTiles : public RegridTiles {
+ public:
+  // `source` must outlive this. Throws FileError for bilinear without axes.
+  PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
+             std::size_t targets_per_tile, const Execution& execution);
+
+  [[nodiscard]] std::size_t num_tiles() const override;
+  [[nodiscard]] std::size_t num_targets(std::size_t tile) const override;
+  [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const override;
+
+ private:
+  void triangulate(const Execution& execution);
+
+  const RegridSide& source_;
+  FieldMethod method_;
+  std::size_t targets_per_tile_;
+  std::vector<LonLat> targets_;
+  std::vector<Index> numbers_;  // the source of each site of the triangulation
+  std::optional<Interpolator> interpolator_;
+};
+
+}  // namespace rondel::formats
