@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel-mpi triangulates by the processes that mpirun starts. Only rank 0 prints.
+// rondel-mpi triangulates and regrids by the processes that mpirun starts. Only rank 0 prints.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "regrid.h"
 #include "rondel/distributed.h"
 #include "rondel/mpi.h"
 #include "rondel/version.h"
@@ -124,18 +125,21 @@ bool agree(MpiCommunicator& ranks, const std::string& mine, const std::string& p
 
 int run(int argc, char** argv) {
   MpiCommunicator ranks(MPI_COMM_WORLD);
-  CLI::App tool{"Exact Delaunay triangulations on the sphere, by several processes."};
+  CLI::App tool{
+      "Exact Delaunay triangulations on the sphere, and regridding, by several processes."};
   tool.name("rondel-mpi");
   tool.set_version_flag("--version", std::string("rondel-mpi ") + version);
   tool.require_subcommand(1);
   Arguments arguments;
   add_delaunay(tool, arguments);
+  RegridArguments regridding;
+  const CLI::App& regrid_command = add_regrid(tool, regridding);
   std::string problem;
   std::string mine;
   int asked = failed;  // keeps the exit status when a text was asked for
   try {
     tool.parse(argc, argv);
-    mine = common_part(arguments);
+    mine = regrid_command.parsed() ? common_part(regridding) : common_part(arguments);
   } catch (const CLI::Success& text) {
     mine = text.get_name();
     asked = ranks.rank() == 0 ? tool.exit(text) : done;
@@ -147,7 +151,12 @@ int run(int argc, char** argv) {
   try {
     const auto start = std::chrono::steady_clock::now();
     const unsigned share = share_of_cores();
-    const Execution execution = {.threads = arguments.threads == 0 ? share : arguments.threads};
+    const unsigned threads = std::max(arguments.threads, regridding.threads);  // of one command
+    const Execution execution = {.threads = threads == 0 ? share : threads};
+    if (regrid_command.parsed()) {
+      regrid(ranks, regridding, execution);
+      return done;
+    }
     const Model model = arguments.model == "weighted" ? Model::weighted : Model::projected;
     const auto triangulation =
         delaunay_file(ranks, arguments.sites, arguments.files, {}, {.model = model}, execution);

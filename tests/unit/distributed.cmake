@@ -9,4 +9,5 @@ rondel_add_test(distributed_test
 rondel_add_test(ranks_test
   distributed/failures_test.cpp
   distributed/ranks_test.cpp
+  distributed/regrid_ranks_test.cpp
   LIBS rondel_simulated_ranks rondel_test_support)

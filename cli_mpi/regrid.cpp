@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "regrid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include "rondel/names.h"
+#include "rondel/regrid_ranks.h"
+
+namespace rondel::cli {
+namespace {
+
+// Returns the word of the command line for the name of a value: "conservative-2nd".
+std::string word_of(std::string_view name) {
+  std::string word(name);
+  std::ranges::replace(word, '_', '-');
+  return word;
+}
+
+// Adds an option whose value is the word of a value of an enumeration.
+template <class Value, class Take>
+void add_word(CLI::App& command, const std::string& name, const Take& take,
+              const std::string& what) {
+  std::vector<std::string> words;
+  for (const std::string_view each : names_of<Value>()) words.push_back(word_of(each));
+  command
+      .add_option_function<std::string>(
+          name,
+          [take](const std::string& word) {
+            for (const std::string_view each : names_of<Value>()) {
+              if (word_of(each) == word) take(*from_name<Value>(each));
+            }
+          },
+          what)
+      ->check(CLI::IsMember(words));
+}
+
+std::string history_of(const RegridArguments& arguments) {
+  std::string text = "rondel regrid " + arguments.in + " " + arguments.target;
+  const auto& method = arguments.options.method;
+  if (method) text += " --method " + word_of(name_of(*method));
+  return text;
+}
+
+}  // namespace
+
+CLI::App& add_regrid(CLI::App& tool, RegridArguments& arguments) {
+  CLI::App& command = *tool.add_subcommand("regrid", "Bring the fields of a file to another grid");
+  RegridFileOptions& options = arguments.options;
+  command.add_option("INPUT", arguments.in, "netCDF with fields")->required();
+  command.add_option("TARGET", arguments.target, "The name of a grid, or a file with cells")
+      ->required();
+  command.add_option("--output,-o", arguments.out, "Where to write the fields: .nc .nc4 .csv .npy")
+      ->required();
+  command.add_option("--value", options.names, "A variable; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--source", arguments.source,
+                     "Where the fields are, if INPUT does not say it");
+  add_word<FieldMethod>(
+      command, "--method", [&options](FieldMethod method) { options.method = method; },
+      "As of rondel regrid");
+  add_word<RemapNorm>(
+      command, "--norm", [&options](RemapNorm norm) { options.norm = norm; },
+      "What sums are divided by");
+  command.add_option("--max-missing", options.max_missing, "The share that may lack values")
+      ->check(CLI::Range(0.0, 1.0));
+  add_word<CellOverlap>(
+      command, "--overlap", [&options](CellOverlap overlap) { options.overlap = overlap; },
+      "Cells of one side that overlap");
+  add_word<GridSides>(
+      command, "--sides", [&options](GridSides sides) { options.cells.sides = sides; },
+      "What cells of grids have in the north and south");
+  command.add_option("--memory", options.memory, "The bytes of each process, such as 500M")
+      ->transform(CLI::AsSizeValue(false));
+  command.add_option("--tile", options.cells_per_tile, "The number of cells of a tile")
+      ->check(CLI::Range(1U, 1'000'000'000U));
+  command.add_flag("--resume", options.resume,
+                   "Keep what is computed in OUTPUT.partial, and begin with what is there");
+  command.add_option("--threads", arguments.threads, "Threads of each process; default: its share")
+      ->check(CLI::Range(1U, 1024U));
+  command.add_flag("--json", arguments.is_json, "Print a JSON object");
+  command.add_flag("--quiet", arguments.is_quiet, "Print nothing");
+  return command;
+}
+
+std::string common_part(const RegridArguments& arguments) {
+  const RegridFileOptions& options = arguments.options;
+  std::string text = "regrid\n";
+  const auto add = [&](std::string_view part) { (text += part) += '\n'; };
+  for (const std::string& part :
+       {arguments.in, arguments.target, arguments.out, arguments.source}) {
+    add(part);
+  }
+  for (const std::string& name : options.names) add(name);
+  add(options.method ? name_of(*options.method) : "by kind");
+  add(name_of(options.norm));
+  add(name_of(options.overlap));
+  add(name_of(options.cells.sides));
+  add(std::to_string(options.max_missing));
+  add(std::to_string(options.memory));
+  add(std::to_string(options.cells_per_tile));
+  add(options.resume ? "resume" : "");
+  return text;
+}
+
+void regrid(Communicator& ranks, const RegridArguments& arguments, const Execution& execution) {
+  const auto start = std::chrono::steady_clock::now();
+  RegridFileOptions options = arguments.options;
+  if (!arguments.source.empty()) options.source = FileName{arguments.source, {}};
+  options.history = history_of(arguments);
+  const RegridFileReport report = regrid_file(ranks, {arguments.in, {}}, {arguments.target, {}},
+                                              {arguments.out, {}}, options, execution);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  if (ranks.rank() != 0) return;
+  for (const std::string& remark : report.remarks) {
+    std::fprintf(stderr, "rondel-mpi: %s: %s\n", arguments.in.c_str(), remark.c_str());
+  }
+  const auto number = [](std::uint64_t value) { return std::to_string(value); };
+  if (arguments.is_json) {
+    std::printf(
+        "{\"sources\": %s, \"targets\": %s, \"fields\": %s, \"missing\": %s, \"tiles\": %s, "
+        "\"resumed\": %s, \"ranks\": %d, \"seconds\": %.3f}\n",
+        number(report.sources).c_str(), number(report.targets).c_str(),
+        number(report.fields).c_str(), number(report.missing).c_str(), number(report.tiles).c_str(),
+        number(report.resumed).c_str(), ranks.size(), time.count());
+  } else if (!arguments.is_quiet) {
+    std::printf("%s fields from %s places to %s in %s, by %d processes in %.1f s\n",
+                number(report.fields).c_str(), number(report.sources).c_str(),
+                number(report.targets).c_str(), arguments.out.c_str(), ranks.size(), time.count());
+  }
+}
+
+}  // namespace rondel::cli
