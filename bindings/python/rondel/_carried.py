@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import xarray
 
+from ._blocks import OutputChunks, in_blocks
 from ._coordinates import describes_places, lies_elsewhere, parts_of_grids
 from ._errors import warn_caller
 from ._places import Places
@@ -32,31 +34,39 @@ def carried(
     unmapped: float = np.nan,
     keep_attrs: bool = True,
     how: How = "sum",
+    output_chunks: OutputChunks = None,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
     contributes to, while those that need a missing value have NaN. With the
-    `how` "by_kind" arrays of flags get the value of the largest part.
+    `how` "by_kind" arrays of flags get the value of the largest part. Arrays of Dask stay lazy, in
+    blocks of the targets as `output_chunks` says.
     """
     data = unpacked(data)
     source.require_same(data)
-    without_source = np.diff(weights.indptr) == 0
 
     def applied(values: Any, marker: Any, is_largest: bool) -> Any:
-        dtype = _kind(values)
-        if marker is not None:
-            values = marker(values)
-        leading = values.shape[: values.ndim - len(source.dims)]
-        fields = values.reshape(*leading, source.lon.size)
-        found = weights.apply(
-            fields,
+        apply = partial(
+            _applied_rows,
+            num_dims=len(source.dims),
+            marker=marker,
+            unmapped=unmapped,
             skipna=skipna,
             max_missing=max_missing,
             how="largest_share" if is_largest else "sum",
         )
-        if not np.isnan(unmapped):
-            found[..., without_source] = unmapped
-        shape = (*found.shape[:-1], *wanted.shape)
-        return found.reshape(shape).astype(dtype, copy=False)
+        if not hasattr(values, "__dask_graph__"):
+            found = apply(values, weights)
+            return found.reshape((*found.shape[:-1], *wanted.shape))
+        return in_blocks(
+            values,
+            weights,
+            len(source.dims),
+            wanted.shape,
+            wanted.dims,
+            output_chunks,
+            apply,
+            _kind(values),
+        )
 
     def moved(array: xarray.DataArray) -> xarray.DataArray:
         _require_dimensions(array, source, wanted)
@@ -72,15 +82,10 @@ def carried(
             output_core_dims=[wanted.dims],
             exclude_dims=set(source.dims),
             keep_attrs=keep_attrs,
-            dask="parallelized",
-            output_dtypes=[_kind(array)],
+            dask="allowed",
             kwargs={
                 "marker": missing_marker(array),
                 "is_largest": how == "largest_share" or (how == "by_kind" and _has_flags(array)),
-            },
-            dask_gufunc_kwargs={
-                "output_sizes": dict(zip(wanted.dims, wanted.shape, strict=True)),
-                "allow_rechunk": True,
             },
         )
         # These are of the numbers in a file, and may be of packed ones.
@@ -88,6 +93,7 @@ def carried(
         return found.assign_coords(wanted.coordinates)
 
     _tell_of_coordinates(data, source)
+    _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
         return moved(data)
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
@@ -110,6 +116,28 @@ def carried(
     if not keep_attrs:
         whole = whole.drop_attrs(deep=False)
     return whole[[name for name in data.data_vars if name in whole.data_vars]]
+
+
+def _applied_rows(
+    values: Any,
+    weights: Weights,
+    *,
+    num_dims: int,
+    marker: Any,
+    unmapped: float,
+    **rules: Any,
+) -> Any:
+    """The values at the targets of some rows, in one axis, of fields whose last axes, so many, are
+    those of the source.
+    """
+    dtype = _kind(values)
+    if marker is not None:
+        values = marker(values)
+    leading = values.shape[: values.ndim - num_dims]
+    found = weights.apply(values.reshape(*leading, weights.shape[1]), **rules)
+    if not np.isnan(unmapped):
+        found[..., np.diff(weights.indptr) == 0] = unmapped
+    return found.astype(dtype, copy=False)
 
 
 def _has_flags(array: xarray.DataArray) -> bool:
@@ -138,6 +166,14 @@ def _tell_of_others(
         warn_caller(
             f"left out, as they have only some of the dimensions {names}: {', '.join(parts)}"
         )
+
+
+def _tell_of_chunks(data: Any, output_chunks: OutputChunks) -> None:
+    """Warns of blocks that are wanted of arrays that are in memory."""
+    arrays = [data] if isinstance(data, xarray.DataArray) else data.data_vars.values()
+    if output_chunks is None or any(a.chunks is not None for a in arrays):
+        return
+    warn_caller("output_chunks has no effect on arrays that are not of Dask")
 
 
 def _tell_of_coordinates(data: Any, source: Places) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Any, cast
 
+from ._blocks import OutputChunks
 from ._regrid_files import FieldMethod
 from ._regridder import Regridder, RegridMethod
 from ._types import Progress
@@ -29,6 +30,7 @@ def regrid(
     lon_out: Hashable | None = None,
     lat_out: Hashable | None = None,
     max_missing: float = 0.5,
+    output_chunks: OutputChunks = None,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Any:
@@ -53,6 +55,9 @@ def regrid(
     max_missing : float, optional
         The share of a target's weights for which values may be missing, from 0 to 1; by default
         0.5.
+    output_chunks : int, tuple, dict or str, optional
+        The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
+        `Regridder` takes them; by default 'auto'.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -99,5 +104,6 @@ def regrid(
         keep_attrs=True,
         skipna=True,
         na_thres=max_missing,
+        output_chunks=output_chunks,
         how="largest_share" if method == "largest_share" else "by_kind" if is_of_cells else "sum",
     )

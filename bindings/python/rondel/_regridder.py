@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_threads, point_set_hash
+from ._blocks import OutputChunks
 from ._geo import Path
 from ._geometries import Invalid, require_rules
 from ._remap import Remap, remap
@@ -219,6 +220,7 @@ class Regridder(Described):
         skipna: bool = False,
         na_thres: float = 1.0,
         how: Literal["sum", "largest_share", "by_kind"] = "sum",
+        output_chunks: OutputChunks = None,
     ) -> Any:
         """Regrids fields to the target grid.
 
@@ -242,6 +244,12 @@ class Regridder(Described):
             The weighted sum (default); the value that the largest part of a target has, for
             categories; or the latter for arrays with the attribute `flag_values` or
             `flag_meanings`, and sums for the others.
+        output_chunks : int, tuple, dict or str, optional
+            The lengths of the blocks along the dimensions of the target, for arrays of Dask: one
+            for all, one for each, by their names, or 'auto' (default): as Dask's option
+            ``array.chunk-size`` allows. A block needs the weights of its own targets and whole
+            fields at the source, whose other dimensions keep their chunks. No chunks change a
+            value.
 
         Returns
         -------
@@ -273,6 +281,7 @@ class Regridder(Described):
             "unmapped": self._unmapped,
             "keep_attrs": keep_attrs,
             "how": how,
+            "output_chunks": output_chunks,
         }
         source = self._source
         if isinstance(data, xarray.Dataset):
