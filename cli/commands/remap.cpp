@@ -15,14 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "cell_sides.h"
 #include "job.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/cell_set.h"
-#include "rondel/delaunay.h"
-#include "rondel/read_cells.h"
 #include "rondel/weight_files.h"
-#include "targets.h"
 
 namespace rondel::cli {
 namespace {
@@ -39,70 +37,6 @@ struct RemapCommandOptions {
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
 };
-
-// The forms of cells that `rondel remap` reads.
-enum class CellForm { grid, netcdf, polygons, sites };
-
-// Returns the form of INPUT or TARGET, by its name and, for netCDF, its first bytes.
-CellForm form_of(const FileName& file) {
-  if (NamedGrid::is_name(file.path)) return CellForm::grid;
-  if (can_read_cells(file)) return CellForm::netcdf;
-  const std::string format = format_of(file);
-  return format == "geojson" || format == "json" ? CellForm::polygons : CellForm::sites;
-}
-
-// Returns the cells of a named grid. Throws UsageError for a grid that is not possible.
-CellSet cells_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
-  try {
-    return grid_of(name, options.cells.sides).cells(job.execution());
-  } catch (const InvalidInput& error) {
-    throw UsageError(name + ": " + error.what());
-  }
-}
-
-// Returns the cells of netCDF or polygons, in the order of the file, and prints the remarks of the
-// reader. Errors name features by their names, and cells by their numbers.
-CellSet cells_of_file(const FileName& file, const RemapCommandOptions& options, const Job& job) {
-  CellFileOptions read = options.cells;
-  // Polygons that overlap are found when they are read, where the message can name both.
-  if (options.remap.overlap == CellOverlap::error) read.overlap = PolygonOverlap::error;
-  CellSet cells = CellSet::read(file, read, job.execution());
-  if (cells.num_cells() == 0) throw FileError(cells.facts().name + ": there are no cells");
-  tell(cells.facts().name, cells.facts().remarks);
-  return cells;
-}
-
-// Sites are read as points and have the cells of their Voronoi diagram, or with weights power
-// cells. The places of the cells are the sites, as given or as they are seen from the center.
-// The index of the cells counts sites; one without a cell (hidden, duplicate) gets no weights.
-CellSet cells_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
-  ReadOptions read = options.common.read;
-  read.keep_columns = false;
-  const SiteTable table = job.read(file, read);
-  const Triangulation triangulation = job.triangulate(table);
-  const CellSet cells = CellSet::voronoi(triangulation, job.execution());
-  CellFacts facts = cells.facts();
-  facts.name = table.name;
-  if (table.sites.empty()) throw FileError(table.name + ": " + no_points);
-  const Point& center = triangulation.sphere().center;
-  if (table.is_lonlat() && center == Point{}) {
-    // Given longitudes and latitudes are kept to the digit.
-    facts.centers = table.positions;
-  } else {
-    std::vector<Point> seen = table.sites;
-    for (Point& site : seen) site = {site.x - center.x, site.y - center.y, site.z - center.z};
-    facts.centers = lonlats(seen);
-  }
-  return cells.with_facts(std::move(facts));
-}
-
-// Reads the cells of a side in the form that its file has.
-CellSet cells_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
-  const CellForm form = form_of(file);
-  if (form == CellForm::grid) return cells_of_grid(file.path, options, job);
-  return form == CellForm::sites ? cells_of_sites(file, options, job)
-                                 : cells_of_file(file, options, job);
-}
 
 // Prints the numbers of cells and weights; `missing` counts target cells without any source.
 void report(Job& job, const WeightFile& file, const std::string& output) {
@@ -142,9 +76,10 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   Job job(common);
   CellSet source;
   CellSet target;
+  const CellSideOptions read{options.cells, options.remap.overlap, common.read};
   job.time(Stage::dual, [&] {
-    source = cells_of(options.source_file(), options, job);
-    target = cells_of(options.target_file(), options, job);
+    source = cells_of_side(options.source_file(), read, job);
+    target = cells_of_side(options.target_file(), read, job);
   });
   WeightFile file;
   job.time(Stage::query, [&] {

@@ -49,12 +49,16 @@ struct WeightReport {
 struct WeightCheckOptions {
   /// Whether negative weights are right for any method.
   bool allow_negative = false;
+  /// Whether the weights are conservative although the file names no method.
+  bool is_conservative = false;
 };
 
-/// Checks weights of this library or of another program.
+/// Checks weights of this library or of another program, by what the file says of the cells.
+/// compare_weights() (rondel/weight_comparison.h) holds them against the cells themselves.
 ///
 /// | kind | what is wrong |
 /// | --- | --- |
+/// | `numbering` | the numbers of sources or targets count from 0 in a format that counts from 1 |
 /// | `not finite` | a weight is infinite or not a number |
 /// | `repeated` | a row has two entries of one column |
 /// | `row sum` | the entries of a row do not add up to 1 or, normalized by destarea, to the fraction of the target; |

@@ -33,6 +33,9 @@ struct WeightSide {
   std::vector<Column> columns;
   /// The axes of a grid along axes, in place of `points`; only files of fields take them.
   LonLatAxes axes = {};
+  /// True if the numbers of this side counted from 0 in a file whose format counts from 1
+  /// (WeightReadOptions::accepts_zero).
+  bool counts_from_zero = false;
 };
 
 /// Weights, and what a file says about them.
@@ -63,6 +66,16 @@ struct WeightFile {
 RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
                               const NetcdfOptions& netcdf = {});
 
+/// How weights are read.
+struct WeightReadOptions {
+  /// The numbers of sources and targets, for files that do not have them: those of YAC. 0: not known.
+  std::uint64_t num_sources = 0;
+  std::uint64_t num_targets = 0;
+  /// Whether numbers of sources, or of targets, may count from 0 in formats that count from 1: they
+  /// do if there is a 0 among them and their largest is below the number of the points.
+  bool accepts_zero = false;
+};
+
 /// Reads weights that write_weights() or another program wrote; the variables of netCDF tell which
 /// format it is. A file that has another format than the one named is refused. Entries may have any order: they are sorted into rows, and keep the order of the
 /// file within a row. Areas and fractions that are all 0, masks that are all 1, and cells of one
@@ -71,8 +84,11 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
 /// Conservative weights of SCRIP with the normalization "none" are areas: they are divided by the
 /// areas of the targets and get the normalization "destarea", as WeightFile::remarks says. Files of
 /// write_weights() hold means, whatever their normalization is.
-/// \throws FileError also if a target of such weights has no area in the file, and for longitudes and
-///         latitudes that are neither a place nor missing; these become NaN.
-RONDEL_API WeightFile read_weights(const FileName& file);
+/// YAC's own files (`yac weight file 1.0`) have links of one field of sources, and no description of
+/// the places. What they say of targets with fixed values is left out with a remark.
+/// \throws FileError also if a target of such weights has no area in the file, for longitudes and
+///         latitudes that are neither a place nor missing (these become NaN), and for a file of YAC
+///         if the options do not have both numbers.
+RONDEL_API WeightFile read_weights(const FileName& file, const WeightReadOptions& options = {});
 
 }  // namespace rondel

@@ -81,7 +81,7 @@ void write_weights(const FileName& file, const WeightFile& content, const Netcdf
   });
 }
 
-WeightFile read_weights(const FileName& file) {
+WeightFile read_weights(const FileName& file, const WeightReadOptions& options) {
   const system::ArithmeticScope arithmetic;
   const std::string ending = io::ending(file);
   const bool is_known = std::ranges::find(weight_endings, ending) != weight_endings.end();
@@ -92,13 +92,14 @@ WeightFile read_weights(const FileName& file) {
   return io::in_file(bytes.name(), [&] {
     const bool is_netcdf = io::is_netcdf(bytes.head());
     if (is_netcdf && file.format.empty()) {
-      return formats::read_weights_netcdf(io::NetcdfReader(bytes), {});
+      return formats::read_weights_netcdf(io::NetcdfReader(bytes), {}, options);
     }
     if (!is_known) io::throw_unknown_ending(file, "weights are read from", weight_endings);
     if (ending == ".npz" && is_netcdf) throw io::BadValue("the file is netCDF, not npz");
     if (ending == ".npz") return formats::read_weights_npz(bytes.text());
     // Where the file is no netCDF, this throws with the reason.
-    return formats::read_weights_netcdf(io::NetcdfReader(bytes), format_of({"", file.format}));
+    return formats::read_weights_netcdf(io::NetcdfReader(bytes), format_of({"", file.format}),
+                                        options);
   });
 }
 

@@ -34,13 +34,17 @@ void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job);
 
 // Each of these reads the content of a file. They throw BadValue if it is not as the format says.
 // `format` is "esmf" or "scrip" if the file must have that one of the netCDF formats.
-WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format);
+WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format,
+                               const WeightReadOptions& options);
 WeightFile read_weights_npz(std::string_view bytes);
 
 // Each of these reads one of the netCDF formats; read_weights_netcdf() calls the one whose
 // variables the file has.
-WeightFile read_esmf(const io::NetcdfReader& file);
-WeightFile read_scrip(const io::NetcdfReader& file);
+WeightFile read_esmf(const io::NetcdfReader& file, const WeightReadOptions& options);
+WeightFile read_scrip(const io::NetcdfReader& file, const WeightReadOptions& options);
+WeightFile read_yac(const io::NetcdfReader& file, const WeightReadOptions& options);
+// True if a file says that it has weights of YAC.
+bool is_of_yac(const io::NetcdfReader& file);
 
 // Writes the row of each entry, counted from 1, which both netCDF formats have in place of offsets.
 template <typename T>
@@ -133,11 +137,18 @@ void write_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide&
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side);
 
-// Sorts entries in any order into compressed rows. Rows and columns count from 1. Throws BadValue
-// if one is out of range.
-Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std::int64_t> columns,
-                        std::span<const double> values, std::size_t num_rows,
-                        std::size_t num_columns);
+// The entries of a file in its order; rows and columns count from 1, or from 0 where that is
+// accepted.
+struct WeightEntries {
+  std::vector<std::int64_t> rows;
+  std::vector<std::int64_t> columns;
+  std::vector<double> values;
+};
+
+// Sorts entries in any order into the compressed rows of `content`, which may also learn that
+// numbers count from 0. Throws BadValue if a number is out of range.
+void set_entries(const WeightEntries& entries, std::size_t num_rows, std::size_t num_columns,
+                 const WeightReadOptions& options, WeightFile& content);
 
 // Returns the size of a dimension. Throws BadValue if it is missing or larger than the file could
 // hold.

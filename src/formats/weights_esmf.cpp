@@ -81,15 +81,15 @@ void write_esmf(io::AtomicFile& file, const WeightsToWrite& job) {
   out.finish();
 }
 
-WeightFile read_esmf(const io::NetcdfReader& file) {
+WeightFile read_esmf(const io::NetcdfReader& file, const WeightReadOptions& options) {
   WeightFile content;
   const std::size_t num_sources = dimension_of(file, "n_a");
   const std::size_t num_targets = dimension_of(file, "n_b");
   read_side(file, source_names(), num_sources, content.source);
   read_side(file, target_names(), num_targets, content.target);
-  content.weights =
-      rows_of_entries(file.integers(file.require("row")), file.integers(file.require("col")),
-                      meant_numbers(file, file.require("S")), num_targets, num_sources);
+  set_entries({file.integers(file.require("row")), file.integers(file.require("col")),
+               meant_numbers(file, file.require("S"))},
+              num_targets, num_sources, options, content);
   read_own_attributes(file, content);
   return content;
 }

@@ -138,6 +138,12 @@ void read_corners(const io::NetcdfReader& file, const SideNames& names, std::siz
   for (std::size_t i = 0; i < lon.size(); ++i) side.corners[i] = {lon[i], lat[i]};
 }
 
+// True if numbers have a 0 and end below the number of points.
+bool count_from_zero(std::span<const std::int64_t> numbers, std::size_t size) {
+  if (std::ranges::find(numbers, 0) == numbers.end()) return false;
+  return static_cast<std::uint64_t>(std::ranges::max(numbers)) < size;
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> shape_or(const WeightSide& side, std::size_t size) {
@@ -236,39 +242,44 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
   }
 }
 
-Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std::int64_t> columns,
-                        std::span<const double> values, std::size_t num_rows,
-                        std::size_t num_columns) {
-  const std::size_t num_entries = values.size();
-  if (rows.size() != num_entries || columns.size() != num_entries) {
-    throw io::BadValue(std::to_string(rows.size()) + " rows and " + std::to_string(columns.size()) +
-                       " columns for " + std::to_string(num_entries) + " weights");
+void set_entries(const WeightEntries& entries, std::size_t num_rows, std::size_t num_columns,
+                 const WeightReadOptions& options, WeightFile& content) {
+  const std::size_t num_entries = entries.values.size();
+  if (entries.rows.size() != num_entries || entries.columns.size() != num_entries) {
+    throw io::BadValue(std::to_string(entries.rows.size()) + " rows and " +
+                       std::to_string(entries.columns.size()) + " columns for " +
+                       std::to_string(num_entries) + " weights");
   }
   if (num_columns > no_index) throw io::BadValue("more than 2^32 - 1 sources");
-  const auto require = [](const char* what, std::int64_t index, std::size_t size, std::size_t k) {
-    if (index >= 1 && static_cast<std::uint64_t>(index) <= size) return;
+  content.target.counts_from_zero = options.accepts_zero && count_from_zero(entries.rows, num_rows);
+  content.source.counts_from_zero =
+      options.accepts_zero && count_from_zero(entries.columns, num_columns);
+  const std::int64_t first_row = content.target.counts_from_zero ? 0 : 1;
+  const std::int64_t first_column = content.source.counts_from_zero ? 0 : 1;
+  const auto require = [](const char* what, std::int64_t index, std::int64_t first,
+                          std::size_t size, std::size_t k) {
+    if (index >= first && static_cast<std::uint64_t>(index - first) < size) return;
     throw io::BadValue("entry " + std::to_string(k) + ": " + what + " " + std::to_string(index) +
                        " is not in 1 to " + std::to_string(size));
   };
-  Weights weights;
+  Weights& weights = content.weights;
   weights.num_columns = num_columns;
   // A counting sort: the first pass counts the entries of each row, the second one places them.
   // Entries of a row stay in their order.
   system::RowPlaces places(num_rows);
   for (std::size_t k = 0; k < num_entries; ++k) {
-    require("row", rows[k], num_rows, k);
-    require("column", columns[k], num_columns, k);
-    places.count(static_cast<std::size_t>(rows[k] - 1));
+    require("row", entries.rows[k], first_row, num_rows, k);
+    require("column", entries.columns[k], first_column, num_columns, k);
+    places.count(static_cast<std::size_t>(entries.rows[k] - first_row));
   }
   weights.columns.resize(places.sum());
   weights.values.resize(num_entries);
   for (std::size_t k = 0; k < num_entries; ++k) {
-    const std::uint64_t at = places.place(static_cast<std::size_t>(rows[k] - 1));
-    weights.columns[at] = static_cast<Index>(columns[k] - 1);
-    weights.values[at] = values[k];
+    const std::uint64_t at = places.place(static_cast<std::size_t>(entries.rows[k] - first_row));
+    weights.columns[at] = static_cast<Index>(entries.columns[k] - first_column);
+    weights.values[at] = entries.values[k];
   }
   weights.offsets = std::move(places).offsets();
-  return weights;
 }
 
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
@@ -287,7 +298,12 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
 }
 
 // Picks the format by the variable that holds the weights.
-WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format) {
+WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view format,
+                               const WeightReadOptions& options) {
+  if (is_of_yac(file)) {
+    if (format.empty()) return read_yac(file, options);
+    throw io::BadValue("the weights are those of YAC, not " + std::string(format));
+  }
   const bool is_esmf = file.find("S") != nullptr;
   const bool is_scrip = !is_esmf && file.find("remap_matrix") != nullptr;
   if (is_esmf && format == "scrip") {
@@ -296,8 +312,8 @@ WeightFile read_weights_netcdf(const io::NetcdfReader& file, std::string_view fo
   if (is_scrip && format == "esmf") {
     throw io::BadValue(R"(the weights are those of SCRIP (variable "remap_matrix"), not esmf)");
   }
-  if (is_esmf) return read_esmf(file);
-  if (is_scrip) return read_scrip(file);
+  if (is_esmf) return read_esmf(file, options);
+  if (is_scrip) return read_scrip(file, options);
   throw io::BadValue(
       R"(no file of weights: neither variable "S" (ESMF) nor "remap_matrix" (SCRIP))");
 }

@@ -134,7 +134,7 @@ void write_scrip(io::AtomicFile& file, const WeightsToWrite& job) {
   out.finish();
 }
 
-WeightFile read_scrip(const io::NetcdfReader& file) {
+WeightFile read_scrip(const io::NetcdfReader& file, const WeightReadOptions& options) {
   WeightFile content;
   const std::size_t num_sources = dimension_of(file, "src_grid_size");
   const std::size_t num_targets = dimension_of(file, "dst_grid_size");
@@ -146,9 +146,9 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
     throw io::BadValue("remap_matrix has " + std::to_string(matrix.shape[1]) +
                        " weights a link, of which all but the first need gradients");
   }
-  content.weights = rows_of_entries(file.integers(file.require("dst_address")),
-                                    file.integers(file.require("src_address")),
-                                    meant_numbers(file, matrix), num_targets, num_sources);
+  set_entries({file.integers(file.require("dst_address")),
+               file.integers(file.require("src_address")), meant_numbers(file, matrix)},
+              num_targets, num_sources, options, content);
   read_own_attributes(file, content);
   divide_by_areas(file, content);
   return content;

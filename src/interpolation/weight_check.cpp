@@ -5,93 +5,27 @@
 #include "rondel/weight_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <numbers>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "interpolation/fault_counter.h"
+#include "interpolation/weight_method.h"
 #include "rondel/delaunay.h"
-#include "system/message_text.h"
 
 namespace rondel {
 namespace interpolation {
 namespace {
-
-// A sum may differ from the wanted one by the first number, and by the rounding errors of as many
-// areas as it has terms, relative to the area of the cell.
-constexpr double min_tolerance = 1e-9;
-constexpr double error_of_area = 8 * std::numbers::pi * 0x1p-52;
-
-double tolerance_of(std::size_t num_entries, const std::vector<double>& areas, std::size_t cell) {
-  const double area = areas.empty() ? 0 : areas[cell];
-  if (!(area > 0)) return min_tolerance;
-  return min_tolerance + static_cast<double>(num_entries + 1) * error_of_area / area;
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
-bool has_word(const std::string& text, std::string_view word) {
-  return text.find(word) != std::string::npos;
-}
-
-// The properties of weights that the name of their method implies.
-struct MethodFacts {
-  explicit MethodFacts(const std::string& method) {
-    const std::string name = lower_case(method);
-    is_conservative = has_word(name, "conserv");
-    const bool is_higher = has_word(name, "second") || has_word(name, "2nd") ||
-                           has_word(name, "higher") || has_word(name, "order 2");
-    constexpr std::array<std::string_view, 5> averages = {"nearest", "linear", "laplace", "sibson",
-                                                          "largest"};
-    const bool is_average = std::ranges::any_of(
-        averages, [&](std::string_view word) { return name.starts_with(word); });
-    is_never_negative = (is_conservative && !is_higher) || is_average;
-    gives_sources_away =
-        has_word(name, "d2s") || has_word(name, "dtos") || has_word(name, "destination to source");
-  }
-  bool is_conservative = false;
-  bool gives_sources_away = false;  // each source goes to one target, whose value is the sum of
-                                    // what it receives
-  bool is_never_negative = false;
-};
-
-// Counts the faults of one kind and keeps the first one.
-class FaultCounter {
- public:
-  FaultCounter(std::string kind, std::string one, std::string many)
-      : kind_(std::move(kind)), one_(std::move(one)), many_(std::move(many)) {}
-
-  void add(const std::string& place, double value) {
-    if (count_++ == 0) first_ = place + ": " + system::shortest_text(value);
-  }
-  void move_to(std::vector<WeightFault>& faults) const {
-    if (count_ == 0) return;
-    const std::string text = std::to_string(count_) + ' ' + (count_ == 1 ? one_ : many_);
-    faults.push_back({kind_, count_, text + " (" + (count_ == 1 ? "" : "first ") + first_ + ")"});
-  }
-
- private:
-  std::string kind_, one_, many_;
-  std::size_t count_ = 0;
-  std::string first_;
-};
 
 class WeightChecker {
  public:
   WeightChecker(const WeightFile& file, const WeightCheckOptions& options)
       : file_(file),
         weights_(file.weights),
-        method_(file.method),
+        method_(file.method.empty() && options.is_conservative ? "conservative" : file.method),
         allow_negative_(options.allow_negative || !method_.is_never_negative) {
     report_.sums_are_of_columns = method_.gives_sources_away;
     report_.sums_are_fractions = file.normalization == "destarea" &&
@@ -116,6 +50,7 @@ class WeightChecker {
     check_side("target", file_.target, entries_of_rows());
     check_side("source", file_.source, entries_of_column_);
     check_masks();
+    check_numbers();
     for (const FaultCounter& faults :
          {not_finite_, repeated_, negative_, row_sums_, column_sums_, missing_}) {
       faults.move_to(report_.faults);
@@ -129,6 +64,16 @@ class WeightChecker {
  private:
   [[nodiscard]] std::string place_of(std::size_t row, std::uint64_t k) const {
     return "target " + std::to_string(row) + ", source " + std::to_string(weights_.columns[k]);
+  }
+
+  void check_numbers() {
+    for (const auto& [side, word] :
+         {std::pair(&file_.source, "source"), {&file_.target, "target"}}) {
+      if (!side->counts_from_zero) continue;
+      report_.faults.push_back({"numbering", 1,
+                                std::string("the numbers of ") + word +
+                                    "s count from 0, where the format counts from 1"});
+    }
   }
 
   void check_rows() {

@@ -111,6 +111,24 @@ def entries_of(name, folder):
     return {(row, column): value for row, column, value in zip(rows, columns, values)}
 
 
+def check_planted(sides, folder):
+    """A weight of CDO's that is changed in its file is found, with its target and its source."""
+    text = run("ncdump", "-p", "9,17", "cdo.nc", folder=folder)
+    begin = text.index("remap_matrix =") + len("remap_matrix =")
+    end = text.index(";", begin)
+    numbers = text[begin:end].split(",")
+    numbers[77] = " " + repr(float(numbers[77]) + 0.125)
+    (folder / "planted.cdl").write_text(text[:begin] + ",".join(numbers) + text[end:], encoding="utf-8")
+    run("ncgen", "-k", "nc6", "-o", "planted.nc", "planted.cdl", folder=folder)
+    done = subprocess.run([TOOL, "check-weights", "planted.nc", *sides, "--json"], cwd=folder, capture_output=True,
+                          text=True, check=False)
+    assert done.returncode == 1, done.stderr
+    (row,) = json.loads(done.stdout)["exact"]["worst_rows"]
+    assert row["target"] == numbers_of("cdo.nc", "dst_address", folder, "%d")[77] - 1, row
+    assert row["worst"]["source"] == numbers_of("cdo.nc", "src_address", folder, "%d")[77] - 1, row
+    assert abs(row["error"] - 0.125) < 1e-9, row
+
+
 def check_conservative(folder):
     """CDO's conservative weights, which it computes with cells between parallels too, from its own files of cells."""
     run("cdo", "-s", "-f", "nc", "-const,1,global_9", "grid.nc", folder=folder)
@@ -125,6 +143,13 @@ def check_conservative(folder):
         for entry in theirs.keys() | ours.keys():
             difference = abs(theirs.get(entry, 0) - ours.get(entry, 0))
             assert difference <= 1e-11, (source, entry, difference)
+        sides = ("--source", f"{source}.nc", "--target", f"{target}.nc")
+        report = json.loads(run(TOOL, "check-weights", "cdo.nc", *sides, "--json", folder=folder))
+        exact = report["exact"]
+        assert report["valid"], report["reason"]
+        assert exact["pieces"] == len(ours), exact
+        assert exact["max_error"] <= 1e-11, exact
+        check_planted(sides, folder)
     # And CDO applies ours.
     run("cdo", "-s", "-f", "nc", "-setgridtype,unstructured", "-random,gme12,7", "random.nc", folder=folder)
     run(TOOL, "remap", "hexagons.nc", "grid.nc", "--order", "2", "-o", "own.nc", "--format", "scrip",

@@ -22,6 +22,7 @@
 #include "rondel/read_cells.h"
 #include "rondel/remap.h"
 #include "rondel/weight_check.h"
+#include "rondel/weight_comparison.h"
 #include "rondel/weight_files.h"
 
 namespace rondel::fuzz {
@@ -144,6 +145,20 @@ void test_cells(const CellSet& cells, const CellTable& table) {
           "a cell has as many corners as others");
 }
 
+// Right weights are found right; of changed ones as many are wrong as were changed.
+void test_comparison(const CellSet& cells, const Remap& same, std::string_view bytes) {
+  WeightFile file = weight_file(same);
+  const WeightComparison right = compare_weights(file, cells, cells);
+  require(right.faults.empty() && right.max_error < 1e-9, "weights of cells are right");
+  require(right.norm == WeightNorm::either, "each target is covered");
+  const auto at = static_cast<unsigned char>(bytes[0]) % file.weights.values.size();
+  file.weights.values[at] = bytes.size() > 2 ? static_cast<double>(bytes[2]) / 64 : 0.5;
+  if (std::abs(file.weights.values[at] - 1) < 0.01) return;
+  const WeightComparison wrong = compare_weights(file, cells, cells);
+  require(wrong.count("wrong weight") + wrong.count("missing piece") == 1, "one weight is wrong");
+  require(ErrorDistribution::end_of(0) == 1e-16, "the first decade");
+}
+
 // The centers of a grid of the sphere are between its lines.
 void test_global_grid(std::string_view bytes) {
   if (bytes.size() < 2) return;
@@ -158,6 +173,7 @@ void test_global_grid(std::string_view bytes) {
   }
   const Remap same = remap(cells, cells);
   require(weight_file(same).target.areas == same.target_areas, "a file has the areas");
+  test_comparison(cells, same, bytes);
 }
 
 void test_weights(std::string_view bytes) {

@@ -21,7 +21,8 @@ CONVENTIONS = {
     "OASIS": ("oasis.cpp", ['".msk"']),
     "Exodus": ("exodus.cpp", ["connect1", "elem_num_map", "global_id"]),
     "weights of ESMF": ("weights_esmf.cpp", ['"col"', '"n_s"']),
-    "weights of SCRIP": ("weights_scrip.cpp", ["src_address", "dst_address"]),
+    "weights of SCRIP": ("weights_scrip.cpp weights_yac.cpp", ["src_address", "dst_address"]),  # YAC has its links
+    "weights of YAC": ("weights_yac.cpp", ["yac weight file"]),
 }
 RECOGNIZES = "conventions.cpp"
 COMPUTE = ["map", "interpolation", "overlay", "proximity", "meshing"]

@@ -36,6 +36,7 @@ rondel_add_test(overlay_test
   overlay/touching_test.cpp
   overlay/trial.cpp
   overlay/valid_test.cpp
+  overlay/weight_comparison_test.cpp
   overlay/whole_test.cpp
   overlay/written_test.cpp
   LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)

@@ -112,5 +112,6 @@ NB_MODULE(_core, module) {
   rondel::python::add_constrained(module);
   rondel::python::add_dynamic_constrained(module);
   rondel::python::add_regrid_files(module);
+  rondel::python::add_weight_checks(module);
   rondel::python::add_weight_files(module);
 }

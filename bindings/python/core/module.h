@@ -39,6 +39,7 @@ void add_regions(nanobind::module_& module);
 void add_remap(nanobind::module_& module);
 void add_triangle_meshes(nanobind::module_& module);
 void add_regrid_files(nanobind::module_& module);
+void add_weight_checks(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);
 
 // Returns the options of a build.

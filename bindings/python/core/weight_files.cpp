@@ -3,10 +3,13 @@
 
 #include "rondel/weight_files.h"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstdint>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +41,19 @@ void add_weight_files(nb::module_& module) {
   add_fixed_array<double, &WeightSide::points>(side, "centers");
   add_fixed_array<double, &WeightSide::corners>(side, "corners");
   nb::class_<WeightFile>(module, "WeightFile")
+      .def(
+          "__init__",
+          [](WeightFile* self, const Weights& weights) {
+            new (self) WeightFile();
+            self->weights = weights;
+          },
+          nb::arg("weights"))
+      .def_prop_ro(
+          "shape",
+          [](const WeightFile& self) {
+            const Weights& weights = self.weights;
+            return std::array{weights.num_rows(), weights.num_columns, weights.values.size()};
+          })
       .def("take_weights", [](WeightFile& self) { return std::move(self.weights); })
       .def_ro("source", &WeightFile::source)
       .def_ro("target", &WeightFile::target)

@@ -16,6 +16,8 @@ feature_cells
     The cells of lines and polygons: which of them is nearest.
 remap
     Conservative weights between two sets of cells.
+check_weights
+    What is wrong with weights, of whichever program, by themselves and by the cells' areas.
 lonlat_grid, polygons
     Cells for it: a grid of the whole sphere, and polygons of files and libraries.
 overlay, intersection, union, union_all, difference, symmetric_difference
@@ -133,6 +135,13 @@ from ._remap import Remap, remap
 from ._simplify import simplify
 from ._validity import is_valid, make_valid, validity_reason
 from ._voronoi import SphericalVoronoi
+from ._weight_checks import (
+    ComparedRow,
+    WeightComparison,
+    WeightFault,
+    WeightReport,
+    check_weights,
+)
 from ._weights import Weights, read_weights
 
 if TYPE_CHECKING:
@@ -149,6 +158,7 @@ __all__ = [
     "CellSet",
     "Cells",
     "CheckReport",
+    "ComparedRow",
     "ConstrainedDelaunay",
     "ConstrainedSnapshot",
     "ConvexHull",
@@ -170,11 +180,15 @@ __all__ = [
     "SphericalDelaunay",
     "SphericalInterpolator",
     "SphericalVoronoi",
+    "WeightComparison",
+    "WeightFault",
+    "WeightReport",
     "Weights",
     "Where",
     "area",
     "buffer",
     "check_constrained",
+    "check_weights",
     "constrained_delaunay",
     "contains",
     "convex_hull",

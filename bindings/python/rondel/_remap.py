@@ -22,7 +22,6 @@ from ._voronoi_mesh import Mesh
 from ._weight_files import netcdf_name
 from ._weights import Weights
 
-
 class Remap(Described):
     """The result of `remap`: weights between two sets of cells, and a description of both sets.
 
@@ -82,13 +81,16 @@ class Remap(Described):
         Weights.to_netcdf : the same with centers that the caller gives.
 
         """
-        name = netcdf_name(path, format)
+        _core.write_remap(netcdf_name(path, format), format, self._made())
+
+    def _made(self) -> _core.Remap:
+        """The same as the library has it."""
         made = _core.Remap()
         made.source, made.target = self.source._placed(), self.target._placed()
         made.order, made.norm, made.weights = self._order, self._norm, self.weights._weights
         for member in ("source_areas", "target_areas", "source_fractions", "target_fractions"):
             setattr(made, member, getattr(self, member))
-        _core.write_remap(name, format, made)
+        return made
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
@@ -177,7 +179,7 @@ def remap(
     """
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
-    cells = [_as_cell_set(side, threads) for side in (source, target)]
+    cells = [as_cell_set(side, threads) for side in (source, target)]
     masks = (
         _as_mask(source_mask, "source_mask", cells[0]),
         _as_mask(target_mask, "target_mask", cells[1]),
@@ -199,7 +201,7 @@ def remap(
     return Remap(made, source, target, norm, int(order))
 
 
-def _as_cell_set(cells: Any, threads: int | None) -> CellSet:
+def as_cell_set(cells: Any, threads: int | None) -> CellSet:
     """The cells of what has cells: of diagrams, the faces of triangulations, those of meshes."""
     if isinstance(cells, CellSet):
         return cells

@@ -328,6 +328,74 @@ TEST(weight_files, of_scrip_with_gradients_are_refused) {
       << message_with(3);
 }
 
+// Links as YAC writes them, of two sources and three targets.
+std::string file_of_yac(const TemporaryDirectory& directory, double fields) {
+  MeshWriter file;
+  file.add_attribute("version", "yac weight file 1.0");
+  file.add_whole("src_address", {{"num_links", 3}}, {1, 2, 2});
+  file.add_whole("dst_address", {{"num_links", 3}}, {1, 1, 3});
+  file.add("remap_matrix", {{"num_links", 3}, {"num_wgts", 1}}, {0.25, 0.75, 1});
+  std::vector<double> links(static_cast<std::size_t>(fields), 0.0);
+  links[0] = 3;
+  file.add_whole("num_links_per_src_field", {{"num_src_fields", links.size()}}, links);
+  file.write(directory.file("yac.nc"));
+  return directory.file("yac.nc");
+}
+
+TEST(weight_files, of_yac_need_the_numbers_of_places) {
+  const TemporaryDirectory directory;
+  const std::string path = file_of_yac(directory, 1);
+  EXPECT_EQ(message_of([&] { (void)read_weights(path); }),
+            path +
+                ": a file of weights of YAC does not say how many sources and targets there "
+                "are: the grids are needed as well");
+  const WeightFile read = read_weights(path, {.num_sources = 2, .num_targets = 4});
+  EXPECT_EQ(read.weights.offsets, (std::vector<std::uint64_t>{0, 2, 2, 3, 3}));
+  EXPECT_EQ(read.weights.columns, (std::vector<Index>{0, 1, 1}));
+  EXPECT_EQ(read.weights.values, (std::vector<double>{0.25, 0.75, 1}));
+  EXPECT_EQ(read.weights.num_columns, 2U);
+  EXPECT_EQ(message_of([&] { (void)read_weights(path, {.num_sources = 2, .num_targets = 2}); }),
+            path + ": entry 2: row 3 is not in 1 to 2");
+  EXPECT_EQ(message_of([&] { (void)read_weights(FileName(path, "esmf")); }),
+            path + ": the weights are those of YAC, not esmf");
+  EXPECT_EQ(message_of([&] {
+              (void)read_weights(file_of_yac(directory, 2), {.num_sources = 2, .num_targets = 4});
+            }),
+            path + ": the links are of 2 fields of sources where those of one are needed");
+}
+
+TEST(weight_files, may_count_from_zero_where_that_is_accepted) {
+  const TemporaryDirectory directory;
+  const auto written = [&](const std::vector<double>& rows, const std::vector<double>& columns) {
+    MeshWriter file;
+    file.add("frac_a", {{"n_a", 4}}, std::vector<double>(4, 1.0));
+    file.add("frac_b", {{"n_b", 3}}, std::vector<double>(3, 1.0));
+    file.add("S", {{"n_s", 2}}, {0.5, 0.5});
+    file.add_whole("row", {{"n_s", 2}}, rows);
+    file.add_whole("col", {{"n_s", 2}}, columns);
+    file.write(directory.file("w.nc"));
+    return directory.file("w.nc");
+  };
+  EXPECT_EQ(message_of([&] {
+              (void)read_weights(written({0, 2}, {1, 4}));
+            }),
+            directory.file("w.nc") + ": entry 0: row 0 is not in 1 to 3");
+  const WeightReadOptions lenient{.accepts_zero = true};
+  const WeightFile read = read_weights(written({0, 2}, {1, 4}), lenient);
+  EXPECT_EQ(read.weights.offsets, (std::vector<std::uint64_t>{0, 1, 1, 2}));
+  EXPECT_EQ(read.weights.columns, (std::vector<Index>{0, 3}));
+  EXPECT_TRUE(read.target.counts_from_zero);
+  EXPECT_FALSE(read.source.counts_from_zero);
+  EXPECT_EQ(check_weights(read).count("numbering"), 1U);
+  EXPECT_TRUE(read_weights(written({1, 2}, {0, 3}), lenient).source.counts_from_zero);
+  EXPECT_FALSE(read_weights(written({1, 2}, {1, 3}), lenient).source.counts_from_zero);
+  // Numbers from 0 to the number of points are of neither kind.
+  EXPECT_EQ(message_of([&] {
+              (void)read_weights(written({0, 3}, {1, 4}), lenient);
+            }),
+            directory.file("w.nc") + ": entry 0: row 0 is not in 1 to 3");
+}
+
 // Conservative weights as SCRIP has them, whose values are areas of pieces.
 struct ScripAreas {
   std::string normalization = "none";
