@@ -19,6 +19,7 @@
 #include "rondel/fields.h"
 #include "rondel/named_grids.h"
 #include "rondel/regrid_files.h"
+#include "rondel/zonal_statistics.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -26,15 +27,17 @@ namespace {
 
 // The options of `rondel regrid`.
 struct RegridCommandOptions {
-  CommonOptions common;  // INPUT: the fields; output and threads
-  std::string target;    // TARGET
-  std::string source;    // --source
+  CommonOptions common;    // INPUT: the fields; output and threads
+  std::string target;      // TARGET
+  std::string source;      // --source
+  std::string statistics;  // --statistics
   RegridFileOptions regrid;
 };
 
 std::string history_of(const RegridCommandOptions& options) {
   std::string text = "rondel regrid " + options.common.input + " " + options.target;
   if (options.regrid.method) text += " --method " + word_of(name_of(*options.regrid.method));
+  if (!options.statistics.empty()) text += " --statistics " + options.statistics;
   return text;
 }
 
@@ -48,6 +51,7 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
   RegridFileOptions regrid = options.regrid;
   if (!options.source.empty()) regrid.source = FileName{options.source, {}};
   regrid.history = history_of(options);
+  if (!options.statistics.empty()) regrid.statistics = zonal_statistics_of(options.statistics);
   RegridFileReport done_work;
   job.time(Stage::query, [&] {
     done_work = regrid_file(common.source(), {options.target, {}}, common.target(), regrid,
@@ -105,7 +109,8 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       ->type_name("SHARE");
   const CLI::Option* const overlap = add_word<CellOverlap>(
       parser, "--overlap", options.regrid.overlap, named_values<CellOverlap>(),
-      "Cells of one side that overlap: error (default), first or share");
+      "Cells of one side that overlap: error (default), first, share, or each: every target has\n"
+      "all of its places");
   const CLI::Option* const limiter = parser.add_option_function<std::string>(
       "--limiter",
       [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
@@ -128,6 +133,37 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       options.common, norm,
       [&options] { return options.regrid.method != FieldMethod::largest_share; },
       "with --method largest-share, which compares the parts of a target");
+}
+
+// Adds statistics in place of a method.
+void add_statistics(CLI::App& parser, RegridCommandOptions& options) {
+  parser
+      .add_option(
+          "--statistics", options.statistics,
+          "Statistics of the values in each target instead of a method: a list such as\n"
+          "mean,max,quantile:0.1 of mean, sum, count, min, max, fraction, variance, stdev,\n"
+          "median, quantile:Q, majority, minority, variety")
+      ->check([](const std::string& text) {
+        try {
+          zonal_statistics_of(text);
+          return std::string();
+        } catch (const InvalidInput& error) {
+          return std::string(error.what());
+        }
+      })
+      ->type_name("LIST");
+  const CLI::Option* const weigh = add_word<ZonalWeights>(
+      parser, "--weigh-by", options.regrid.statistic_weights, named_values<ZonalWeights>(),
+      "The weight of a value: area (default: what its cell has in common with the target) or\n"
+      "fraction (which share of the cell that is)");
+  require_effect(
+      options.common, weigh, [&options] { return !options.statistics.empty(); },
+      "without --statistics");
+  for (const char* const name : {"--method", "--norm", "--tile", "--resume"}) {
+    require_effect(
+        options.common, parser.get_option(name), [&options] { return options.statistics.empty(); },
+        "with --statistics");
+  }
 }
 
 void add_cells(CLI::App& parser, RegridCommandOptions& options) {
@@ -206,6 +242,7 @@ Command add_regrid_command(CLI::App& tool) {
   add_methods(*parser, *options);
   add_cells(*parser, *options);
   add_amounts(*parser, *options);
+  add_statistics(*parser, *options);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
@@ -217,7 +254,8 @@ Command add_regrid_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel regrid temperature.nc healpix:4 -o pixels.nc\n"
       "  rondel regrid temperature.nc grid:1 --method linear -o one-degree.nc\n"
-      "  rondel regrid temperature.nc countries.geojson -o means.csv");
+      "  rondel regrid temperature.nc countries.geojson -o means.csv\n"
+      "  rondel regrid temperature.nc countries.geojson --statistics mean,max -o extremes.csv");
   return {parser, [options] { return run_regrid(*options); }};
 }
 

@@ -160,8 +160,8 @@ Command add_remap_command(CLI::App& tool) {
   const CLI::Option* const overlap = add_word<CellOverlap>(
       *parser, "--overlap", options->remap.overlap, named_values<CellOverlap>(),
       "What becomes of a place that several cells of one side have: error (default: two of\n"
-      "them are named), first (the cell with the lowest number has it) or share (each has its\n"
-      "part)");
+      "them are named), first (the cell with the lowest number has it), share (each has its\n"
+      "part) or each (every target has all of its places)");
   require_effect(
       options->common, overlap,
       [given = options.get()] {

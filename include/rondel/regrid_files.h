@@ -18,6 +18,7 @@
 #include "rondel/io.h"
 #include "rondel/remap.h"
 #include "rondel/types.h"
+#include "rondel/zonal_statistics.h"
 
 namespace rondel {
 
@@ -72,6 +73,10 @@ struct RegridFileOptions {
   /// is complete, and to begin with what a run that was cut short has left there. The output is the
   /// same. Threads, memory, tiles and the format of the output may differ between the runs.
   bool resume = false;
+  /// Instead of one value for each target, these statistics of the values in it; there must be no
+  /// method. Each variable becomes one for each statistic: "tas_mean", "tas_max".
+  std::vector<ZonalStatistic> statistics = {};
+  ZonalWeights statistic_weights = ZonalWeights::area;
 };
 
 /// What regrid_file() did.
@@ -93,6 +98,9 @@ struct RegridFileReport {
 ///         integers, otherwise double; with the attributes, the axes, the variables without places
 ///         (bounds of times) and the attributes of the file. Or .csv, .tsv, .npy, as write_fields()
 ///         writes them: means over polygons with their properties.
+///
+/// With statistics, variables of numbers of cells (count, fraction, variety) have the unit 1, those of
+/// variance the square of the unit; `cell_methods` says what was done over the area.
 ///
 /// Values are the same bytes for any number of threads, memory and tiles. The output appears when
 /// it is complete. All files that are read must stay as they are meanwhile.

@@ -39,9 +39,13 @@ enum class CellOverlap : std::uint8_t {
   /// It counts for each of the cells, divided by their number; on both sides if cells of both
   /// overlap.
   share,
+  /// Each target has all of its places, as if it were alone: for means over nested regions. Sources
+  /// that overlap are refused.
+  each,
 };
 
-/// Returns the name of a value: "error", "first", "share"; empty for other numbers.
+/// Returns the name of a value: "error", "first", "share", "each"; empty for other
+/// numbers.
 RONDEL_API std::string_view name_of(CellOverlap overlap) noexcept;
 
 struct RemapOptions {

@@ -17,12 +17,14 @@
 #include <utility>
 
 #include "formats/regrid_carry.h"
+#include "formats/regrid_fields.h"
 #include "formats/regrid_inputs.h"
 #include "formats/regrid_output.h"
 #include "formats/regrid_plan.h"
 #include "formats/regrid_processes.h"
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
+#include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/tiled_remap.h"
@@ -38,13 +40,21 @@ using formats::RegridOutput;
 using formats::RegridRanks;
 using formats::RegridSide;
 
-// Places that are compared with those of the fields' file; more are known by their number alone.
-constexpr std::size_t max_compared = std::size_t{1} << 24U;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 bool is_conservative(FieldMethod method) {
   return method == FieldMethod::conservative || method == FieldMethod::conservative_2nd ||
          method == FieldMethod::largest_share;
+}
+
+// Returns the files that are read, as they are now.
+formats::RegridInputs inputs_of(const FileName& in, const FileName& target,
+                                const RegridFileOptions& options) {
+  formats::RegridInputs inputs;
+  inputs.add("input", in);
+  inputs.add("target", target);
+  if (options.source) inputs.add("source", *options.source);
+  return inputs;
 }
 
 class RegridJob {
@@ -76,7 +86,7 @@ class RegridJob {
     written.attributes = in.attributes;
     written.dimension = "cell";
     target_.add_mapping(written);
-    add_history(written);
+    formats::add_history(options_.history, written);
     make_plan();
     const bool is_netcdf = is_netcdf_file(out_);
     const WeightSide side = target_.description(is_netcdf);
@@ -103,30 +113,12 @@ class RegridJob {
 
  private:
   void open(const FileName& in) {
-    auto [file, variable] = file_and_variable(in);
-    fields_name_ = file.path;
-    std::vector<std::string> names = options_.names;
-    if (names.empty() && !variable.empty()) names.push_back(variable);
-    const bool is_compared = source_.num_places() <= max_compared;
-    if (is_compared) places_ = source_.places();
-    fields_ = std::make_unique<FieldFile>(file, names, source_.num_places(), ReadOptions{},
-                                          source_.shape(), WantedPlaces{places_},
-                                          FieldExtras{.has_others = true, .has_positions = false});
-    for (const auto& remarks : {source_.remarks(), target_.remarks(), fields_->fields().remarks}) {
-      for (const std::string& remark : remarks) {
-        if (std::ranges::count(report_.remarks, remark) == 0) report_.remarks.push_back(remark);
-      }
-    }
-  }
-
-  void add_history(FieldSet& written) const {
-    if (options_.history.empty()) return;
-    for (auto& [name, text] : written.attributes) {
-      if (name != "history") continue;
-      text.insert(0, options_.history + "\n");
-      return;
-    }
-    written.attributes.emplace_back("history", options_.history);
+    fields_name_ = file_and_variable(in).first.path;
+    formats::FieldsOfSide opened =
+        formats::fields_of_side(in, std::vector(options_.names), source_);
+    places_ = std::move(opened.places);
+    fields_ = std::move(opened.file);
+    report_.remarks = formats::remarks_of(source_, target_, fields_->fields());
   }
 
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {
@@ -309,15 +301,6 @@ class RegridJob {
     return *tiles_;
   }
 
-  static formats::RegridInputs inputs_of(const FileName& in, const FileName& target,
-                                         const RegridFileOptions& options) {
-    formats::RegridInputs inputs;
-    inputs.add("input", in);
-    inputs.add("target", target);
-    if (options.source) inputs.add("source", *options.source);
-    return inputs;
-  }
-
   // Returns the name of the journal. Throws FileError if the work cannot be resumed.
   [[nodiscard]] std::string partial_name() const {
     if (!inputs_.has("input")) {
@@ -392,6 +375,13 @@ RegridFileReport regrid_by_ranks(const FileName& in, const FileName& target, con
   if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
     throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
                        ", not in [0, 1]");
+  }
+  if (!options.statistics.empty()) {
+    if (options.resume || ranks.size > 1) {
+      throw InvalidInput("statistics are computed by one process, in one run that is not resumed");
+    }
+    inputs_of(in, target, options).require_other(out);
+    return formats::write_zonal_statistics(in, target, out, options, execution);
   }
   return RegridJob(in, target, out, options, ranks, execution).run();
 }

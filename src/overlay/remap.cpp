@@ -229,8 +229,9 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   const CellSetData& targets = CellSetData::of(result.target);
   const std::vector<std::int32_t>& source_mask = result.source.facts().mask;
   const bool is_second = result.order == 2;
+  const CellOverlap of_source = overlap == CellOverlap::each ? CellOverlap::error : overlap;
   const overlay::OverlaySide of_sources =
-      overlay::taking_part(sources, source_mask, overlap, "source", execution);
+      overlay::taking_part(sources, source_mask, of_source, "source", execution);
   const overlay::OverlaySide of_targets =
       overlay::taking_part(targets, result.target.facts().mask, overlap, "target", execution);
   const std::size_t num_sources = result.source.num_cells();
@@ -285,7 +286,7 @@ std::string_view name_of(RemapNorm norm) noexcept {
 }
 
 std::string_view name_of(CellOverlap overlap) noexcept {
-  return system::name_in({"error", "first", "share"}, overlap);
+  return system::name_in({"error", "first", "share", "each"}, overlap);
 }
 
 Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& options,

@@ -110,9 +110,11 @@ OverlaySide taking_part(const CellSetData& cells, const std::vector<std::int32_t
       throw InvalidInput(std::string(what) + ' ' + message_of(pair), pair.second);
     }
     others[pair.second].push_back(pair.first);
-    if (rule == CellOverlap::share) others[pair.first].push_back(pair.second);
+    if (rule != CellOverlap::first) others[pair.first].push_back(pair.second);
   }
-  return cut_up(rings, others, execution);
+  OverlaySide side = cut_up(rings, others, execution);
+  side.is_whole_for_each = rule == CellOverlap::each;
+  return side;
 }
 
 std::span<const Index> OverlaySide::owners_of(const Index& part) const {
@@ -135,7 +137,7 @@ PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t nu
     const std::span<const Index> of_row = rows.owners_of(j);
     for (std::uint64_t k = pieces.offsets[j]; k < pieces.offsets[j + std::size_t{1}]; ++k) {
       const std::span<const Index> of_column = columns.owners_of(pieces.columns[k]);
-      const double share = 1.0 / static_cast<double>(of_row.size() * of_column.size());
+      const double share = rows.share_of(j) * columns.share_of(pieces.columns[k]);
       const double area = share * pieces.areas[k];
       const Point moment = pieces.moments.empty() ? Point{} : share * pieces.moments[k];
       for (const Index row : of_row) {
@@ -172,9 +174,8 @@ CountedSizes::CountedSizes(const CellSetData& cells, const OverlaySide& part)
   lengths_.resize(n);
   moments_.resize(n);
   for (Index k = 0; k < part.owners.size(); ++k) {
-    const std::span<const Index> owners = part.owners_of(k);
-    const double share = 1.0 / static_cast<double>(owners.size());
-    for (const Index owner : owners) {
+    const double share = part.share_of(k);
+    for (const Index owner : part.owners_of(k)) {
       areas_[owner] += share * part.data->areas()[k];
       lengths_[owner] += part.data->lengths()[k];
       moments_[owner] = moments_[owner] + share * part.data->moments()[k];

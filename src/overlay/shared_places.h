@@ -26,12 +26,17 @@ struct OverlaySide {
   // The cells or the parts.
   const CellSetData* data = nullptr;
   std::shared_ptr<const CellSetData> parts = nullptr;  // owns `data` if these are parts
-  // Part k belongs to the cells owners[k], in equal shares. There are no rows if `data` has the
-  // cells themselves.
+  // Part k belongs to the cells owners[k], in equal shares or to each as a whole. There are no rows
+  // if `data` has the cells themselves.
   CompressedRows<Index> owners = {};
+  bool is_whole_for_each = false;
 
   [[nodiscard]] bool has_parts() const { return parts != nullptr; }
   [[nodiscard]] std::span<const Index> owners_of(const Index& part) const;
+  // Returns what one of the owners of a part has of it.
+  [[nodiscard]] double share_of(const Index& part) const {
+    return is_whole_for_each ? 1 : 1.0 / static_cast<double>(owners_of(part).size());
+  }
 };
 
 // Returns the cells that are not masked. If some of them overlap and `rule` is error, or if one

@@ -24,6 +24,7 @@
 #include "rondel/weight_check.h"
 #include "rondel/weight_comparison.h"
 #include "rondel/weight_files.h"
+#include "rondel/zonal_statistics.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -159,6 +160,24 @@ void test_comparison(const CellSet& cells, const Remap& same, std::string_view b
   require(ErrorDistribution::end_of(0) == 1e-16, "the first decade");
 }
 
+// Each zone is one cell, of which all statistics are its value.
+void test_zones(const Remap& same, std::string_view bytes) {
+  const auto statistics =
+      zonal_statistics_of("mean,min,max,median,quantile:0.25,majority,minority");
+  require(statistics[4].name() == "quantile_0.25", "a quantile has a name");
+  std::vector<double> values(same.source_areas.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = bytes[i % bytes.size()];
+  std::vector<double> numbers(statistics.size() * values.size());
+  zonal_statistics(same, statistics, values, numbers);
+  for (std::size_t n = 0; n < numbers.size(); ++n) {
+    require(std::abs(numbers[n] - values[n % values.size()]) < 1e-12, "the value of its cell");
+  }
+  try {
+    static_cast<void>(zonal_statistics_of(bytes));
+  } catch (const InvalidInput&) {
+  }
+}
+
 // The centers of a grid of the sphere are between its lines.
 void test_global_grid(std::string_view bytes) {
   if (bytes.size() < 2) return;
@@ -174,6 +193,7 @@ void test_global_grid(std::string_view bytes) {
   const Remap same = remap(cells, cells);
   require(weight_file(same).target.areas == same.target_areas, "a file has the areas");
   test_comparison(cells, same, bytes);
+  test_zones(same, bytes);
 }
 
 void test_weights(std::string_view bytes) {

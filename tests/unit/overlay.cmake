@@ -39,5 +39,6 @@ rondel_add_test(overlay_test
   overlay/weight_comparison_test.cpp
   overlay/whole_test.cpp
   overlay/written_test.cpp
+  overlay/zonal_statistics_test.cpp
   LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json)
 rondel_compile_alone(overlay_test overlay/plane_test.cpp overlay/valid_test.cpp)

@@ -114,4 +114,5 @@ NB_MODULE(_core, module) {
   rondel::python::add_regrid_files(module);
   rondel::python::add_weight_checks(module);
   rondel::python::add_weight_files(module);
+  rondel::python::add_zonal_statistics(module);
 }

@@ -41,6 +41,7 @@ void add_triangle_meshes(nanobind::module_& module);
 void add_regrid_files(nanobind::module_& module);
 void add_weight_checks(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);
+void add_zonal_statistics(nanobind::module_& module);
 
 // Returns the options of a build.
 inline Options make_options(bool is_weighted, const std::array<double, 3>& center,

@@ -35,7 +35,8 @@ void add_regrid_files(nb::module_& module) {
          const std::vector<std::string>& names, const std::optional<std::string>& source,
          const nb::object& method, nb::handle norm, double max_missing, nb::handle sides,
          nb::handle edges, nb::handle invalid, nb::handle overlap, std::uint64_t memory,
-         std::size_t cells_per_tile, int deflate, const std::string& history, unsigned threads,
+         std::size_t cells_per_tile, int deflate, const std::string& history,
+         const std::string& statistics, nb::handle weigh_by, unsigned threads,
          const nb::object& progress, bool resume) {
         RegridFileOptions options;
         options.names = names;
@@ -52,6 +53,8 @@ void add_regrid_files(nb::module_& module) {
         options.netcdf.deflate = deflate;
         options.history = history;
         options.resume = resume;
+        if (!statistics.empty()) options.statistics = zonal_statistics_of(statistics);
+        options.statistic_weights = named<ZonalWeights>("weigh_by", weigh_by);
         constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
         return watched(many, threads, progress, [&](const Execution& execution) {
           return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
@@ -61,8 +64,8 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("source").none(), nb::arg("method").none(), nb::arg("norm").none(),
       nb::arg("max_missing"), nb::arg("sides").none(), nb::arg("edges").none(),
       nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
-      nb::arg("deflate"), nb::arg("history"), nb::arg("threads"), nb::arg("progress").none(),
-      nb::arg("resume"));
+      nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
+      nb::arg("threads"), nb::arg("progress").none(), nb::arg("resume"));
 }
 
 }  // namespace rondel::python

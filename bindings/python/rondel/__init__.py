@@ -64,6 +64,8 @@ CellSet
     Cells of diagrams, grids, models and polygons, for `remap`.
 regrid, regrid_file
     Datasets and files on another grid, which may be a name such as "healpix:7".
+zonal_statistics
+    Means, extremes, quantiles and more of fields in polygons, as a table of pandas.
 Regridder
     In place of `xesmf.Regridder`.
 Regions
@@ -143,6 +145,7 @@ from ._weight_checks import (
     check_weights,
 )
 from ._weights import Weights, read_weights
+from ._zonal import zonal_statistics
 
 if TYPE_CHECKING:
     from . import distributed as distributed
@@ -228,6 +231,7 @@ __all__ = [
     "unit_vectors",
     "validity_reason",
     "within",
+    "zonal_statistics",
 ]
 
 if not TYPE_CHECKING:

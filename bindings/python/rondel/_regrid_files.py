@@ -13,6 +13,7 @@ from . import _core
 from ._arrays import as_threads
 from ._geo import Path
 from ._geometries import Edges, Invalid, Sides
+from ._remap import CellOverlap
 from ._types import Progress
 
 FieldMethod: TypeAlias = Literal[
@@ -72,11 +73,13 @@ def regrid_file(
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
-    overlap: Literal["error", "first", "share"] = "error",
+    overlap: CellOverlap = "error",
     memory: int = 2 << 30,
     tile: int = 0,
     deflate: int = 1,
     history: str = "",
+    statistics: str | Iterable[str] = (),
+    weigh_by: Literal["area", "fraction"] = "area",
     threads: int | None = None,
     progress: Progress = None,
     resume: bool = False,
@@ -113,7 +116,7 @@ def regrid_file(
         The northern and southern sides of cells of grids, as in `CellSet.lonlat_grid`.
     edges, invalid
         How polygons are read, as in `CellSet.read`.
-    overlap : {'error', 'first', 'share'}, optional
+    overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
     memory : int, optional
         About how many bytes may be in use, beside those of the process; by default 2 GiB. Weights
@@ -126,6 +129,11 @@ def regrid_file(
         The effort of compression in netCDF-4, from 0 to 9; by default 1.
     history : str, optional
         A line for the attribute `history` of the file.
+    statistics : str or iterable of str, optional
+        Statistics of the values in each target instead of one value by a method, as in
+        `zonal_statistics`: each variable becomes one for each, such as 'tas_mean'.
+    weigh_by : {'area', 'fraction'}, optional
+        The weight of a value in them, as `weights` in `zonal_statistics`.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -176,6 +184,8 @@ def regrid_file(
         tile,
         deflate,
         history,
+        statistics if isinstance(statistics, str) else ",".join(statistics),
+        weigh_by,
         as_threads(threads),
         progress,
         bool(resume),

@@ -14,7 +14,7 @@ from ._arrays import as_floats, as_threads, point_set_hash
 from ._blocks import OutputChunks
 from ._geo import Path
 from ._geometries import Invalid, require_rules
-from ._remap import Remap, remap
+from ._remap import CellOverlap, Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
 from ._types import Progress
@@ -86,7 +86,7 @@ class Regridder(Described):
         `extrap_method`; others are refused where the file or the entries say so: the places of both
         sides, and with conservative methods the corners of the cells, may be 1e-4 degrees off.
         Those without extrapolation get the one that is wanted.
-    overlap : {'error', 'first', 'share'}, optional
+    overlap : {'error', 'first', 'share', 'each'}, optional
         What conservative methods do if cells of one grid overlap; as in `remap`, by default
         'error'.
     invalid : {'error', 'repair'}, optional
@@ -155,7 +155,7 @@ class Regridder(Described):
         extrap_method: Literal["nearest_s2d"] | None = None,
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
-        overlap: Literal["error", "first", "share"] = "error",
+        overlap: CellOverlap = "error",
         invalid: Invalid = "error",
         filename: Path | None = None,
         reuse_weights: bool = False,
@@ -375,7 +375,7 @@ def _made(
     source: Places,
     target: Places,
     method: str,
-    overlap: Literal["error", "first", "share"],
+    overlap: CellOverlap,
     invalid: Invalid,
     threads: int | None,
     progress: Progress,

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,9 @@ from ._types import ArrayLike, FloatArray, IntArray, Progress
 from ._voronoi_mesh import Mesh
 from ._weight_files import netcdf_name
 from ._weights import Weights
+
+CellOverlap: TypeAlias = Literal["error", "first", "share", "each"]
+
 
 class Remap(Described):
     """The result of `remap`: weights between two sets of cells, and a description of both sets.
@@ -112,7 +115,7 @@ def remap(
     norm: Literal["destarea", "fracarea"] = "destarea",
     source_mask: ArrayLike | None = None,
     target_mask: ArrayLike | None = None,
-    overlap: Literal["error", "first", "share"] = "error",
+    overlap: CellOverlap = "error",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Remap:
@@ -137,11 +140,12 @@ def remap(
     source_mask, target_mask : array_like of bool, shape (n,) and (m,), optional
         Which cells take part; by default the mask of the cells. For a grid also of its shape.
         Numbers other than 0 are true; a missing value (NaN, NA, None, or masked) is false.
-    overlap : {'error', 'first', 'share'}, optional
+    overlap : {'error', 'first', 'share', 'each'}, optional
         What to do with a place that several cells of one side contain. 'error' (default): raise an
         error that names two of the cells and the place. 'first': the place belongs to the cell with
-        the lowest index. 'share': each cell gets an equal part. Cells that take no part do not
-        count.
+        the lowest index. 'share': each cell gets an equal part. 'each': each target has all of its
+        places, as if it were alone, and sources that overlap are an error. Cells that take no part
+        do not count.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional

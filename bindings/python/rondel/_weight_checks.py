@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
 from ._geometries import Edges, Invalid, Sides
-from ._remap import Remap, as_cell_set
+from ._remap import CellOverlap, Remap, as_cell_set
 from ._repr import Described, count
 from ._types import IntArray, Progress
 from ._weights import Weights
@@ -194,7 +194,7 @@ def check_weights(
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
-    overlap: Literal["error", "first", "share"] = "error",
+    overlap: CellOverlap = "error",
     threads: int | None = None,
     progress: Progress = None,
 ) -> WeightReport:
@@ -218,7 +218,7 @@ def check_weights(
         How far a weight may be from the right one, beside the rounding of areas; by default 1e-9.
     sides, edges, invalid
         How cells of files are read, as in `CellSet.read`; `sides` also for names of grids.
-    overlap : {'error', 'first', 'share'}, optional
+    overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
     threads : int, optional
         The largest number of threads; by default one for each core.

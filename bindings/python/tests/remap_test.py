@@ -230,7 +230,7 @@ def test_cells_that_overlap():
         rondel.remap(twice, grid)
     with pytest.raises(rondel.InvalidInput, match=r"^target cells 0 and 1 overlap at 14"):
         rondel.remap(grid, twice)
-    with pytest.raises(ValueError, match="one of 'error', 'first', 'share', not 'last'"):
+    with pytest.raises(ValueError, match="one of 'error', 'first', 'share', 'each', not 'last'"):
         rondel.remap(twice, grid, overlap="last")
     union = {rule: rondel.remap(twice, grid, overlap=rule) for rule in ("first", "share")}
     covered = {rule: found.target_fractions @ grid.areas for rule, found in union.items()}

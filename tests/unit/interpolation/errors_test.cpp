@@ -165,7 +165,7 @@ TEST(names, lead_back_to_their_values) {
   expect_names<InvalidPolygons>({"error", "repair"});
   expect_names<NetcdfKind>({"by_name", "cdf2", "cdf5", "nc4"});
   expect_names<RemapNorm>({"destarea", "fracarea"});
-  expect_names<CellOverlap>({"error", "first", "share"});
+  expect_names<CellOverlap>({"error", "first", "share", "each"});
   expect_names<Model>({"projected", "weighted"});
   expect_names<Where>({"vertex", "edge", "face", "outside"});
 }

@@ -1,0 +1,185 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Statistics over polygons, against NumPy on exact areas of boxes."""
+
+import numpy as np
+import pytest
+
+import rondel
+
+xarray = pytest.importorskip("xarray")
+pandas = pytest.importorskip("pandas")
+
+LON, LAT = np.arange(-177.5, 180, 5), np.arange(-87.5, 90, 5)
+NAMES = (
+    "mean sum count min max fraction variance stdev median quantile:0.1 majority minority variety"
+)
+
+
+@pytest.fixture
+def data():
+    values = np.random.default_rng(3).integers(0, 7, (2, 36, 72)).astype(float)
+    values[:, 20, 40] = np.nan
+    return xarray.DataArray(
+        values, {"time": [10, 20], "lat": LAT, "lon": LON}, ("time", "lat", "lon"), name="t"
+    )
+
+
+BOXES = [(-30.0, -20.0, 42.0, 33.0), (21.0, 12.0, 28.0, 14.0), (100.0, 40.0, 180.0, 90.0)]
+
+
+def shares(box):
+    """Of each cell the share in a box between meridians and parallels; and the cells' areas."""
+    west, south, east, north = box
+    height = np.sin(np.radians(np.clip(LAT + 2.5, south, north))) - np.sin(
+        np.radians(np.clip(LAT - 2.5, south, north))
+    )
+    whole = np.sin(np.radians(LAT + 2.5)) - np.sin(np.radians(LAT - 2.5))
+    width = np.clip(LON + 2.5, west, east) - np.clip(LON - 2.5, west, east)
+    return np.outer(height / whole, width / 5), np.outer(whole, np.full(72, np.radians(5)))
+
+
+def expected(field, box, by_fraction):
+    """All statistics of a field, by NumPy."""
+    f, areas = shares(box)
+    of_box = (f * areas).sum()
+    kept = (f > 1e-12) & ~np.isnan(field)
+    v, f, w = field[kept], f[kept], (f * (1 if by_fraction else areas))[kept]
+    mean = (w * v).sum() / w.sum()
+    variance = (w * (v - mean) ** 2).sum() / w.sum()
+    order = np.lexsort((w, v))
+    sorted_v, sorted_w = v[order], w[order]
+    n = len(v)
+    s = np.arange(n) * sorted_w + (n - 1) * (np.cumsum(sorted_w) - sorted_w)
+
+    def quantile(q):
+        return np.interp(q * s[-1], s, sorted_v)
+
+    values = np.unique(v)
+    weights = np.array([w[v == value].sum() for value in values])
+    return {
+        "mean": mean,
+        "sum": (f * v).sum(),
+        "count": f.sum(),
+        "min": v.min(),
+        "max": v.max(),
+        "fraction": (f * areas[kept]).sum() / of_box,
+        "variance": variance,
+        "stdev": np.sqrt(variance),
+        "median": quantile(0.5),
+        "quantile_0.1": quantile(0.1),
+        "majority": values[weights.argmax()],
+        "minority": values[weights.argmin()],
+        "variety": len(values),
+    }
+
+
+def as_cells():
+    """The boxes as cells between parallels, of which polygons are not."""
+    return [rondel.CellSet.lonlat_grid(box[::2], box[1::2]) for box in BOXES]
+
+
+@pytest.mark.parametrize("weights", ["area", "fraction"])
+def test_all_statistics_are_those_of_numpy(data, weights):
+    for box, zone in zip(BOXES, as_cells(), strict=True):
+        table = rondel.zonal_statistics(data, zone, NAMES.split(), weights=weights)
+        assert list(table.index) == [(0, 10), (0, 20)]
+        assert table.index.names == ["zone", "time"]
+        for time in (0, 1):
+            wanted = expected(data.values[time], box, weights == "fraction")
+            assert list(table.columns) == list(wanted)
+            for name, value in wanted.items():
+                assert table[name].iloc[time] == pytest.approx(value, rel=1e-12), (name, box)
+
+
+def test_zones_keep_their_index_and_columns(data):
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    frame = geopandas.GeoDataFrame(
+        {"name": ["a", "b", "c"], "code": [7, 8, 9]},
+        geometry=[shapely.box(0, 0, 20, 20), shapely.box(10, 10, 30, 30), shapely.Polygon()],
+        crs="EPSG:4326",
+    ).set_index("code")
+    table = rondel.zonal_statistics(data, frame, "mean,count", include_cols=["name"])
+    assert table.index.names == ["code", "time"]
+    assert list(table.index) == [(7, 10), (7, 20), (8, 10), (8, 20), (9, 10), (9, 20)]
+    assert list(table["name"]) == ["a", "a", "b", "b", "c", "c"]
+    assert list(table.columns) == ["name", "mean", "count"]
+    # Zones overlap: each is what it is alone.
+    for k in (0, 1):
+        alone = rondel.zonal_statistics(data, frame.iloc[[k]], "mean,count")
+        rows = slice(2 * k, 2 * k + 2)
+        np.testing.assert_allclose(
+            table[["mean", "count"]].to_numpy()[rows], alone.to_numpy(), rtol=1e-12
+        )
+    assert np.isnan(table["mean"].to_numpy()[4:]).all()
+    assert (table["count"].to_numpy()[4:] == 0).all()
+    with pytest.raises(ValueError, match="overlap"):
+        rondel.zonal_statistics(data, frame, overlap="error")
+
+
+def test_fields_without_other_dimensions_have_a_row_for_each_zone(data):
+    table = rondel.zonal_statistics(data[0], "grid:90", "max,variety")
+    assert table.shape == (8, 2)
+    assert table.index.name == "zone"
+    blocks = data.values[0].reshape(2, 18, 4, 18)
+    np.testing.assert_array_equal(table["max"], np.nanmax(blocks, axis=(1, 3)).ravel())
+
+
+def test_datasets_have_columns_for_each_variable(data):
+    dataset = xarray.Dataset({"t": data, "height": data[0] * 2})
+    table = rondel.zonal_statistics(dataset, "grid:90", "mean,max")
+    assert list(table.columns) == ["t_mean", "t_max", "height_mean", "height_max"]
+    assert table.index.names == ["zone", "time"]
+    assert (table["height_max"] == 2 * np.repeat(table["t_max"].to_numpy()[::2], 2)).all()
+
+
+def test_means_are_those_of_a_regridder(data):
+    zones = rondel.CellSet.named("healpix:1")
+    table = rondel.zonal_statistics(data, zones)
+    regridder = rondel.Regridder(data, zones, "conservative_normed")
+    means = regridder(data, skipna=True)
+    np.testing.assert_allclose(table["mean"].to_numpy().reshape(48, 2), means.values.T, rtol=1e-12)
+
+
+def test_files_have_the_same_numbers(data, tmp_path):
+    pytest.importorskip("netCDF4")
+    made = data.to_dataset()
+    made.lat.attrs["units"], made.lon.attrs["units"] = "degrees_north", "degrees_east"
+    made.t.attrs.update(units="m s-1", cell_methods="time: mean")
+    path = tmp_path / "in.nc"
+    made.to_netcdf(path)
+    table = rondel.zonal_statistics(made.t, "healpix:1", NAMES.split())
+    for memory in (2 << 30, 1):  # all statistics at once, or one by one
+        report = rondel.regrid_file(
+            path,
+            "healpix:1",
+            tmp_path / "out.nc",
+            statistics=NAMES.split(),
+            max_missing=1,
+            memory=memory,
+        )
+        assert report.fields == 2
+        with xarray.open_dataset(tmp_path / "out.nc") as out:
+            for name in table.columns:
+                found = out[f"t_{name}"].values
+                wanted = table[name].to_numpy().reshape(48, 2).T
+                np.testing.assert_allclose(found, wanted, rtol=1e-12, err_msg=name)
+            assert out.t_mean.attrs["units"] == "m s-1"
+            assert out.t_mean.attrs["cell_methods"] == "time: mean area: mean"
+            assert out.t_variance.attrs["units"] == "(m s-1)2"
+            assert out.t_count.attrs["units"] == "1"
+            assert "cell_methods" not in out.t_count.attrs
+
+
+def test_wrong_calls_are_refused(data):
+    with pytest.raises(ValueError, match="'avg' is no statistic"):
+        rondel.zonal_statistics(data, "grid:90", "avg")
+    with pytest.raises(TypeError, match="include_cols needs a GeoDataFrame"):
+        rondel.zonal_statistics(data, "grid:90", include_cols="name")
+    with pytest.raises(ValueError, match="weights must be 'area' or 'fraction'"):
+        rondel.zonal_statistics(data, "grid:90", weights="none")
+    with pytest.raises(ValueError, match="max_missing"):
+        rondel.zonal_statistics(data, "grid:90", max_missing=2)
+    with pytest.raises(ValueError, match="statistics are of the cells"):
+        rondel.regrid_file("in.nc", "grid:90", "o.nc", statistics="mean", method="nearest")

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Fields are read slice by slice. A file of fields has the statistics one after the other, so those of
+// all fields of an array are kept until they are written, as many statistics as there is room for.
+#include "formats/zonal_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "formats/regrid_fields.h"
+#include "formats/regrid_side.h"
+#include "io/bad_value.h"
+#include "io/number.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/names.h"
+#include "rondel/zonal_statistics.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace formats {
+namespace {
+
+// A slice of fields has 32 MiB; larger ones are not faster.
+constexpr std::size_t values_per_slice_of_zones = std::size_t{1} << 22U;
+
+// Returns the number that a text is; -1 if it is none.
+double share_of(std::string_view text) {
+  try {
+    return io::parse_number(text, "quantile");
+  } catch (const io::BadValue&) {
+    return -1;
+  }
+}
+
+// Returns the statistic that a word names. Throws InvalidInput if there is none.
+ZonalStatistic statistic_named(std::string_view word) {
+  constexpr std::string_view quantile = "quantile:";
+  if (word == "std") return {ZonalOperation::stdev};
+  if (word == "mode") return {ZonalOperation::majority};
+  if (const auto known = from_name<ZonalOperation>(word);
+      known && *known != ZonalOperation::quantile) {
+    return {*known};
+  }
+  if (word.starts_with(quantile)) {
+    const double value = share_of(word.substr(quantile.size()));
+    if (value >= 0 && value <= 1) return {ZonalOperation::quantile, value};
+  }
+  std::string names;
+  for (const std::string_view name : rondel::names_of<ZonalOperation>()) {
+    names += (names.empty() ? "" : ", ") + std::string(name == "quantile" ? "quantile:Q" : name);
+  }
+  throw InvalidInput("'" + std::string(word) + "' is no statistic; there are " + names +
+                     " (Q from 0 to 1)");
+}
+
+// Returns the word of CF's cell_methods (appendix E) for an operation; empty if there is none.
+std::string_view word_of_cf(ZonalOperation operation) {
+  switch (operation) {
+    case ZonalOperation::mean:
+      return "mean";
+    case ZonalOperation::sum:
+      return "sum";
+    case ZonalOperation::min:
+      return "minimum";
+    case ZonalOperation::max:
+      return "maximum";
+    case ZonalOperation::variance:
+      return "variance";
+    case ZonalOperation::stdev:
+      return "standard_deviation";
+    case ZonalOperation::median:
+      return "median";
+    case ZonalOperation::majority:
+      return "mode";
+    default:
+      return {};
+  }
+}
+
+bool has_values_of_cells(ZonalOperation operation) {
+  return operation == ZonalOperation::min || operation == ZonalOperation::max ||
+         operation == ZonalOperation::majority || operation == ZonalOperation::minority;
+}
+
+// Returns the square of a unit in UDUNITS's notation.
+std::string squared(const std::string& units) {
+  const bool is_word = std::ranges::all_of(
+      units, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
+  return is_word ? units + '2' : '(' + units + ")2";
+}
+
+// Returns a variable for a statistic of an array, with the attributes that hold for it.
+FieldArray array_of_statistic(const FieldArray& array, const ZonalStatistic& statistic) {
+  FieldArray made = array;
+  made.name += '_' + statistic.name();
+  if (!has_values_of_cells(statistic.operation)) {
+    made.numbers.clear();
+    std::erase_if(made.attributes, [](const auto& a) { return a.first == "flag_meanings"; });
+  }
+  if (statistic.operation == ZonalOperation::count ||
+      statistic.operation == ZonalOperation::fraction ||
+      statistic.operation == ZonalOperation::variety) {
+    made.attributes = {{"long_name", statistic.name() + " of " + array.name}, {"units", "1"}};
+    made.is_single = false;
+    return made;
+  }
+  if (statistic.operation == ZonalOperation::variance) {
+    for (auto& [name, text] : made.attributes) {
+      if (name == "units") text = squared(text);
+    }
+  }
+  const std::string_view word = word_of_cf(statistic.operation);
+  if (word.empty()) return made;
+  const std::string method = "area: " + std::string(word);
+  const auto known = std::ranges::find_if(made.attributes,
+                                          [](const auto& a) { return a.first == "cell_methods"; });
+  if (known == made.attributes.end()) {
+    made.attributes.emplace_back("cell_methods", method);
+  } else {
+    known->second += ' ' + method;
+  }
+  return made;
+}
+
+class ZonalJob {
+ public:
+  ZonalJob(const FileName& in, const FileName& target, const RegridFileOptions& options,
+           const Execution& execution)
+      : options_(options),
+        execution_(execution),
+        source_(options.source.value_or(file_and_variable(in).first), options.cells, true,
+                execution),
+        target_(target, options.cells, true, execution),
+        fields_(fields_of_side(in, std::vector(options.names), source_)) {
+    report_.remarks = remarks_of(source_, target_, fields_.file->fields());
+    report_.sources = source_.num_places();
+    report_.targets = target_.num_places();
+    RemapOptions rules;
+    rules.overlap = options.overlap;
+    pieces_ = remap(source_.cells(execution), target_.cells(execution), rules, execution);
+  }
+
+  RegridFileReport run(const FileName& out) {
+    const FieldSet& in = fields_.file->fields();
+    FieldSet written;
+    written.num_points = report_.targets;
+    for (const FieldArray& array : in.arrays) {
+      for (const ZonalStatistic& statistic : options_.statistics) {
+        written.arrays.push_back(array_of_statistic(array, statistic));
+      }
+    }
+    written.axes = in.axes;
+    written.others = in.others;
+    written.attributes = in.attributes;
+    written.dimension = "cell";
+    target_.add_mapping(written);
+    add_history(options_.history, written);
+    const WeightSide side = target_.description(is_netcdf_file(out));
+    FieldWriter writer(out, written, side, options_.netcdf);
+    for (std::size_t a = 0; a < in.arrays.size(); ++a) {
+      compute(a, writer);
+      report_.fields += in.arrays[a].num_fields();
+    }
+    writer.finish();
+    return std::move(report_);
+  }
+
+ private:
+  // Computes and writes the statistics of an array. Where those of all fields have no room for one
+  // statistic, they are written slice by slice.
+  void compute(std::size_t array, FieldWriter& writer) {
+    const std::span<const ZonalStatistic> all = options_.statistics;
+    const std::size_t num_fields = fields_.file->fields().arrays[array].num_fields();
+    const std::size_t size = num_fields * report_.targets;  // of one statistic
+    const std::uint64_t room = options_.memory / 2 / sizeof(double);
+    const std::size_t at_once =
+        std::clamp<std::uint64_t>(room / std::max<std::size_t>(size, 1), 1, all.size());
+    for (std::size_t first = 0; first < all.size(); first += at_once) {
+      const auto group = all.subspan(first, std::min(at_once, all.size() - first));
+      std::vector<double> kept(group.size() > 1 ? group.size() * size : 0);
+      for_each_slice(array, group, [&](std::size_t begin, std::span<const double> numbers) {
+        if (kept.empty()) return write(numbers, writer);
+        const std::size_t of_slice = numbers.size() / group.size();
+        for (std::size_t s = 0; s < group.size(); ++s) {
+          std::ranges::copy(
+              numbers.subspan(s * of_slice, of_slice),
+              kept.begin() + static_cast<std::ptrdiff_t>(s * size + begin * report_.targets));
+        }
+      });
+      if (!kept.empty()) write(kept, writer);
+    }
+  }
+
+  // Calls take(first field, numbers) for the statistics of some fields of an array in turn.
+  template <class Take>
+  void for_each_slice(std::size_t array, std::span<const ZonalStatistic> group, const Take& take) {
+    const std::size_t num_fields = fields_.file->fields().arrays[array].num_fields();
+    const std::size_t largest = std::max(report_.sources, report_.targets * group.size());
+    const std::size_t of_slice =
+        std::max<std::size_t>(values_per_slice_of_zones / std::max<std::size_t>(largest, 1), 1);
+    const ZonalOptions rules{options_.statistic_weights, options_.max_missing};
+    std::vector<double> values;
+    std::vector<double> numbers;
+    for (std::size_t first = 0; first < num_fields; first += of_slice) {
+      const std::size_t count = std::min(of_slice, num_fields - first);
+      values.resize(count * report_.sources);
+      numbers.resize(group.size() * count * report_.targets);
+      fields_.file->read(array, first, values);
+      zonal_statistics(pieces_, group, values, numbers, count, rules, execution_);
+      take(first, std::span<const double>(numbers));
+      system::announce(execution_, "regrid", first + count, num_fields);
+    }
+  }
+
+  void write(std::span<const double> numbers, FieldWriter& writer) {
+    report_.missing += static_cast<std::size_t>(
+        std::ranges::count_if(numbers, [](double number) { return std::isnan(number); }));
+    writer.write(numbers);
+  }
+
+  const RegridFileOptions& options_;
+  const Execution& execution_;
+  RegridSide source_;
+  RegridSide target_;
+  FieldsOfSide fields_;
+  Remap pieces_;
+  RegridFileReport report_;
+};
+
+}  // namespace
+
+RegridFileReport write_zonal_statistics(const FileName& in, const FileName& target,
+                                        const FileName& out, const RegridFileOptions& options,
+                                        const Execution& execution) {
+  if (options.method) {
+    throw InvalidInput("statistics are of the cells in a target: they have no method");
+  }
+  return ZonalJob(in, target, options, execution).run(out);
+}
+
+}  // namespace formats
+
+std::vector<ZonalStatistic> zonal_statistics_of(std::string_view list) {
+  std::vector<ZonalStatistic> statistics;
+  std::set<std::string> names;
+  while (true) {
+    const std::size_t comma = list.find(',');
+    statistics.push_back(formats::statistic_named(list.substr(0, comma)));
+    const std::string name = statistics.back().name();
+    if (!names.insert(name).second) throw InvalidInput("the statistic " + name + " stands twice");
+    if (comma == std::string_view::npos) return statistics;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace rondel
