@@ -141,7 +141,7 @@ nlohmann::ordered_json json_of(const JudgedWeights& judged) {
 // Reads the weights, and the cells if they are given, and judges them.
 JudgedWeights judge(const CheckWeightsOptions& options, Job& job) {
   const CommonOptions& common = options.common;
-  WeightReadOptions read{.accepts_zero = true};
+  WeightReadOptions read{.are_checked = true};
   CellSet source;
   CellSet target;
   if (options.has_sides()) {

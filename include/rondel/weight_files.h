@@ -34,7 +34,7 @@ struct WeightSide {
   /// The axes of a grid along axes, in place of `points`; only files of fields take them.
   LonLatAxes axes = {};
   /// True if the numbers of this side counted from 0 in a file whose format counts from 1
-  /// (WeightReadOptions::accepts_zero).
+  /// (WeightReadOptions::are_checked).
   bool counts_from_zero = false;
 };
 
@@ -71,9 +71,11 @@ struct WeightReadOptions {
   /// The numbers of sources and targets, for files that do not have them: those of YAC. 0: not known.
   std::uint64_t num_sources = 0;
   std::uint64_t num_targets = 0;
-  /// Whether numbers of sources, or of targets, may count from 0 in formats that count from 1: they
-  /// do if there is a 0 among them and their largest is below the number of the points.
-  bool accepts_zero = false;
+  /// Whether the weights are only to be checked. Then numbers of sources, or of targets, may count
+  /// from 0 in formats that count from 1: they do if there is a 0 among them and their largest is
+  /// below the number of the points. And of several weights a link in SCRIP, of which all but the
+  /// first multiply gradients, the first ones are read, with a remark.
+  bool are_checked = false;
 };
 
 /// Reads weights that write_weights() or another program wrote; the variables of netCDF tell which

@@ -251,9 +251,9 @@ void set_entries(const WeightEntries& entries, std::size_t num_rows, std::size_t
                        std::to_string(num_entries) + " weights");
   }
   if (num_columns > no_index) throw io::BadValue("more than 2^32 - 1 sources");
-  content.target.counts_from_zero = options.accepts_zero && count_from_zero(entries.rows, num_rows);
+  content.target.counts_from_zero = options.are_checked && count_from_zero(entries.rows, num_rows);
   content.source.counts_from_zero =
-      options.accepts_zero && count_from_zero(entries.columns, num_columns);
+      options.are_checked && count_from_zero(entries.columns, num_columns);
   const std::int64_t first_row = content.target.counts_from_zero ? 0 : 1;
   const std::int64_t first_column = content.source.counts_from_zero ? 0 : 1;
   const auto require = [](const char* what, std::int64_t index, std::int64_t first,

@@ -6,6 +6,8 @@
 // counted from 1. Files with more weights a link (second order) are refused.
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
@@ -142,12 +144,21 @@ WeightFile read_scrip(const io::NetcdfReader& file, const WeightReadOptions& opt
   read_side(file, names_of("dst"), num_targets, content.target);
   const io::VariableInFile& matrix = file.require("remap_matrix");
   // The further weights of a link multiply gradients of the source field.
-  if (matrix.shape.size() == 2 && matrix.shape[1] != 1) {
-    throw io::BadValue("remap_matrix has " + std::to_string(matrix.shape[1]) +
+  const std::size_t of_link = matrix.shape.size() == 2 ? matrix.shape[1] : 1;
+  if (of_link != 1 && !(options.are_checked && of_link > 1)) {
+    throw io::BadValue("remap_matrix has " + std::to_string(of_link) +
                        " weights a link, of which all but the first need gradients");
   }
+  std::vector<double> values = meant_numbers(file, matrix);
+  if (of_link > 1) {
+    for (std::size_t k = 0; k * of_link < values.size(); ++k) values[k] = values[k * of_link];
+    values.resize(values.size() / of_link);
+    content.remarks.push_back("remap_matrix has " + std::to_string(of_link) +
+                              " weights a link: all but the first, which multiply gradients, are "
+                              "left out");
+  }
   set_entries({file.integers(file.require("dst_address")),
-               file.integers(file.require("src_address")), meant_numbers(file, matrix)},
+               file.integers(file.require("src_address")), std::move(values)},
               num_targets, num_sources, options, content);
   read_own_attributes(file, content);
   divide_by_areas(file, content);

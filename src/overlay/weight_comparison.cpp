@@ -81,6 +81,12 @@ void count_places(const std::vector<LonLat>& given, const CellSet& cells, const 
                         word + "s are not in their cells (first " + first + ")"});
 }
 
+// Returns an error; infinity for one that is not a number.
+double known_error(double error) {
+  if (std::isfinite(error)) return error;
+  return std::numeric_limits<double>::infinity();
+}
+
 // Returns the largest relative difference between areas in a file and those of cells.
 std::optional<double> apart(const std::vector<double>& given, const std::vector<double>& exact) {
   if (given.empty()) return std::nullopt;
@@ -228,8 +234,7 @@ class WeightComparer {
   }
   // Returns how far a weight is off; infinity for one that is not finite.
   static double error_of(const ComparedWeight& compared) {
-    const double error = std::abs(compared.given - compared.exact);
-    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+    return known_error(std::abs(compared.given - compared.exact));
   }
 
   void compare_row(std::size_t row) {
@@ -273,7 +278,7 @@ class WeightComparer {
     if (weights_.offsets[row] == weights_.offsets[row + 1] && !(covered_[row] > 0)) return;
     const double sum = sum_of(row);
     const double error = std::abs(sum - exact_sum(row));
-    report_.row_sums = std::max(report_.row_sums, std::isfinite(error) ? error : infinite);
+    report_.row_sums = std::max(report_.row_sums, known_error(error));
     const std::size_t entries = weights_.offsets[row + 1] - weights_.offsets[row];
     if (report_.are_sums && !(error <= tolerance(row, entries))) {
       row_sums_.add("target " + std::to_string(row), sum, exact_sum(row));
@@ -317,8 +322,7 @@ class WeightComparer {
       all_wanted += wanted[i];
       if (!(exact_.source_areas[i] > 0)) continue;
       const double error = std::abs(given[i] - wanted[i]) / exact_.source_areas[i];
-      report_.local_conservation =
-          std::max(report_.local_conservation, std::isfinite(error) ? error : infinite);
+      report_.local_conservation = std::max(report_.local_conservation, known_error(error));
       const double allowed =
           interpolation::tolerance_of(entries[i], exact_.source_areas, i, options_.tolerance);
       if (report_.are_sums && !(error <= allowed)) {
@@ -326,8 +330,7 @@ class WeightComparer {
       }
     }
     if (all_wanted > 0) {
-      const double error = std::abs(all_given - all_wanted) / all_wanted;
-      report_.global_conservation = std::isfinite(error) ? error : infinite;
+      report_.global_conservation = known_error(std::abs(all_given - all_wanted) / all_wanted);
     }
   }
 
@@ -369,7 +372,6 @@ class WeightComparer {
     return wrong;
   }
 
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
   const WeightFile& file_;
   const Weights& weights_;
   const Remap& exact_;

@@ -380,7 +380,7 @@ TEST(weight_files, may_count_from_zero_where_that_is_accepted) {
               (void)read_weights(written({0, 2}, {1, 4}));
             }),
             directory.file("w.nc") + ": entry 0: row 0 is not in 1 to 3");
-  const WeightReadOptions lenient{.accepts_zero = true};
+  const WeightReadOptions lenient{.are_checked = true};
   const WeightFile read = read_weights(written({0, 2}, {1, 4}), lenient);
   EXPECT_EQ(read.weights.offsets, (std::vector<std::uint64_t>{0, 1, 1, 2}));
   EXPECT_EQ(read.weights.columns, (std::vector<Index>{0, 3}));
@@ -394,6 +394,26 @@ TEST(weight_files, may_count_from_zero_where_that_is_accepted) {
               (void)read_weights(written({0, 3}, {1, 4}), lenient);
             }),
             directory.file("w.nc") + ": entry 0: row 0 is not in 1 to 3");
+}
+
+TEST(weight_files, of_three_weights_a_link_are_checked_by_the_first) {
+  const TemporaryDirectory directory;
+  MeshWriter file;
+  file.add("src_grid_frac", {{"src_grid_size", 2}}, {1, 1});
+  file.add("dst_grid_frac", {{"dst_grid_size", 2}}, {1, 1});
+  file.add_whole("src_address", {{"num_links", 2}}, {1, 2});
+  file.add_whole("dst_address", {{"num_links", 2}}, {2, 1});
+  file.add("remap_matrix", {{"num_links", 2}, {"num_wgts", 3}}, {0.5, 7, 8, 0.25, 9, 10});
+  file.write(directory.file("w.nc"));
+  EXPECT_EQ(message_of([&] { (void)read_weights(directory.file("w.nc")); }),
+            directory.file("w.nc") +
+                ": remap_matrix has 3 weights a link, of which all but the first need gradients");
+  const WeightFile read = read_weights(directory.file("w.nc"), {.are_checked = true});
+  EXPECT_EQ(read.weights.values, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(read.weights.columns, (std::vector<Index>{1, 0}));
+  EXPECT_EQ(read.remarks.front(),
+            "remap_matrix has 3 weights a link: all but the first, which multiply gradients, are "
+            "left out");
 }
 
 // Conservative weights as SCRIP has them, whose values are areas of pieces.
