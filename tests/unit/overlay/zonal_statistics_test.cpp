@@ -143,7 +143,7 @@ Remap whole_cells(std::size_t n) {
 TEST(zonal_statistics, quantiles_of_equal_weights_are_of_type_7) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  for (const std::size_t n : {1, 2, 3, 10, 101}) {
+  for (const std::size_t n : {1U, 2U, 3U, 10U, 101U}) {
     const Remap remap = whole_cells(n);
     std::vector<double> values(n);
     for (double& value : values) value = normal(random);
