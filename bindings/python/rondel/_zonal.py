@@ -127,7 +127,7 @@ def zonal_statistics(
     is_set = isinstance(zones, CellSet)
     cells = zones if is_set else polygons(zones, edges=edges, invalid=invalid, threads=threads)
     data, source = source.along_cells(data)
-    data = unpacked(data).astype("float64", keep_attrs=True)
+    data = _in_doubles(unpacked(data))
     nothing = np.zeros(0, np.int32)
     made = _core.remap(
         source.cells(threads)._cells,
@@ -156,6 +156,16 @@ def zonal_statistics(
         fields = {f"{name}_": array for name, array in found.items() if _ZONE in array.dims}
         table = _table(fields, index, cells.num_cells, names)
     return _with_columns(table, zones, include_cols, cells.num_cells)
+
+
+def _in_doubles(data: Any) -> Any:
+    """The same with real numbers in double precision, which statistics are returned in."""
+    import xarray
+
+    if isinstance(data, xarray.DataArray):
+        return data.astype("float64") if data.dtype.kind == "f" else data
+    reals = {name: array for name, array in data.data_vars.items() if array.dtype.kind == "f"}
+    return data.assign({name: array.astype("float64") for name, array in reals.items()})
 
 
 _ZONE, _STATISTIC = "rondel_zone", "rondel_statistic"

@@ -134,6 +134,30 @@ def test_datasets_have_columns_for_each_variable(data):
     assert (table["height_max"] == 2 * np.repeat(table["t_max"].to_numpy()[::2], 2)).all()
 
 
+def test_other_variables_are_left_out_and_numbers_of_any_type_are_taken(data):
+    kept = data[0].fillna(0)
+    dataset = xarray.Dataset(
+        {
+            "single": kept.astype("f4"),
+            "whole": kept.astype("i2"),
+            "text": (("lat", "lon"), np.full((36, 72), "a")),
+            "name": ((), "a file"),
+        }
+    )
+    with pytest.warns(UserWarning, match="left out, as they are no real numbers: text"):
+        table = rondel.zonal_statistics(dataset, "grid:90", "mean,majority")
+    assert list(table.columns) == ["single_mean", "single_majority", "whole_mean", "whole_majority"]
+    np.testing.assert_array_equal(table["single_mean"], table["whole_mean"])
+    assert (table.dtypes == np.float64).all()
+
+
+def test_arrays_of_dask_give_the_same(data):
+    pytest.importorskip("dask")
+    whole = rondel.zonal_statistics(data, "grid:90", "mean,max")
+    lazy = rondel.zonal_statistics(data.chunk({"time": 1}), "grid:90", "mean,max")
+    pandas.testing.assert_frame_equal(whole, lazy)
+
+
 def test_means_are_those_of_a_regridder(data):
     zones = rondel.CellSet.named("healpix:1")
     table = rondel.zonal_statistics(data, zones)
