@@ -290,9 +290,12 @@ def check_weights(
         )
         faults += compared.faults
         comparison = _comparison_of(compared)
+    rows, columns, entries = file.shape
     return WeightReport(
         tuple(_fault_of(fault) for fault in faults),
-        *file.shape,
+        rows,
+        columns,
+        entries,
         found.empty_rows,
         found.least,
         found.greatest,

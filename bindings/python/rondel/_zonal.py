@@ -207,7 +207,7 @@ def _table(fields: dict[str, Any], index: Any, zones: int, names: list[str]) -> 
 
     arrays = xarray.broadcast(*fields.values())
     others = [dim for dim in arrays[0].dims if dim not in (_ZONE, _STATISTIC)]
-    columns = {}
+    columns: dict[str, Any] = {}
     for prefix, array in zip(fields, arrays, strict=True):
         values = array.transpose(_ZONE, *others, _STATISTIC).values.reshape(-1, len(names))
         columns |= {f"{prefix}{name}": values[:, k] for k, name in enumerate(names)}
