@@ -18,7 +18,7 @@ constexpr std::uint64_t values_per_slice = std::uint64_t{1} << 22U;
 constexpr std::uint64_t largest_tile = std::uint64_t{1} << 18U;
 constexpr std::uint64_t smallest_tile = std::uint64_t{1} << 12U;
 
-// Bytes that were measured, rounded up (docs/decisions/060).
+// Bytes that were measured, rounded up (docs/decisions/060-values-kept-beside-the-output.md).
 constexpr std::uint64_t bytes_of_cell = 250;          // of both sides, with the weights of remap()
 constexpr std::uint64_t bytes_of_cell_2nd = 450;      // the same of order 2
 constexpr std::uint64_t bytes_of_stored_cell = 150;   // of a CellSet
