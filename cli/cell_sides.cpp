@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "report.h"
 #include "rondel/delaunay.h"

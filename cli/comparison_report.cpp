@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "comparison_report.h"
 
+#include <cstddef>
 #include <cstdio>
+#include <optional>
 
 #include "report.h"
 

@@ -10,6 +10,9 @@
 // The checks themselves are those of rondel/weight_check.h and rondel/weight_comparison.h; this file
 // prints their reports.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <iterator>
 #include <memory>
