@@ -8,12 +8,6 @@
 #include <utility>
 
 namespace rondel::formats {
-namespace {
-
-// Places that are compared with those of the fields' file; more are known by their number alone.
-constexpr std::size_t max_compared = std::size_t{1} << 24U;
-
-}  // namespace
 
 FieldsOfSide fields_of_side(const FileName& in, std::vector<std::string>&& names,
                             const RegridSide& side) {

@@ -4,6 +4,7 @@
 // The fields of a file that is regridded, and what all outputs of such files have.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "rondel/types.h"
 
 namespace rondel::formats {
+
+// Places that are compared with those of the fields' file; more are known by their number alone.
+inline constexpr std::size_t max_compared = std::size_t{1} << 24U;
 
 // The fields of a file at the places of a side.
 struct FieldsOfSide {

@@ -35,7 +35,6 @@
 namespace rondel {
 namespace {
 
-using formats::PlannedWeights;
 using formats::RegridOutput;
 using formats::RegridRanks;
 using formats::RegridSide;
@@ -116,7 +115,6 @@ class RegridJob {
     fields_name_ = file_and_variable(in).first.path;
     formats::FieldsOfSide opened =
         formats::fields_of_side(in, std::vector(options_.names), source_);
-    places_ = std::move(opened.places);
     fields_ = std::move(opened.file);
     report_.remarks = formats::remarks_of(source_, target_, fields_->fields());
   }
@@ -127,6 +125,30 @@ class RegridJob {
         array.attributes, [](const auto& attribute) { return attribute.first == "flag_meanings"; });
     return has_meanings || !array.numbers.empty() ? FieldMethod::largest_share
                                                   : FieldMethod::conservative;
+  }
+
+  // Returns the bytes of conservative weights, which were measured and rounded up. Cells between
+  // parallels are never made.
+  [[nodiscard]] formats::RegridCost cost_of_cells(bool is_second) const {
+    const bool are_boxes = source_.has_parallels() && target_.has_parallels();
+    const auto of_side = [&](const RegridSide& side) -> std::uint64_t {
+      if (are_boxes) return is_second ? 500 : 140;
+      if (!side.has_parallels()) return is_second ? 1200 : 550;
+      return is_second ? 500 : 230;
+    };
+    const auto beside = [](const RegridSide& side) -> std::uint64_t {
+      if (side.has_parallels()) return 0;
+      return side.num_stored() > 0 ? 300 : 12;  // a set of cells, and an index by latitude
+    };
+    // Places of fields are compared when their file is opened.
+    const std::uint64_t of_compared = source_.axes() != nullptr ? 40 : 110;
+    const bool are_compared = source_.num_places() <= formats::max_compared;
+    const std::uint64_t of_place = target_.axes() == nullptr ? 2 * sizeof(LonLat) : 0;
+    return {.of_source = of_side(source_),
+            .of_target = of_side(target_),
+            .of_source_beside = beside(source_) + (are_compared ? of_compared : 0),
+            .of_target_beside = beside(target_) + of_place,
+            .of_cell_in_tile = 400};
   }
 
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
@@ -141,21 +163,21 @@ class RegridJob {
     task.tile = options_.cells_per_tile;
     task.threads = system::num_threads(execution_.threads);
     task.num_processes = ranks_.size;
+    const bool is_second = options_.method == FieldMethod::conservative_2nd;
     if (needs_cells_) {
-      const bool is_second = options_.method == FieldMethod::conservative_2nd;
-      task.weights = is_second ? PlannedWeights::of_cells_2nd : PlannedWeights::of_cells;
       task.has_tiles = !is_second && source_.has_tiles(execution_) &&
                        target_.has_tiles(execution_) &&
                        (source_.is_walked() || target_.is_walked());
+      task.are_cells = true;
       task.is_in_order = target_.has_parallels();
       task.has_windows = source_.has_parallels();
+      task.largest_target = target_.largest_share();
       task.rows = target_.has_parallels() ? target_.axes()->lat_deg.size() : 1;
-      task.stored_cells = source_.num_stored() + target_.num_stored();
+      task.cost = cost_of_cells(is_second);
     } else {
-      const bool is_bilinear = options_.method == FieldMethod::bilinear;
-      task.weights = is_bilinear ? PlannedWeights::bilinear : PlannedWeights::of_places;
       task.has_tiles = true;
       task.is_in_order = true;
+      task.cost = formats::PlaceTiles::cost_of(*options_.method);
     }
     plan_ = plan_of(task);
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
@@ -166,7 +188,7 @@ class RegridJob {
     }
     if (task.tile > 0 && !plan_.has_tiles) {
       report_.remarks.emplace_back(
-          task.weights == PlannedWeights::of_cells_2nd
+          is_second
               ? "the number of cells of a tile has no effect: weights of order 2 are computed as a "
                 "whole"
               : "the number of cells of a tile has no effect: cells overlap, or neither side "
@@ -344,7 +366,6 @@ class RegridJob {
   RegridSide target_;
   FileName out_;
   std::string fields_name_;  // of the file of the fields
-  std::vector<LonLat> places_;
   std::unique_ptr<FieldFile> fields_;
   std::map<FieldMethod, Weights> weights_;
   std::optional<Remap> second_;  // of order 2, if its values are limited

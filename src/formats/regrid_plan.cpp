@@ -16,68 +16,26 @@ namespace {
 constexpr std::uint64_t values_per_slice = std::uint64_t{1} << 22U;
 // The largest tile; larger ones are not faster.
 constexpr std::uint64_t largest_tile = std::uint64_t{1} << 18U;
-constexpr std::uint64_t smallest_tile = std::uint64_t{1} << 12U;
 
-// Bytes that were measured, rounded up (docs/decisions/060-values-kept-beside-the-output.md).
-constexpr std::uint64_t bytes_of_cell = 250;          // of both sides, with the weights of remap()
-constexpr std::uint64_t bytes_of_cell_2nd = 450;      // the same of order 2
-constexpr std::uint64_t bytes_of_stored_cell = 150;   // of a CellSet
-constexpr std::uint64_t bytes_of_indexed_cell = 12;   // in the index by latitude of TiledRemap
-constexpr std::uint64_t bytes_of_cell_in_tile = 400;  // of both sides
-constexpr std::uint64_t bytes_of_site = 250;          // of a triangulation and what locates targets
-constexpr std::uint64_t bytes_of_place = 32;          // longitude, latitude, and a copy
-constexpr std::uint64_t bytes_of_target_in_tile = 600;  // its weights between places
 constexpr std::uint64_t bytes_of_value = sizeof(double);
-
-std::uint64_t of_whole_weights(const RegridTask& task) {
-  const std::uint64_t cells = task.sources + task.targets;
-  switch (task.weights) {
-    case PlannedWeights::of_cells:
-      return bytes_of_cell * cells;
-    case PlannedWeights::of_cells_2nd:
-      return bytes_of_cell_2nd * cells;
-    case PlannedWeights::of_places:
-      return bytes_of_site * task.sources + bytes_of_target_in_tile * task.targets +
-             bytes_of_place * cells;
-    case PlannedWeights::bilinear:
-      break;
-  }
-  return (bytes_of_target_in_tile + bytes_of_place) * task.targets;
-}
 
 // Returns what is in memory beside tiles and fields.
 std::uint64_t beside_tiles(const RegridTask& task) {
-  switch (task.weights) {
-    case PlannedWeights::of_places:
-      return bytes_of_site * task.sources + bytes_of_place * (task.sources + task.targets);
-    case PlannedWeights::bilinear:
-      return bytes_of_place * task.targets;
-    default:
-      break;
-  }
-  const bool is_source_indexed = !task.has_windows;
-  const bool is_target_indexed = !task.is_in_order;
-  return bytes_of_stored_cell * task.stored_cells +
-         bytes_of_indexed_cell *
-             ((is_source_indexed ? task.sources : 0) + (is_target_indexed ? task.targets : 0));
-}
-
-std::uint64_t of_tile_cell(const RegridTask& task) {
-  const bool is_of_places =
-      task.weights == PlannedWeights::of_places || task.weights == PlannedWeights::bilinear;
-  return is_of_places ? bytes_of_target_in_tile : bytes_of_cell_in_tile;
+  return task.cost.of_source_beside * task.sources + task.cost.of_target_beside * task.targets;
 }
 
 // Returns the number of cells of the smallest sensible tile. The border of a band has about four
-// times the root of the number of cells, and a row of targets is never divided.
+// times the root of the number of cells; neither a row of targets nor a large target is divided.
 std::uint64_t cells_of_smallest_tile(const RegridTask& task) {
-  if (task.weights == PlannedWeights::of_places || task.weights == PlannedWeights::bilinear) {
-    return std::min(smallest_tile, task.targets);
-  }
+  if (!task.are_cells) return std::min(task.cost.smallest_tile, task.targets);
   const std::uint64_t cells = task.sources + task.targets;
   const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(cells)));
   const std::uint64_t row = task.is_in_order ? cells / std::max<std::uint64_t>(task.rows, 1) : 0;
-  return std::min(cells, std::max({smallest_tile, 4 * root, row}));
+  // Cells of a grid are denser away from the equator.
+  constexpr double density = 1.6;
+  const auto inside =
+      static_cast<std::uint64_t>(density * task.largest_target * static_cast<double>(task.sources));
+  return std::min(cells, std::max({task.cost.smallest_tile, 4 * root, row, inside}));
 }
 
 std::string mebibytes_of(std::uint64_t bytes) {
@@ -93,19 +51,22 @@ std::string mebibytes_of(std::uint64_t bytes) {
                      " targets" + (is_whole ? ", whose weights have no tiles" : ""));
 }
 
-RegridPlan plan_of_tiles(const RegridTask& task) {
+// `needed_by_whole` is what whole weights need.
+RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) {
   const std::uint64_t beside = beside_tiles(task);
   const std::uint64_t of_sources = task.has_windows ? 0 : bytes_of_value * task.sources;
   const std::uint64_t of_targets = bytes_of_value * task.targets;
   const std::uint64_t least_cells = task.tile > 0 ? task.tile : cells_of_smallest_tile(task);
-  const std::uint64_t of_least = of_tile_cell(task) * least_cells;
+  const std::uint64_t of_least = task.cost.of_cell_in_tile * least_cells;
   const std::uint64_t room = task.memory - std::min(task.memory, beside);
   RegridPlan plan;
   plan.has_tiles = true;
   const std::uint64_t of_both = of_sources + of_targets;
   plan.is_streamed = task.is_in_order && (of_both > room / 2 || of_both + of_least > room);
   const std::uint64_t of_field = of_sources + (plan.is_streamed ? 0 : of_targets);
-  if (of_field + of_least > room) refuse_memory(task, beside + of_field + of_least);
+  if (of_field + of_least > room) {
+    refuse_memory(task, std::min(beside + of_field + of_least, needed_by_whole));
+  }
   if (!plan.is_streamed && of_field > 0) {
     plan.fields_at_once = std::clamp<std::uint64_t>(std::min(room / 2, room - of_least) / of_field,
                                                     1, std::max<std::uint64_t>(task.fields, 1));
@@ -113,7 +74,7 @@ RegridPlan plan_of_tiles(const RegridTask& task) {
   const std::uint64_t left = room - plan.fields_at_once * of_field;
   plan.tiles_at_once =
       std::clamp<std::uint64_t>(left / std::max<std::uint64_t>(of_least, 1), 1, 2 * task.threads);
-  std::uint64_t fitting = left / (plan.tiles_at_once * of_tile_cell(task));
+  std::uint64_t fitting = left / (plan.tiles_at_once * task.cost.of_cell_in_tile);
   if (task.num_processes > 1) {
     // Each process gets several tiles.
     fitting = std::min(fitting, (task.sources + task.targets) / (4 * task.num_processes));
@@ -127,7 +88,8 @@ RegridPlan plan_of_tiles(const RegridTask& task) {
 
 RegridPlan plan_of(const RegridTask& task) {
   const std::uint64_t of_field = bytes_of_value * (task.sources + task.targets);
-  const std::uint64_t weights = of_whole_weights(task);
+  const std::uint64_t weights =
+      task.cost.of_source * task.sources + task.cost.of_target * task.targets;
   const bool is_tile_wanted = task.has_tiles && (task.tile > 0 || task.num_processes > 1);
   if (weights + of_field <= task.memory && !is_tile_wanted) {
     const std::uint64_t largest = std::max({task.sources, task.targets, std::uint64_t{1}});
@@ -138,7 +100,7 @@ RegridPlan plan_of(const RegridTask& task) {
     return plan;
   }
   if (!task.has_tiles) refuse_memory(task, weights + of_field);
-  return plan_of_tiles(task);
+  return plan_of_tiles(task, weights + of_field);
 }
 
 }  // namespace rondel::formats

@@ -12,22 +12,30 @@
 
 namespace rondel::formats {
 
-// The weights that a plan is about. Conservative ones of order 2 have no tiles.
-enum class PlannedWeights : std::uint8_t { of_cells, of_cells_2nd, of_places, bilinear };
+// The bytes that a kind of weights takes, for each cell or place of a side.
+struct RegridCost {
+  std::uint64_t of_source = 0;  // if weights are whole
+  std::uint64_t of_target = 0;
+  // If weights are in tiles, beside these.
+  std::uint64_t of_source_beside = 0;
+  std::uint64_t of_target_beside = 0;
+  std::uint64_t of_cell_in_tile = 0;  // cells of both sides, or targets of a method between places
+  std::uint64_t smallest_tile = std::uint64_t{1} << 14U;  // cells
+};
 
 struct RegridTask {
-  PlannedWeights weights = PlannedWeights::of_cells;
+  RegridCost cost;
   std::uint64_t sources = 0;
   std::uint64_t targets = 0;
-  std::uint64_t fields = 0;  // of one array
-  // Cells of a side that are in memory anyway, since they are from a file.
-  std::uint64_t stored_cells = 0;
-  bool has_tiles = false;    // whether weights can be computed in tiles
-  bool is_in_order = false;  // whether the targets of a tile are consecutive
-  bool has_windows = false;  // whether a tile needs consecutive sources, as far as a row of them
-  std::uint64_t rows = 1;    // parallels between targets, if these are in rows
-  std::uint64_t memory = 0;  // what may be in use
-  std::size_t tile = 0;      // cells of a tile; 0: as the plan says
+  std::uint64_t fields = 0;   // of one array
+  bool has_tiles = false;     // whether weights can be computed in tiles
+  bool are_cells = false;     // whether tiles have cells of both sides
+  bool is_in_order = false;   // whether the targets of a tile are consecutive
+  bool has_windows = false;   // whether a tile needs consecutive sources, as far as a row of them
+  double largest_target = 0;  // its share of the sphere, if targets may be large
+  std::uint64_t rows = 1;     // parallels between targets, if these are in rows
+  std::uint64_t memory = 0;   // what may be in use
+  std::size_t tile = 0;       // cells of a tile; 0: as the plan says
   unsigned threads = 1;
   std::size_t num_processes = 1;  // which share the tiles
 };

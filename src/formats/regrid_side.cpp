@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -170,6 +171,12 @@ bool RegridSide::has_parallels() const {
 std::size_t RegridSide::num_stored() const {
   const bool is_computed = has_parallels() || (named_ && !axes_);
   return is_computed ? 0 : num_places();
+}
+
+double RegridSide::largest_share() const {
+  if (num_stored() == 0 || !cells_) return 0;
+  const std::vector<double>& areas = overlay::CellSetData::of(*cells_).areas();
+  return areas.empty() ? 0 : std::ranges::max(areas) / (4 * std::numbers::pi);
 }
 
 TiledCells RegridSide::tiled() const {

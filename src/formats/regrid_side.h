@@ -47,6 +47,8 @@ class RegridSide {
   [[nodiscard]] bool has_parallels() const;
   // Returns the number of cells that are in memory, since no formula has them.
   [[nodiscard]] std::size_t num_stored() const;
+  // Returns the share of the sphere that the largest of these cells has, or 0.
+  [[nodiscard]] double largest_share() const;
   // Returns the cells for tiles. Precondition: has_tiles().
   [[nodiscard]] TiledCells tiled() const;
   // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no

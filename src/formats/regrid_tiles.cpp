@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -27,6 +28,38 @@ PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, Field
     throw FileError(source.name() +
                     ": the method bilinear needs a grid along axes of longitude and latitude; "
                     "linear takes any places");
+  }
+}
+
+// A source has its place, and a site with six faces that are located; gradients of a source are a
+// matrix of its neighbors. A target has its place, twice, and the weights of a row.
+RegridCost PlaceTiles::cost_of(FieldMethod method) {
+  constexpr std::uint64_t of_place = 2 * sizeof(LonLat);
+  constexpr std::uint64_t of_site = 300;
+  constexpr std::uint64_t of_gradient = 1100;
+  const auto with = [](std::uint64_t of_source, std::uint64_t of_row) {
+    return RegridCost{.of_source = of_source,
+                      .of_target = of_place + of_row,
+                      .of_source_beside = of_source,
+                      .of_target_beside = of_place,
+                      .of_cell_in_tile = 2 * of_row};
+  };
+  switch (method) {
+    case FieldMethod::bilinear: {
+      // The axes are looked at for each tile.
+      RegridCost cost = with(95, 100);
+      cost.smallest_tile = std::uint64_t{1} << 17U;
+      return cost;
+    }
+    case FieldMethod::nearest:
+      return with(of_site, 60);
+    case FieldMethod::linear:
+      return with(of_site, 120);
+    case FieldMethod::hermite:
+    case FieldMethod::cubic:
+      return with(of_site + of_gradient, 900);
+    default:
+      return with(of_site, 200);
   }
 }
 

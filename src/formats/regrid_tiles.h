@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "formats/regrid_plan.h"
 #include "formats/regrid_side.h"
 #include "rondel/delaunay.h"
 #include "rondel/interpolate.h"
@@ -58,6 +59,9 @@ class PlaceTiles : public RegridTiles {
   // `source` must outlive this. Throws FileError for bilinear without axes.
   PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
              std::size_t targets_per_tile, const Execution& execution);
+
+  // Returns the bytes that the weights of a method take, which were measured and rounded up.
+  [[nodiscard]] static RegridCost cost_of(FieldMethod method);
 
   [[nodiscard]] std::size_t num_tiles() const override;
   [[nodiscard]] std::size_t num_targets(std::size_t tile) const override;

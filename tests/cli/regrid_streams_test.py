@@ -250,6 +250,70 @@ class RegridStreams(unittest.TestCase):
         self.expect_refusal(["in.nc", "healpix:3", "--resume", "-o", "-", "--format", "nc"],
                             "-: a run can be resumed if its output is a file")
 
+    # --- meshes and polygons of a region ---
+
+    def write_mesh(self):
+        """Quadrilaterals between 10 and 70 degrees north as UGRID, with a field and gaps in it."""
+        lon, lat = np.meshgrid(np.linspace(-40, 60, 51), np.linspace(10, 70, 31))
+        corner = np.arange(lon.size).reshape(lon.shape)
+        faces = np.stack([corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]], -1).reshape(-1, 4)
+        faces = np.delete(faces, np.arange(400, 430), 0)
+        with netCDF4.Dataset(self.folder / "mesh.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for name, size in (("node", lon.size), ("face", len(faces)), ("four", 4), ("time", 3)):
+                file.createDimension(name, size)
+            mesh = file.createVariable("mesh", "i4", ())
+            mesh.setncatts({"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "node_x node_y",
+                            "face_node_connectivity": "corners"})
+            for name, values, units in (("node_x", lon, "degrees_east"), ("node_y", lat, "degrees_north")):
+                file.createVariable(name, "f8", ("node",))[:] = values.ravel()
+                file[name].units = units
+            file.createVariable("corners", "i4", ("face", "four"))[:] = faces
+            file["corners"].start_index = 0
+            field = file.createVariable("t", "f8", ("time", "face"), fill_value=-9.0)
+            field.setncatts({"mesh": "mesh", "location": "face"})
+            values = np.random.default_rng(5).normal(size=(3, len(faces)))
+            field[:] = np.ma.masked_where(values > 1.5, values)
+
+    def write_polygons(self):
+        """Polygons with a hole, with two parts, and around the pole."""
+        def box(west, south, east, north):
+            return [[west, south], [east, south], [east, north], [west, north], [west, south]]
+        shapes = ([[box(-10, 0, 40, 50), box(0, 10, 20, 30)[::-1]]], [[box(0, 10, 20, 30)]],
+                  [[box(-90, -40, -60, -20)], [box(-50, -10, -20, 15)]], [[box(-180, -90, 180, -65)]])
+        features = [{"type": "Feature", "properties": {"name": str(k)}, "geometry": {"type": "MultiPolygon", "coordinates": shape}}
+                    for k, shape in enumerate(shapes)]
+        (self.folder / "areas.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}), encoding="ascii")
+
+    def test_regions_have_the_same_bytes_in_tiles(self):
+        self.write_mesh()
+        self.write_polygons()
+        self.regrid(self.few, "healpix:3", "-o", "pixels.nc", "--quiet")
+        for source, target in (("mesh.nc", "healpix:4"), ("mesh.nc", "grid:4"), (self.few, "mesh.nc"), ("pixels.nc", "mesh.nc"),
+                               (self.few, "areas.geojson"), ("pixels.nc", "areas.geojson")):
+            for ending in ("nc", "csv"):
+                whole = self.regrid(source, target, "-o", f"whole.{ending}", "--json")
+                self.assertEqual((whole.returncode, whole.stderr), (0, ""), (source, target))
+                for tile in ("60", "900", "20000"):
+                    done = self.regrid(source, target, "-o", f"tiles.{ending}", "--tile", tile, "--json")
+                    self.assertEqual((done.returncode, done.stderr), (0, ""))
+                    told = json.loads(done.stdout)
+                    self.assertGreater(told["tiles"], 1 if tile == "60" else 0)
+                    self.assertEqual(told["missing"], json.loads(whole.stdout)["missing"])
+                    self.assertEqual((self.folder / f"tiles.{ending}").read_bytes(),
+                                     (self.folder / f"whole.{ending}").read_bytes(), (source, target, tile))
+
+    def test_what_has_no_tiles_is_told(self):
+        self.write_mesh()
+        self.write_polygons()
+        done = self.regrid("mesh.nc", "areas.geojson", "-o", "out.csv", "--tile", "100", "--quiet")
+        self.assertEqual((done.returncode, done.stderr),
+                         (0, "rondel: mesh.nc: the number of cells of a tile has no effect: cells overlap, or neither side "
+                             "covers the sphere or is between parallels\n"))
+        self.out.with_suffix(".csv").unlink()
+        self.expect_refusal(["mesh.nc", "areas.geojson", "-o", "out.csv", "--memory", "100K"],
+                            r"memory of 102400 bytes is too small: \d+M are enough for 1470 sources and 4 targets, whose "
+                            "weights have no tiles")
+
     # --- memory, and options without effect ---
 
     def test_memory_that_is_too_small_is_told_with_what_is_enough(self):

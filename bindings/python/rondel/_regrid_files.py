@@ -121,7 +121,7 @@ def regrid_file(
     memory : int, optional
         About how many bytes may be in use, beside those of the process; by default 2 GiB. Weights
         that need more are computed tile by tile, with the same values; those of
-        'conservative_2nd', and of meshes of a region, are not.
+        'conservative_2nd', of cells that overlap, and between two regions are not.
     tile : int, optional
         The number of cells of a tile, or of targets with a method between places; by default as
         `memory` says.
