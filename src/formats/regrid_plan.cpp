@@ -72,8 +72,8 @@ RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) 
                                                     1, std::max<std::uint64_t>(task.fields, 1));
   }
   const std::uint64_t left = room - plan.fields_at_once * of_field;
-  plan.tiles_at_once =
-      std::clamp<std::uint64_t>(left / std::max<std::uint64_t>(of_least, 1), 1, 2 * task.threads);
+  plan.tiles_at_once = std::clamp<std::uint64_t>(left / std::max<std::uint64_t>(of_least, 1), 1,
+                                                 2 * std::uint64_t{task.threads});
   std::uint64_t fitting = left / (plan.tiles_at_once * task.cost.of_cell_in_tile);
   if (task.num_processes > 1) {
     // Each process gets several tiles.

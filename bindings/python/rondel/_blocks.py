@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Hashable, Mapping
+from importlib import import_module
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -33,9 +34,8 @@ def in_blocks(
     """The lazy values at targets of a shape. Each block is ``apply(values, weights)`` of the rows
     of its own targets, with these in one axis, for a block of the leading axes of `values`.
     """
-    import dask
-    import dask.array
-
+    array: Any = import_module("dask.array")
+    delayed: Any = import_module("dask").delayed
     num_leading = values.ndim - num_source_dims
     values = values.rechunk(dict.fromkeys(range(num_leading, values.ndim), -1))
     leading = values.chunks[:num_leading]
@@ -49,8 +49,8 @@ def in_blocks(
         part = weights
         if not is_whole:
             # The rows of a block are taken when it is computed, once for all of its leading axes.
-            part = dask.delayed(_rows, pure=False)(weights, shape, begins, lengths)
-        blocks[place] = dask.array.map_blocks(
+            part = delayed(_rows, pure=False)(weights, shape, begins, lengths)
+        blocks[place] = array.map_blocks(
             _applied,
             values,
             weights=part,
@@ -63,7 +63,7 @@ def in_blocks(
             drop_axis=list(range(num_leading, values.ndim)),
             new_axis=list(range(num_leading, num_leading + len(shape))),
         )
-    return dask.array.block(blocks.tolist())
+    return array.block(blocks.tolist())
 
 
 def _applied(
@@ -97,8 +97,7 @@ def _chunks_of(
     """The lengths of blocks along each dimension of the targets. Those that are not given are as
     long as Dask's option `array.chunk-size` allows.
     """
-    from dask.array.core import normalize_chunks
-
+    normalize_chunks: Any = import_module("dask.array.core").normalize_chunks
     if isinstance(wanted, Mapping):
         unknown = [str(name) for name in wanted if name not in dims]
         if unknown:
