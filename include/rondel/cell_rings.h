@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondel/export.h"
@@ -87,6 +88,14 @@ struct LonLatAxes {
   [[nodiscard]] RONDEL_API std::vector<LonLat> places() const;
 };
 
+/// What to do where a file has the centers of cells in two dimensions, and no corners.
+enum class MissingCorners : std::uint8_t {
+  error,
+  made,  ///< they are made from the centers (nodes_between() of rondel/read_cells.h)
+};
+/// Returns the name of a value: "error", "made"; empty for other numbers.
+RONDEL_API std::string_view name_of(MissingCorners corners) noexcept;
+
 /// What is known of cells beside their borders. Any of the arrays may be empty.
 struct CellFacts {
   std::string name = {};  ///< the file, for messages
@@ -112,6 +121,8 @@ struct CellFacts {
   /// Sentences for whoever reads the file: what is masked, left out or without an area, and which
   /// grid of several was read.
   std::vector<std::string> remarks = {};
+  /// Whether the file has no corners, and they were made from the centers (MissingCorners::made).
+  bool are_corners_made = false;
 };
 
 /// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.

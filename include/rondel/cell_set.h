@@ -53,8 +53,9 @@ struct CellFileOptions {
   PolygonEdges edges = PolygonEdges::lonlat;  ///< for polygons
   /// For polygons; other cells are repaired() if they are to be.
   InvalidPolygons invalid = InvalidPolygons::error;
-  PolygonOverlap overlap = PolygonOverlap::keep;  ///< for polygons
-  FeatureChoice is_taken = {};                    ///< for polygons, as in PolygonOptions
+  PolygonOverlap overlap = PolygonOverlap::keep;   ///< for polygons
+  FeatureChoice is_taken = {};                     ///< for polygons, as in PolygonOptions
+  MissingCorners corners = MissingCorners::error;  ///< for coordinates of two dimensions
 };
 
 /// Cells prepared for overlays with others, and what is known of them. Copies share the memory;

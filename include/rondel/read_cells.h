@@ -49,6 +49,21 @@ struct GridShape {
 RONDEL_API std::vector<LonLat> corners_of_grid(std::span<const LonLat> nodes, GridShape node_shape,
                                                std::span<const LonLat> centers, GridShape shape);
 
+/// Returns nodes between the places of a grid, one row and one column more than places, for grids
+/// that have centers alone: those of models in curvilinear coordinates, swaths of satellites.
+///
+/// 1. A node is in the direction of the mean of the four centers around it, as unit vectors.
+/// 2. Beyond the border, and where a center is missing, one is extrapolated: it is the mean of the
+///    mirror images b' = 2 (a.b) a - b of the next but one center b in the next one a, along the
+///    rows and columns in which both are there; where there are none, of those that were found so.
+/// 3. If the last column is beside the first one (grid_neighbors() of rondel/extrapolate.h), the
+///    grid goes around, and the first and the last column of nodes are the same.
+/// 4. A node without four centers is missing (NaN).
+///
+/// \param centers  in degrees, row by row, NaN where they are missing
+/// \throws InvalidInput if there are not as many centers, or less than two rows or columns
+RONDEL_API std::vector<LonLat> nodes_between(std::span<const LonLat> centers, GridShape shape);
+
 /// Centers that lie outside of their cells.
 struct CentersOutside {
   std::size_t number = 0;  ///< how many there are
@@ -104,8 +119,11 @@ RONDEL_API CentersOutside centers_outside(const CellRings& cells, std::span<cons
 ///    belongs to another cell by the rule in docs/guide/formats.md (cells), and otherwise a remark
 ///    if it is outside of the circle around the corners. Masked cells may have any corners and
 ///    centers.
+/// \param corners  where the corners are not in the file, for coordinates of two dimensions. Those
+///                 that are made are told by a remark and by CellFacts::are_corners_made.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
-RONDEL_API CellTable read_cells(const FileName& file);
+RONDEL_API CellTable read_cells(const FileName& file,
+                                MissingCorners corners = MissingCorners::error);
 
 /// True if read_cells() reads files of this format; the name of a grid (`FILE.nc:NAME`) is ignored.
 RONDEL_API bool can_read_cells(const FileName& file);

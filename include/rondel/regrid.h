@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Weights of the methods that ESMF and xESMF have beside those of Interpolator: bilinear on a grid
-/// of meridians and parallels, and sources that are given to their nearest targets.
+/// Weights of methods beside those of Interpolator: as ESMF and xESMF have them, bilinear on a grid of
+/// meridians and parallels, and sources that are given to their nearest targets.
 #pragma once
 
 #include <cstddef>
@@ -21,11 +21,11 @@
 
 namespace rondel {
 
-/// The methods of regridding of this header.
-enum class RegridMethod : std::uint8_t { bilinear, nearest_d2s };
+/// The methods of regridding of this header, and native_weights() of rondel/native_weights.h.
+enum class RegridMethod : std::uint8_t { bilinear, nearest_d2s, native };
 
 /// Returns the name of a method in the tool, in files of weights and in Python, which is that of
-/// ESMF and xESMF: "bilinear", "nearest_d2s"; empty for other numbers.
+/// ESMF and xESMF where they have it: "bilinear", "nearest_d2s", "native"; empty for other numbers.
 RONDEL_API std::string_view name_of(RegridMethod method) noexcept;
 
 /// Returns the axes of places that are a grid of this shape, or nothing if the places of a row

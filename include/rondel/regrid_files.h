@@ -15,6 +15,7 @@
 
 #include "rondel/cell_set.h"
 #include "rondel/export.h"
+#include "rondel/extrapolate.h"
 #include "rondel/io.h"
 #include "rondel/remap.h"
 #include "rondel/types.h"
@@ -36,6 +37,7 @@ enum class FieldMethod : std::uint8_t {
   hermite,   ///< cubic along edges, with gradients
   cubic,     ///< with continuous gradients
   bilinear,  ///< on a grid along axes (rondel/regrid.h)
+  native,    ///< in the cells of the mesh that the fields are on (rondel/native_weights.h)
 };
 
 /// Returns the name of a value, "conservative_2nd"; empty for other numbers.
@@ -77,6 +79,8 @@ struct RegridFileOptions {
   /// method. Each variable becomes one for each statistic: "tas_mean", "tas_max".
   std::vector<ZonalStatistic> statistics = {};
   ZonalWeights statistic_weights = ZonalWeights::area;
+  /// How targets that have no value by the method get one, field by field (Extrapolator).
+  std::optional<ExtrapolationOptions> extrapolation = std::nullopt;
 };
 
 /// What regrid_file() did.
@@ -88,6 +92,7 @@ struct RegridFileReport {
   std::size_t tiles = 0;                  ///< 0 if all weights were in memory
   std::vector<std::string> remarks = {};  ///< what was left out, and why
   std::uint64_t resumed = 0;              ///< values that an earlier run had computed
+  std::size_t extrapolated = {};          ///< values of targets that were extrapolated
 };
 
 /// Regrids the fields of a file.
@@ -101,6 +106,11 @@ struct RegridFileReport {
 ///
 /// With statistics, variables of numbers of cells (count, fraction, variety) have the unit 1, those of
 /// variance the square of the unit; `cell_methods` says what was done over the area.
+///
+/// Methods between places take the fields from the places of the first variable that is named, which
+/// may be the nodes or edges of a mesh; `target` may be such places, FILE.nc:NAME. Where corners
+/// were made from centers (CellFileOptions::corners), the attribute `source_corners` or
+/// `target_corners` of the output says so.
 ///
 /// Values are the same bytes for any number of threads, memory and tiles. The output appears when
 /// it is complete. All files that are read must stay as they are meanwhile.

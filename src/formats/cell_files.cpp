@@ -33,27 +33,6 @@
 namespace rondel {
 namespace {
 
-// Reads the cells by the first convention that the file follows. `name` is a variable that is on
-// the cells, or empty. Throws BadValue if there is no variable of this name or no convention fits.
-formats::MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name) {
-  // The name of a grid of OASIS, such as torc, is that of no variable.
-  const bool is_oasis = file.find(name + ".clo") != nullptr;
-  if (!name.empty() && !is_oasis) (void)file.require(name);
-  // CF comes last, since files of the other conventions may have longitudes and latitudes, too.
-  for (const auto read : {&formats::read_ugrid, &formats::read_scrip_grid, &formats::read_esmf_mesh,
-                          &formats::read_mpas_cells, &formats::read_icon, &formats::read_oasis,
-                          &formats::read_exodus, &formats::read_cf_grid}) {
-    if (std::optional<formats::MeshContent> mesh = read(file, name)) return std::move(*mesh);
-  }
-  if (!name.empty()) {
-    throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
-  }
-  const std::string text =
-      "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, OASIS and Exodus, and "
-      "has no longitudes and latitudes of CF";
-  throw io::BadValue(text + formats::remark_on_units(formats::headers_of(file)));
-}
-
 // Nodes in double precision that are nearer to each other than this (radians) are one corner.
 constexpr double same_place = 1e-10;
 // The distance for nodes in single precision.
@@ -205,9 +184,29 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_
 
 bool can_read_cells(const FileName& file) { return is_netcdf_file(file_and_variable(file).first); }
 
+formats::MeshContent formats::read_by_convention(const io::NetcdfReader& file,
+                                                 const std::string& name, MissingCorners corners) {
+  // The name of a grid of OASIS, such as torc, is that of no variable.
+  const bool is_oasis = file.find(name + ".clo") != nullptr;
+  if (!name.empty() && !is_oasis) (void)file.require(name);
+  for (const auto read : {&read_ugrid, &read_scrip_grid, &read_esmf_mesh, &read_mpas_cells,
+                          &read_icon, &read_oasis, &read_exodus}) {
+    if (std::optional<MeshContent> mesh = read(file, name)) return std::move(*mesh);
+  }
+  // CF comes last, since files of the other conventions may have longitudes and latitudes, too.
+  if (std::optional<MeshContent> mesh = read_cf_grid(file, name, corners)) return std::move(*mesh);
+  if (!name.empty()) {
+    throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
+  }
+  const std::string text =
+      "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, OASIS and Exodus, and "
+      "has no longitudes and latitudes of CF";
+  throw io::BadValue(text + remark_on_units(headers_of(file)));
+}
+
 CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& file_name,
-                            const std::string& part) {
-  formats::MeshContent mesh = read_by_convention(file, io::full_name(file.variables(), part));
+                            const std::string& part, MissingCorners corners) {
+  MeshContent mesh = read_by_convention(file, io::full_name(file.variables(), part), corners);
   // A grid of meridians and parallels has lines in place of rings.
   CellTable table;
   if (!mesh.grid) table.cells = cells_of(mesh);
@@ -224,7 +223,7 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
   return table;
 }
 
-CellTable read_cells(const FileName& file) {
+CellTable read_cells(const FileName& file, MissingCorners corners) {
   const system::ArithmeticScope arithmetic;
   const std::pair<FileName, std::string> part = file_and_variable(file);
   io::FileBytes bytes(part.first, true);
@@ -233,7 +232,7 @@ CellTable read_cells(const FileName& file) {
                              "cells of models are read from netCDF:", io::netcdf_endings);
   }
   return io::in_file(bytes.name(), [&] {
-    return formats::cells_in(io::NetcdfReader(bytes), bytes.name(), part.second);
+    return formats::cells_in(io::NetcdfReader(bytes), bytes.name(), part.second, corners);
   });
 }
 
@@ -247,7 +246,7 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
   if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
-  CellSet cells = of(read_cells(file), options.sides, execution);
+  CellSet cells = of(read_cells(file, options.corners), options.sides, execution);
   if (options.invalid == InvalidPolygons::error) return cells;
   try {
     return cells.repaired(execution);

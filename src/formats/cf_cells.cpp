@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,8 +36,9 @@ class CfGrids {
  public:
   // Finds all pairs of coordinates of the file, or those that `name` means. Throws BadValue if the
   // variable `name` has no coordinates.
-  CfGrids(const NetcdfReader& file, const std::string& name, std::vector<std::string>& remarks)
-      : file_(file), headers_(headers_of(file)), remarks_(remarks) {
+  CfGrids(const NetcdfReader& file, const std::string& name, MissingCorners corners,
+          std::vector<std::string>& remarks)
+      : file_(file), headers_(headers_of(file)), corners_(corners), remarks_(remarks) {
     if (name.empty()) {
       pairs_ = find_coordinates(headers_, {}, &remarks);
       return;
@@ -62,11 +64,20 @@ class CfGrids {
       return has_cells(pair) && (pair.is_used || !has_used);
     });
     if (found == pairs_.end()) {
-      throw BadValue("its longitudes and latitudes have no bounds, so no cells");
+      const bool may_be_made = std::ranges::any_of(pairs_, [&](const CoordinatePair& pair) {
+        return headers_[pair.lon].dimensions.size() > 1;
+      });
+      throw BadValue(std::string("its longitudes and latitudes have no bounds, so no cells") +
+                     (may_be_made ? "; corners = made makes them from the centers" : ""));
     }
     if (found != pairs_.begin()) require_same_places(pairs_.front(), *found);
     tell_of_others(*found);
     return &*found;
+  }
+
+  // True if both coordinates of a pair have bounds.
+  [[nodiscard]] static bool has_bounds(const CoordinatePair& pair) {
+    return pair.lon_bounds != no_variable && pair.lat_bounds != no_variable;
   }
 
   // Returns the variable of the file that has this number in CoordinatePair.
@@ -75,9 +86,10 @@ class CfGrids {
   }
 
  private:
-  // True if cells can be made: the coordinates are axes, or both have bounds.
-  static bool has_cells(const CoordinatePair& pair) {
-    return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
+  // True if cells can be made: the coordinates are axes, or both have bounds, or these are made.
+  [[nodiscard]] bool has_cells(const CoordinatePair& pair) const {
+    return pair.are_axes || has_bounds(pair) ||
+           (corners_ == MissingCorners::made && headers_[pair.lon].dimensions.size() > 1);
   }
 
   // True if all names of `some` are among `all`.
@@ -150,6 +162,7 @@ class CfGrids {
 
   const NetcdfReader& file_;
   std::vector<VariableHeader> headers_;
+  MissingCorners corners_;
   std::vector<std::string>& remarks_;
   std::vector<CoordinatePair> pairs_;
 };
@@ -343,6 +356,45 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   return mesh;
 }
 
+// Makes the cells of coordinates without bounds, with corners between the centers. Throws BadValue
+// if the places are no grid of two dimensions.
+MeshContent cells_around_centers(const NetcdfReader& file, const CfGrids& grids,
+                                 const CoordinatePair& pair) {
+  MeshContent mesh;
+  const io::VariableInFile& lon = grids.variable(pair.lon);
+  const io::VariableInFile& lat = grids.variable(pair.lat);
+  const PlaceArrays places = places_of(file, lon, lat);
+  const std::string names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
+  const bool is_grid = places.shape.size() == 2 && places.shape[0] > 1 && places.shape[1] > 1;
+  if (!is_grid || 4 * places.lon.size() >= no_index) {
+    throw BadValue(
+        "corners of cells are made of grids with two rows and two columns or more, not of " +
+        names);
+  }
+  for (std::size_t i = 0; i < places.lon.size(); ++i) {
+    const LonLat center{places.lon[i], places.lat[i]};
+    mesh.centers.push_back(is_missing_place(center) ? center : require_position(names, i, center));
+  }
+  const GridShape shape = last_two_of(places.shape);
+  const std::vector<LonLat> nodes = nodes_between(mesh.centers, shape);
+  mesh.nodes = corners_of_grid(nodes, {shape.rows + 1, shape.columns + 1}, mesh.centers, shape);
+  // A place without longitude or latitude has no cell, though its neighbors give it corners.
+  for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
+    if (!is_missing_place(mesh.centers[i])) continue;
+    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+    std::fill_n(mesh.nodes.begin() + static_cast<std::ptrdiff_t>(4 * i), 4,
+                LonLat{missing, missing});
+  }
+  mesh.names = "made between " + names;
+  mesh.are_corners_made = true;
+  end_cells_of_nodes(4, false, mesh);
+  mesh.shape = places.shape;
+  mesh.remarks.push_back(names +
+                         " have no bounds; the corners of cells are made half way between "
+                         "the centers");
+  return mesh;
+}
+
 // Makes the cells of axes: a grid between meridians and parallels, with its centers row by row from
 // the first latitude on. Throws BadValue for a coordinate that is no place.
 MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
@@ -375,14 +427,16 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
 
 }  // namespace
 
-std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::string& name) {
+std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::string& name,
+                                        MissingCorners corners) {
   if (!name.empty() && file.find(name) == nullptr) return std::nullopt;
   std::vector<std::string> remarks;
-  CfGrids grids(file, name, remarks);
+  CfGrids grids(file, name, corners, remarks);
   const CoordinatePair* const pair = grids.best();
   if (pair == nullptr) return std::nullopt;
-  MeshContent mesh = pair->are_axes ? cells_along_axes(file, grids, *pair)
-                                    : cells_with_corners(file, grids, *pair);
+  MeshContent mesh = pair->are_axes               ? cells_along_axes(file, grids, *pair)
+                     : CfGrids::has_bounds(*pair) ? cells_with_corners(file, grids, *pair)
+                                                  : cells_around_centers(file, grids, *pair);
   mesh.convention = "CF";
   for (std::string& remark : remarks) {
     if (remark.starts_with("there is no variable") && pair->are_axes) {

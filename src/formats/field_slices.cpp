@@ -238,7 +238,9 @@ void FieldSlices::add_all() {
       continue;
     }
     if (layouts_.other_places().empty()) {
-      if (!keep_other(variable)) without_points.add(variable.name);
+      // A variable at places of another number is no axis, nor bounds of one.
+      const bool is_elsewhere = !layouts_.why_not().empty();
+      if (is_elsewhere || !keep_other(variable)) without_points.add(variable.name);
     } else {
       elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
     }

@@ -40,7 +40,12 @@ struct MeshContent : CellFacts {
 // Returns what read_cells() returns for a file, or for the grid that the variable `part` is on.
 // `file_name` is for messages. Throws BadValue.
 CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
-                   const std::string& part);
+                   const std::string& part, MissingCorners corners = MissingCorners::error);
+
+// Returns the mesh of the first convention that the file follows. `name` is a variable that is on
+// its cells, or empty. Throws BadValue if there is no variable of this name or no convention fits.
+MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name,
+                               MissingCorners corners = MissingCorners::error);
 
 // True if variables are those of a mesh, in any convention but OASIS, whose cells a field need not
 // name.
@@ -56,7 +61,15 @@ std::optional<MeshContent> read_mpas_cells(const io::NetcdfReader& file, const s
 std::optional<MeshContent> read_icon(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_oasis(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_exodus(const io::NetcdfReader& file, const std::string& name);
-std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std::string& name,
+                                        MissingCorners corners);
+
+// Returns the variable that a name means: for "tas[3]" or "tas_2001-07-15" it is tas. Throws
+// BadValue if there is none.
+std::string variable_of(const io::NetcdfReader& reader, const std::string& name);
+// Returns the middles of the edges that a variable of UGRID is on, in degrees; nothing if it is
+// elsewhere, or the file has `edge_coordinates`. Throws BadValue for an edge without two nodes.
+std::vector<LonLat> middles_of_edges(const io::NetcdfReader& file, const std::string& name);
 
 // True if `name` is empty, or names a variable that shares a dimension with `cells`.
 bool is_meant(const io::NetcdfReader& file, const std::string& name,

@@ -23,20 +23,6 @@
 namespace rondel {
 namespace {
 
-// Returns the variable that a name means: for "tas[3]" or "tas_2001-07-15" it is tas. Throws
-// BadValue.
-std::string variable_of(const io::NetcdfReader& reader, const std::string& name) {
-  if (name.empty() || reader.find(name) != nullptr) return name;
-  std::string longest;
-  for (const io::VariableInFile& variable : reader.variables()) {
-    const std::size_t length = variable.name.size();
-    const bool is_beginning = name.starts_with(variable.name) && length < name.size() &&
-                              (name[length] == '[' || name[length] == '_');
-    if (is_beginning && length > longest.size()) longest = variable.name;
-  }
-  return longest.empty() ? reader.require(name).name : longest;
-}
-
 // The variable of the first column that is asked for. `is_one_of_several` is true if the name picks
 // one field of the variable.
 struct NamedVariable {
@@ -51,7 +37,7 @@ NamedVariable named_variable(const FileName& file, std::span<const std::string> 
   return io::in_file(bytes.name(), [&]() -> NamedVariable {
     const io::NetcdfReader reader(bytes);
     const std::string wanted = io::full_name(reader.variables(), names.front());
-    const std::string name = variable_of(reader, wanted);
+    const std::string name = formats::variable_of(reader, wanted);
     return {name, name != wanted};
   });
 }
@@ -84,6 +70,14 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
   } catch (const FileError&) {
     return std::nullopt;  // fields need no cells
   }
+}
+
+// Returns the middles of edges on which a variable is whose file has no places of edges.
+std::vector<LonLat> middles_for(const FileName& file, const std::string& variable) {
+  if (variable.empty()) return {};
+  io::FileBytes bytes(file, true);
+  return io::in_file(bytes.name(),
+                     [&] { return formats::middles_of_edges(io::NetcdfReader(bytes), variable); });
 }
 
 // Returns an array with one value at each site as a column; missing values are empty cells.
@@ -128,6 +122,18 @@ void add_columns(const FieldFile& file, std::span<const std::string> names, Netc
 
 }  // namespace
 
+std::string formats::variable_of(const io::NetcdfReader& reader, const std::string& name) {
+  if (name.empty() || reader.find(name) != nullptr) return name;
+  std::string longest;
+  for (const io::VariableInFile& variable : reader.variables()) {
+    const std::size_t length = variable.name.size();
+    const bool is_beginning = name.starts_with(variable.name) && length < name.size() &&
+                              (name[length] == '[' || name[length] == '_');
+    if (is_beginning && length > longest.size()) longest = variable.name;
+  }
+  return longest.empty() ? reader.require(name).name : longest;
+}
+
 NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
                               bool keep_columns) {
   const system::ArithmeticScope arithmetic;
@@ -135,6 +141,8 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
   const NamedVariable named = named_variable(file, names);
   if (std::optional<NetcdfSites> centers = centers_of_cells(file, named.name)) {
     sites = std::move(*centers);
+  } else {
+    sites.table.positions = middles_for(file, named.name);
   }
   const std::size_t num_centers = sites.table.positions.size();
   // The fields are needed if they give the sites or the columns, or if the name picks one of

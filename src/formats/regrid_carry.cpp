@@ -133,7 +133,9 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
                  take(number, targets, take_values<double>(count * num_targets, message));
                });
   }
-  if (!plan_.is_streamed) out_.write(carried);
+  if (plan_.is_streamed) return;
+  if (job_.complete && ranks_.is_first()) job_.complete(first, count, carried);
+  out_.write(carried);
 }
 
 std::vector<double> TileCarrier::applied(const RemapTile& tile, SourceValues& values,

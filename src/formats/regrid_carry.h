@@ -30,6 +30,10 @@ struct ArrayToCarry {
   bool has_windows;  // whether a tile needs consecutive sources
   bool is_largest_share;
   double max_missing;
+  // What is done with whole fields from `first` on before they are written, if anything.
+  using Complete =
+      std::function<void(std::size_t first, std::size_t count, std::span<double> carried)>;
+  Complete complete = {};
 };
 
 // True if so much of a target is covered that it has a value.

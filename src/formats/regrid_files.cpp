@@ -27,6 +27,7 @@
 #include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
+#include "rondel/names.h"
 #include "rondel/tiled_remap.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -56,6 +57,14 @@ formats::RegridInputs inputs_of(const FileName& in, const FileName& target,
   return inputs;
 }
 
+std::string text_of(const std::optional<ExtrapolationOptions>& options) {
+  if (!options) return "none";
+  return std::string(name_of(options->method)) + ' ' +
+         (options->max_distance_km ? system::shortest_text(*options->max_distance_km) : "any") +
+         ' ' + std::to_string(options->neighbors) + ' ' + std::to_string(options->exponent) + ' ' +
+         std::to_string(options->levels);
+}
+
 class RegridJob {
  public:
   RegridJob(const FileName& in, const FileName& target, FileName out,
@@ -65,8 +74,10 @@ class RegridJob {
         execution_(execution),
         inputs_(inputs_of(in, target, options)),
         needs_cells_(!options.method || is_conservative(*options.method)),
-        source_(options.source.value_or(file_and_variable(in).first), options.cells, needs_cells_,
-                execution),
+        names_(names_of(in, options)),
+        mesh_file_(options.source.value_or(file_and_variable(in).first)),
+        source_(mesh_file_, options.cells, needs_cells_, execution,
+                options.source ? std::vector<std::string>() : names_),
         target_(target, options.cells, needs_cells_, execution),
         out_(std::move(out)) {
     inputs_.require_other(out_);
@@ -88,6 +99,7 @@ class RegridJob {
     formats::add_history(options_.history, written);
     make_plan();
     const bool is_netcdf = is_netcdf_file(out_);
+    tell_of_corners(written);
     const WeightSide side = target_.description(is_netcdf);
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
@@ -104,19 +116,63 @@ class RegridJob {
     }
     inputs_.require_unchanged();
     // All ranks have come so far before the file appears.
-    if (ranks_.size > 1) ranks_.number_of_first(0);
+    if (ranks_.size > 1) gather_extrapolated();
     report_.missing = output->num_missing();
     output->finish();
     return std::move(report_);
   }
 
  private:
+  // Returns the variables that are named, by themselves or with the file.
+  static std::vector<std::string> names_of(const FileName& in, const RegridFileOptions& options) {
+    std::vector<std::string> names = options.names;
+    const std::string variable = file_and_variable(in).second;
+    if (names.empty() && !variable.empty()) names.push_back(variable);
+    return names;
+  }
+
+  // True if the first variable that is named has values at other places than the source's cells.
+  [[nodiscard]] bool is_elsewhere(const FileName& file) const {
+    if (names_.empty()) return false;
+    try {
+      const NetcdfSites sites = read_netcdf_sites(file, std::span(names_).first(1), false);
+      return sites.table.sites.size() != source_.num_places();
+    } catch (const FileError&) {
+      return false;
+    }
+  }
+
   void open(const FileName& in) {
-    fields_name_ = file_and_variable(in).first.path;
-    formats::FieldsOfSide opened =
-        formats::fields_of_side(in, std::vector(options_.names), source_);
-    fields_ = std::move(opened.file);
+    const FileName file = file_and_variable(in).first;
+    fields_name_ = file.path;
+    try {
+      fields_ = formats::fields_of_side(in, std::vector(names_), source_).file;
+    } catch (const FileError& error) {
+      if (!needs_cells_ || !is_elsewhere(file)) throw;
+      throw FileError(std::string(error.what()) +
+                      "; means over cells need values of cells, and other methods take any places");
+    }
     report_.remarks = formats::remarks_of(source_, target_, fields_->fields());
+  }
+
+  // Sums what all processes have extrapolated.
+  void gather_extrapolated() {
+    RegridRanks::Message own(sizeof(std::uint64_t));
+    const std::uint64_t number = report_.extrapolated;
+    std::memcpy(own.data(), &number, sizeof number);
+    report_.extrapolated = 0;
+    for (const RegridRanks::Message& message : ranks_.gather(std::move(own))) {
+      std::uint64_t of_rank = 0;
+      std::memcpy(&of_rank, message.data(), sizeof of_rank);
+      report_.extrapolated += of_rank;
+    }
+    ranks_.number_of_first(0);
+  }
+
+  void tell_of_corners(FieldSet& written) const {
+    const std::string text = "made half way between the centers, as the file has none";
+    if (source_.are_corners_made()) written.attributes.emplace_back("source_corners", text);
+    if (target_.are_corners_made()) written.attributes.emplace_back("target_corners", text);
   }
 
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {
@@ -170,7 +226,7 @@ class RegridJob {
                        (source_.is_walked() || target_.is_walked());
       task.are_cells = true;
       task.is_in_order = target_.has_parallels();
-      task.has_windows = source_.has_parallels();
+      task.has_windows = source_.has_parallels() && !options_.extrapolation;
       task.largest_target = target_.largest_share();
       task.rows = target_.has_parallels() ? target_.axes()->lat_deg.size() : 1;
       task.cost = cost_of_cells(is_second);
@@ -178,6 +234,11 @@ class RegridJob {
       task.has_tiles = true;
       task.is_in_order = true;
       task.cost = formats::PlaceTiles::cost_of(*options_.method);
+    }
+    if (options_.extrapolation) {
+      constexpr std::uint64_t of_extrapolator = 120;  // a place and its neighbors
+      task.cost.of_source += of_extrapolator;
+      task.cost.of_source_beside += of_extrapolator;
     }
     plan_ = plan_of(task);
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
@@ -204,9 +265,7 @@ class RegridJob {
     if (known != weights_.end()) return known->second;
     Weights made = is_conservative(method)
                        ? conservative_weights(method)
-                       : formats::PlaceTiles(source_, target_, method, report_.targets, execution_)
-                             .tile(0, execution_)
-                             .weights;
+                       : place_tiles(method, report_.targets)->tile(0, execution_).weights;
     return weights_.emplace(method, std::move(made)).first->second;
   }
 
@@ -226,6 +285,30 @@ class RegridJob {
     return second_->weights;
   }
 
+  // Extrapolates fields that were carried, if the options ask for it.
+  void extrapolate(std::span<const double> values, std::span<double> carried) {
+    if (!options_.extrapolation) return;
+    if (!filler_) {
+      filler_.emplace(
+          formats::extrapolator_between(source_, target_, *options_.extrapolation, execution_));
+    }
+    for (std::size_t f = 0; f * report_.targets < carried.size(); ++f) {
+      report_.extrapolated +=
+          filler_->fill(values.subspan(f * report_.sources, report_.sources),
+                        carried.subspan(f * report_.targets, report_.targets), execution_);
+    }
+  }
+
+  // Returns the weights of a method between places. What they leave out becomes a remark.
+  std::unique_ptr<formats::PlaceTiles> place_tiles(FieldMethod method, std::size_t per_tile) {
+    FileName mesh = mesh_file_;
+    if (!options_.source && !names_.empty()) mesh.path += ":" + names_.front();
+    auto made =
+        std::make_unique<formats::PlaceTiles>(source_, target_, method, mesh, per_tile, execution_);
+    for (const std::string& remark : made->remarks()) report_.remarks.push_back(remark);
+    return made;
+  }
+
   // Carries the fields of an array.
   void carry(std::size_t array, FieldMethod method, RegridOutput& output) {
     const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
@@ -240,8 +323,23 @@ class RegridJob {
                                     .targets = report_.targets,
                                     .has_windows = needs_cells_ && source_.has_parallels(),
                                     .is_largest_share = method == FieldMethod::largest_share,
-                                    .max_missing = options_.max_missing};
+                                    .max_missing = options_.max_missing,
+                                    .complete = completing(array)};
     formats::TileCarrier(tiles(method), plan_, job, output, ranks_, execution_).run();
+  }
+
+  // Returns what extrapolates whole fields of an array; nothing if that is not asked for.
+  formats::ArrayToCarry::Complete completing(std::size_t array) {
+    if (!options_.extrapolation) return {};
+    if (plan_.is_streamed) {
+      throw InvalidInput("memory of " + std::to_string(options_.memory) +
+                         " bytes is too small: extrapolation needs whole fields");
+    }
+    return [this, array](std::size_t first, std::size_t count, std::span<double> carried) {
+      std::vector<double> values(count * report_.sources);
+      fields_->read(array, first, values);
+      extrapolate(values, carried);
+    };
   }
 
   // Returns how many fields are carried at once. Each process gets some; and a run that may be
@@ -303,6 +401,7 @@ class RegridJob {
     } else {
       apply(weights, values, carried, count, rules, execution_);
     }
+    extrapolate(values, carried);
   }
 
   const formats::RegridTiles& tiles(FieldMethod method) {
@@ -316,8 +415,7 @@ class RegridJob {
       tiles_ = std::make_unique<formats::ConservativeTiles>(source_.tiled(), target_.tiled(),
                                                             std::move(options), execution_);
     } else {
-      tiles_ = std::make_unique<formats::PlaceTiles>(source_, target_, method, plan_.cells_per_tile,
-                                                     execution_);
+      tiles_ = place_tiles(method, plan_.cells_per_tile);
     }
     report_.tiles = tiles_->num_tiles();
     return *tiles_;
@@ -353,6 +451,8 @@ class RegridJob {
     facts.push_back({"overlap", std::string(name_of(options_.overlap))});
     facts.push_back({"sides", std::string(name_of(options_.cells.sides))});
     facts.push_back({"edges", std::string(name_of(options_.cells.edges))});
+    facts.push_back({"corners", std::string(name_of(options_.cells.corners))});
+    facts.push_back({"extrapolation", text_of(options_.extrapolation)});
     facts.push_back({"invalid", std::string(name_of(options_.cells.invalid))});
     return facts;
   }
@@ -362,6 +462,8 @@ class RegridJob {
   const Execution& execution_;
   formats::RegridInputs inputs_;
   bool needs_cells_;
+  std::vector<std::string> names_;  // of the variables that are wanted; none: all
+  FileName mesh_file_;              // has the source
   RegridSide source_;
   RegridSide target_;
   FileName out_;
@@ -371,6 +473,7 @@ class RegridJob {
   std::optional<Remap> second_;  // of order 2, if its values are limited
   formats::RegridPlan plan_;
   std::unique_ptr<formats::RegridTiles> tiles_;
+  std::optional<Extrapolator> filler_;
   RegridFileReport report_;
 };
 
@@ -378,7 +481,7 @@ class RegridJob {
 
 std::string_view name_of(FieldMethod method) noexcept {
   return system::name_in({"conservative", "conservative_2nd", "largest_share", "nearest", "linear",
-                          "laplace", "sibson", "hermite", "cubic", "bilinear"},
+                          "laplace", "sibson", "hermite", "cubic", "bilinear", "native"},
                          method);
 }
 

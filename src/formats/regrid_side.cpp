@@ -77,12 +77,12 @@ std::string grid_named_by(const FileName& file) {
 }  // namespace
 
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
-                       const Execution& execution)
+                       const Execution& execution, const std::vector<std::string>& names)
     : name_(file.path), options_(options) {
   const bool is_name = NamedGrid::is_name(file.path);
   const std::string grid = is_name ? file.path : grid_named_by(file);
   if (grid.empty()) {
-    read_file(file, has_cells, execution);
+    read_file(file, has_cells, execution, names);
     return;
   }
   try {
@@ -94,9 +94,12 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
   if (named_->axes() != nullptr) axes_ = *named_->axes();
 }
 
-void RegridSide::read_file(const FileName& file, bool has_cells, const Execution& execution) {
+void RegridSide::read_file(const FileName& file, bool has_cells, const Execution& execution,
+                           std::vector<std::string> names) {
   if (!has_cells) {
-    NetcdfSites sites = read_netcdf_sites(file, {}, false);
+    const auto [path, variable] = file_and_variable(file);
+    if (!variable.empty()) names = {variable};
+    NetcdfSites sites = read_netcdf_sites(path, names, false);
     places_ = std::move(sites.table.positions);
     shape_ = std::move(sites.shape);
     mask_ = std::move(sites.mask);
@@ -113,7 +116,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
     }
     cells_ = CellSet::read(file, options_, execution);
   } else {
-    CellTable table = read_cells(file);
+    CellTable table = read_cells(file, options_.corners);
     if (table.grid && options_.sides == GridSides::parallels) {
       lines_ = std::move(table.grid);
       shape_ = table.facts.shape;
@@ -123,6 +126,10 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
       return;
     }
     cells_ = CellSet::of(std::move(table), options_.sides, execution);
+    are_corners_made_ = cells_->facts().are_corners_made;
+    if (are_corners_made_ && options_.invalid == InvalidPolygons::repair) {
+      cells_ = cells_->repaired(execution);
+    }
   }
   const CellFacts& facts = cells_->facts();
   shape_ = facts.shape;
@@ -207,6 +214,21 @@ void RegridSide::add_mapping(FieldSet& fields) const {
   for (const auto& [name, number] : mapping.numbers) crs.numbers.push_back({name, {number}});
   for (FieldArray& array : fields.arrays) array.attributes.emplace_back("grid_mapping", crs.name);
   fields.others.push_back(std::move(crs));
+}
+
+Extrapolator extrapolator_between(const RegridSide& source, const RegridSide& target,
+                                  const ExtrapolationOptions& options, const Execution& execution) {
+  std::vector<Point> targets = known_unit_vectors(target.places());
+  CompressedRows<Index> neighbors;
+  if (options.method == Extrapolation::creep) {
+    neighbors = target_neighbors(targets, target.shape(), execution);
+  }
+  return {known_unit_vectors(source.places()),
+          std::move(targets),
+          std::move(neighbors),
+          options,
+          source.mask(),
+          target.mask()};
 }
 
 }  // namespace rondel::formats

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rondel/cell_set.h"
+#include "rondel/extrapolate.h"
 #include "rondel/fields.h"
 #include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
@@ -25,15 +26,18 @@ namespace rondel::formats {
 
 class RegridSide {
  public:
-  // Reads a side. With `has_cells` false its places are enough.
+  // Reads a side. With `has_cells` false its places are enough: those of the first of `names`, if
+  // there are any.
   RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
-             const Execution& execution);
+             const Execution& execution, const std::vector<std::string>& names = {});
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t num_places() const;
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   [[nodiscard]] const std::vector<std::int32_t>& mask() const { return mask_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  // True if the corners of the cells were made from the centers.
+  [[nodiscard]] bool are_corners_made() const { return are_corners_made_; }
   // Returns the axes of a grid along axes, or null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
   [[nodiscard]] std::vector<LonLat> places() const;
@@ -58,7 +62,8 @@ class RegridSide {
   void add_mapping(FieldSet& fields) const;
 
  private:
-  void read_file(const FileName& file, bool has_cells, const Execution& execution);
+  void read_file(const FileName& file, bool has_cells, const Execution& execution,
+                 std::vector<std::string> names);
 
   std::string name_;
   CellFileOptions options_;
@@ -71,6 +76,11 @@ class RegridSide {
   std::vector<std::int32_t> mask_;
   std::vector<Column> columns_;
   std::vector<std::string> remarks_;
+  bool are_corners_made_ = false;
 };
+
+// Returns what extrapolates from one side to the other.
+Extrapolator extrapolator_between(const RegridSide& source, const RegridSide& target,
+                                  const ExtrapolationOptions& options, const Execution& execution);
 
 }  // namespace rondel::formats

@@ -17,12 +17,15 @@
 namespace rondel::formats {
 
 PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
-                       std::size_t targets_per_tile, const Execution& execution)
+                       const FileName& mesh, std::size_t targets_per_tile,
+                       const Execution& execution)
     : source_(source),
       method_(method),
       targets_per_tile_(std::max<std::size_t>(targets_per_tile, 1)),
       targets_(target.places()) {
-  if (method != FieldMethod::bilinear) {
+  if (method == FieldMethod::native) {
+    native_ = read_native_cells(mesh, source.places());
+  } else if (method != FieldMethod::bilinear) {
     triangulate(execution);
   } else if (source.axes() == nullptr) {
     throw FileError(source.name() +
@@ -96,6 +99,10 @@ RemapTile PlaceTiles::tile(std::size_t number, const Execution& execution) const
     if (!source_.mask().empty()) {
       result.weights = without_columns(result.weights, source_.mask());
     }
+    return result;
+  }
+  if (method_ == FieldMethod::native) {
+    result.weights = native_weights(native_.cells, unit_vectors(places), execution);
     return result;
   }
   InterpolationOptions options;

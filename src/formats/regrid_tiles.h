@@ -10,12 +10,14 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "formats/regrid_plan.h"
 #include "formats/regrid_side.h"
 #include "rondel/delaunay.h"
 #include "rondel/interpolate.h"
+#include "rondel/native_weights.h"
 #include "rondel/regrid_files.h"
 #include "rondel/tiled_remap.h"
 
@@ -56,9 +58,10 @@ class ConservativeTiles : public RegridTiles {
 // Weights of a method between places: those of consecutive targets at a time.
 class PlaceTiles : public RegridTiles {
  public:
-  // `source` must outlive this. Throws FileError for bilinear without axes.
+  // `source` must outlive this; `mesh` has the cells of the method native. Throws FileError for
+  // bilinear without axes, and native without such cells.
   PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
-             std::size_t targets_per_tile, const Execution& execution);
+             const FileName& mesh, std::size_t targets_per_tile, const Execution& execution);
 
   // Returns the bytes that the weights of a method take, which were measured and rounded up.
   [[nodiscard]] static RegridCost cost_of(FieldMethod method);
@@ -66,6 +69,7 @@ class PlaceTiles : public RegridTiles {
   [[nodiscard]] std::size_t num_tiles() const override;
   [[nodiscard]] std::size_t num_targets(std::size_t tile) const override;
   [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const override;
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return native_.remarks; }
 
  private:
   void triangulate(const Execution& execution);
@@ -76,6 +80,7 @@ class PlaceTiles : public RegridTiles {
   std::vector<LonLat> targets_;
   std::vector<Index> numbers_;  // the source of each site of the triangulation
   std::optional<Interpolator> interpolator_;
+  NativeCells native_;
 };
 
 }  // namespace rondel::formats

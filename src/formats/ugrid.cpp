@@ -12,12 +12,14 @@
 #include <string>
 #include <utility>
 
+#include "exact/vector.h"
 #include "formats/cf_names.h"
 #include "formats/mesh_file.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/number.h"
 #include "meshing/consistency.h"
+#include "rondel/delaunay.h"
 
 namespace rondel::formats {
 namespace {
@@ -194,6 +196,41 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
                     mesh);
   take_centers(file, centers, nodes, UsualUnits::degrees, mesh);
   return mesh;
+}
+
+std::vector<LonLat> middles_of_edges(const NetcdfReader& file, const std::string& name) {
+  const io::VariableInFile* const values = file.find(name);
+  if (values == nullptr || io::netcdf_text(values->attributes, "location") != "edge") return {};
+  const io::VariableInFile* const topology = file.find(io::netcdf_text(values->attributes, "mesh"));
+  if (topology == nullptr ||
+      coordinates_named_by(file, *topology, "edge_coordinates").lon != nullptr) {
+    return {};
+  }
+  const io::VariableInFile* const edges =
+      file.find(io::netcdf_text(topology->attributes, "edge_node_connectivity"));
+  const MeshCoordinates coordinates = coordinates_named_by(file, *topology, "node_coordinates");
+  if (edges == nullptr || coordinates.lon == nullptr) return {};
+  const std::vector<LonLat> nodes = positions_of(file, coordinates, {}, UsualUnits::degrees);
+  const std::vector<double> ends = file.numbers(require_rank(*edges, 2));
+  const bool is_transposed = edges->shape[0] == 2 && edges->shape[1] != 2;
+  const std::size_t num_edges = ends.size() / 2;
+  const double first = number_or(*edges, "start_index", 0);
+  std::vector<Point> middles;
+  for (std::size_t e = 0; e < num_edges; ++e) {
+    Point sum{0, 0, 0};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double node = ends[is_transposed ? k * num_edges + e : 2 * e + k] - first;
+      if (!(node >= 0 && node < static_cast<double>(nodes.size()))) {
+        throw BadValue("edge " + std::to_string(e) + " has an end in " +
+                       io::in_quotes(edges->name) + " that is none of " +
+                       std::to_string(nodes.size()) + " nodes");
+      }
+      const auto number = static_cast<std::size_t>(node);
+      sum = sum + unit_vector(require_position("the nodes of edges", number, nodes[number]));
+    }
+    middles.push_back(normalized(sum));
+  }
+  return lonlats(middles);
 }
 
 // The variable `mesh` has no value of its own; its attributes name the other variables.

@@ -14,7 +14,7 @@ std::string_view name_of(Method method) noexcept {
 }
 
 std::string_view name_of(RegridMethod method) noexcept {
-  return system::name_in({"bilinear", "nearest_d2s"}, method);
+  return system::name_in({"bilinear", "nearest_d2s", "native"}, method);
 }
 
 std::string_view name_of(Outside outside) noexcept {

@@ -252,6 +252,10 @@ std::vector<double> middles(const std::vector<double>& lines) {
 
 }  // namespace
 
+std::string_view name_of(MissingCorners corners) noexcept {
+  return system::name_in({"error", "made"}, corners);
+}
+
 std::string_view name_of(GridSides sides) noexcept {
   return system::name_in({"parallels", "great_circles"}, sides);
 }

@@ -2,4 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(native_test
   interpolation/extrapolate_test.cpp
+  overlay/native_test.cpp
+  overlay/nodes_test.cpp
   LIBS rondel_geo rondel_test_support)
