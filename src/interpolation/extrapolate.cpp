@@ -51,7 +51,9 @@ namespace interpolation {
 
 // Which sources have a value, and which targets get one.
 struct ValueGaps {
-  std::vector<bool> is_known;   // by source
+  std::vector<bool> is_known;  // by source
+  std::vector<bool>
+      has_value;  // by target; those whose place is unknown may have none, and get none
   std::vector<bool> is_filled;  // by target: true if it needs a value and may have one
   friend bool operator==(const ValueGaps&, const ValueGaps&) = default;
 };
@@ -101,8 +103,7 @@ class Extrapolator::Impl {
         gaps_of([&](std::size_t s) { return !std::isnan(source_values[s]); },
                 [&](std::size_t t) { return !std::isnan(target_values[t]); });
     if (std::ranges::find(gaps.is_filled, true) == gaps.is_filled.end()) return 0;
-    const auto has_value = [&](std::size_t t) { return !std::isnan(target_values[t]); };
-    prepare(std::move(gaps), has_value, execution);
+    prepare(std::move(gaps), execution);
     std::size_t count = 0;
     if (options_.method == Extrapolation::creep) {
       for (std::size_t k = 0; k < levels_.filled.size(); ++k) {
@@ -137,7 +138,7 @@ class Extrapolator::Impl {
     const auto has_row = [&](std::size_t t) {
       return weights.offsets[t] != weights.offsets[t + 1];
     };
-    prepare(gaps_of([](std::size_t) { return true; }, has_row), has_row, execution);
+    prepare(gaps_of([](std::size_t) { return true; }, has_row), execution);
     std::vector<std::int32_t> mask(targets_.size());
     for (std::size_t t = 0; t < mask.size(); ++t) mask[t] = has_row(t) ? 1 : 0;
     if (options_.method != Extrapolation::creep) return with_rows(weights, mask, &rows_);
@@ -156,12 +157,14 @@ class Extrapolator::Impl {
   [[nodiscard]] interpolation::ValueGaps gaps_of(const IsKnown& is_known,
                                                  const HasValue& has_value) const {
     interpolation::ValueGaps gaps{std::vector<bool>(sources_.size()),
+                                  std::vector<bool>(targets_.size()),
                                   std::vector<bool>(targets_.size())};
     for (std::size_t s = 0; s < sources_.size(); ++s) {
       const bool is_masked = !source_mask_.empty() && source_mask_[s] == 0;
       gaps.is_known[s] = !is_masked && is_place(sources_[s]) && is_known(s);
     }
     for (std::size_t t = 0; t < targets_.size(); ++t) {
+      gaps.has_value[t] = has_value(t);
       gaps.is_filled[t] = takes_part(t) && is_place(targets_[t]) && !has_value(t);
     }
     return gaps;
@@ -171,15 +174,13 @@ class Extrapolator::Impl {
   }
 
   // Finds rows or levels for these gaps, unless they are those of the last call.
-  template <class HasValue>
-  void prepare(interpolation::ValueGaps gaps, const HasValue& has_value,
-               const Execution& execution) {
+  void prepare(interpolation::ValueGaps gaps, const Execution& execution) {
     if (gaps_ && *gaps_ == gaps) return;
     gaps_.reset();
     if (options_.method == Extrapolation::creep) {
       std::vector<bool> may_fill = gaps.is_filled;
       if (max_square_ < any_square) leave_out_far(gaps, may_fill, execution);
-      find_levels(may_fill, has_value);
+      find_levels(std::move(may_fill), gaps.has_value);
     } else {
       find_rows(gaps, execution);
     }
@@ -277,13 +278,12 @@ class Extrapolator::Impl {
     }
   }
 
-  template <class HasValue>
-  void find_levels(std::vector<bool> may_fill, const HasValue& has_value) {
+  void find_levels(std::vector<bool>&& may_fill, const std::vector<bool>& has_value) {
     levels_.filled.clear();
     levels_.level.assign(targets_.size(), interpolation::CreepLevels::never);
     std::vector<Index> front;  // the targets that have had a value for one level
     for (std::size_t t = 0; t < targets_.size(); ++t) {
-      if (!takes_part(t) || !has_value(t)) continue;
+      if (!takes_part(t) || !has_value[t]) continue;
       levels_.level[t] = 0;
       front.push_back(static_cast<Index>(t));
     }

@@ -19,6 +19,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/io.h"
+#include "rondel/native_weights.h"
 #include "rondel/read_cells.h"
 #include "rondel/remap.h"
 #include "rondel/weight_check.h"
@@ -239,6 +240,17 @@ void test_weights(std::string_view bytes) {
     require(can_read_cells(path), "a file of cells has an ending of cells");
     test_cells(CellSet::of(table), table);
     test_cells(CellSet::read(path), table);
+  });
+  expect_answer([&] {
+    const CellTable table = read_cells(path, MissingCorners::made);
+    require(table.facts.remarks.empty() ? !table.facts.are_corners_made : true,
+            "corners that were made are told");
+    test_cells(CellSet::of(table), table);
+  });
+  expect_answer([&] {
+    const std::vector<LonLat> places = read_netcdf_sites(path, {}, false).table.positions;
+    const NativeCells native = read_native_cells(path, places);
+    require(native.cells.points.size() == places.size(), "a corner for each place");
   });
   expect_answer([&] {
     const FieldSet fields = read_fields(path, {}, 4);

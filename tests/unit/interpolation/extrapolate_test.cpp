@@ -50,8 +50,7 @@ double searched(const std::vector<Point>& sources, const std::vector<double>& va
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const double angle = angle_between(sources[s], target);
-    if (std::isnan(values[s]) || angle * extrapolation_radius_km > most_km)
-      continue;
+    if (std::isnan(values[s]) || angle * extrapolation_radius_km > most_km) continue;
     near.emplace_back(angle, s);
   }
   std::ranges::sort(near);
@@ -192,6 +191,21 @@ TEST(extrapolate, masks_are_obeyed) {
                         {.method = Extrapolation::creep}, {}, {1, 0, 1});
   filled = {3, gap, gap};
   creeping.fill(std::vector<double>{5, 6}, filled);
+  EXPECT_TRUE(std::isnan(filled[1]));
+}
+
+TEST(extrapolate, each_field_creeps_from_its_own_values) {
+  // The place of the first target is unknown: it needs no value, and passes on what it has.
+  std::vector<Point> targets = unit_vectors(std::vector<LonLat>{{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  targets[0] = {0, 0, 0};
+  const std::vector<Point> sources = unit_vectors(std::vector<LonLat>{{0, 0}});
+  Extrapolator extrapolator(sources, targets, grid_neighbors(targets, 1, 4),
+                            {.method = Extrapolation::creep});
+  std::vector<double> filled = {1, gap, gap, gap};
+  EXPECT_EQ(extrapolator.fill(std::vector<double>{5}, filled), 3U);
+  EXPECT_EQ(filled, std::vector<double>({1, 1, 1, 1}));
+  filled = {gap, gap, gap, gap};
+  EXPECT_EQ(extrapolator.fill(std::vector<double>{5}, filled), 0U);
   EXPECT_TRUE(std::isnan(filled[1]));
 }
 
