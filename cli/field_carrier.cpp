@@ -20,12 +20,17 @@ Triangulation triangulated(Job& job, const InterpolationOptions& options, const 
   return triangulation;
 }
 
-std::vector<double> FieldCarrier::carry(std::vector<double> values) {
+std::vector<double> FieldCarrier::carry(const std::vector<double>& values) {
   std::vector<double> carried(targets_.table.sites.size());
   if (weights_) {
     job_.time(Stage::query, [&] { apply(*weights_, values, carried, 1, {}, job_.execution()); });
   } else {
-    carried = interpolated(std::move(values));
+    carried = interpolated(values);
+  }
+  if (extrapolator_ != nullptr) {
+    job_.time(Stage::query, [&] {
+      counts_.extrapolated += extrapolator_->fill(values, carried, job_.execution());
+    });
   }
   counts_.missing += static_cast<std::size_t>(
       std::ranges::count_if(carried, [](double value) { return std::isnan(value); }));

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "job.h"
+#include "rondel/extrapolate.h"
 #include "rondel/interpolate.h"
 #include "targets.h"
 
@@ -23,9 +24,10 @@ namespace rondel::cli {
 struct InterpolateCounts {
   std::size_t sites = 0;
   std::size_t targets = 0;
-  std::size_t duplicates = 0;  ///< sites in the place of another one
-  std::size_t left_out = 0;    ///< values of sites that are not there
-  std::size_t missing = 0;     ///< values of targets, or rows, that are not there
+  std::size_t duplicates = 0;    ///< sites in the place of another one
+  std::size_t left_out = 0;      ///< values of sites that are not there
+  std::size_t missing = 0;       ///< values of targets, or rows, that are not there
+  std::size_t extrapolated = 0;  ///< values of targets, or rows, that were extrapolated
 };
 
 /// Triangulates the sites and counts their duplicates. \throws FileError for two sites in one
@@ -38,18 +40,20 @@ Triangulation triangulated(Job& job, const InterpolationOptions& options, const 
 class FieldCarrier {
  public:
   /// \param weights  those of a method of regridding
+  /// \param extrapolator  gives values to targets that have none; null: they stay so
   FieldCarrier(Job& job, const InterpolationOptions& options, const SiteTable& table,
                const Targets& targets, const std::optional<Weights>& weights,
-               InterpolateCounts& counts)
+               Extrapolator* extrapolator, InterpolateCounts& counts)
       : job_(job),
         options_(options),
         table_(table),
         targets_(targets),
         weights_(weights),
+        extrapolator_(extrapolator),
         counts_(counts) {}
 
   /// Returns the values at the targets.
-  std::vector<double> carry(std::vector<double> values);
+  std::vector<double> carry(const std::vector<double>& values);
 
  private:
   std::vector<double> interpolated(std::vector<double> values);
@@ -59,6 +63,7 @@ class FieldCarrier {
   const SiteTable& table_;
   const Targets& targets_;
   const std::optional<Weights>& weights_;  // of a method of regridding
+  Extrapolator* extrapolator_;
   InterpolateCounts& counts_;
   std::optional<Interpolator> whole_;
   std::optional<Interpolator> partial_;

@@ -298,6 +298,13 @@ CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,
                                        "(as 'rondel repair' does)");
 }
 
+CLI::Option* add_corners_option(CLI::App& parser, MissingCorners& target) {
+  return add_word<MissingCorners>(
+      parser, "--corners", target, named_values<MissingCorners>(),
+      "What to do where longitudes and latitudes of two dimensions have no bounds: error\n"
+      "(default), or made: corners of cells half way between the centers");
+}
+
 CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,
                             const std::string& what) {
   const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };

@@ -21,6 +21,7 @@
 
 #include "command.h"
 #include "files_of_command.h"
+#include "rondel/cell_rings.h"
 #include "rondel/io.h"
 #include "rondel/names.h"
 #include "rondel/polygon_files.h"
@@ -176,5 +177,8 @@ CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
 /// Adds --invalid, the treatment of polygons that are not valid, or of what else is named.
 CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,
                                 const std::string& what = "polygons");
+
+/// Adds --corners, for grids of two dimensions that have centers alone.
+CLI::Option* add_corners_option(CLI::App& parser, MissingCorners& target);
 
 }  // namespace rondel::cli

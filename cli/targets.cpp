@@ -3,11 +3,13 @@
 #include "targets.h"
 
 #include <optional>
+#include <utility>
 
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/interpolate.h"
+#include "rondel/native_weights.h"
 #include "rondel/read_cells.h"
 
 namespace rondel::cli {
@@ -39,6 +41,18 @@ Weights given_to_nearest(Job& job, const NetcdfSites& grid, const Targets& targe
   });
   return renumbered(weights, every_target, every_target.size(), unmasked_sites(grid),
                     grid.table.sites.size());
+}
+
+Weights in_native_cells(const Job& job, const FileName& file, const NetcdfSites& grid,
+                        const Targets& targets) {
+  if (!is_netcdf_file(file_and_variable(file).first)) {
+    throw FileError(grid.table.name + ": --method native needs netCDF with a mesh");
+  }
+  const NativeCells native = read_native_cells(file, grid.table.positions);
+  tell(grid.table.name, native.remarks);
+  return with_places(targets.table, [&] {
+    return native_weights(native.cells, targets.table.sites, job.execution());
+  });
 }
 
 }  // namespace
@@ -92,16 +106,33 @@ std::vector<Index> unmasked_sites(const NetcdfSites& grid) {
   return numbers;
 }
 
-Weights regrid_weights(Job& job, RegridMethod method, const NetcdfSites& grid,
+Weights regrid_weights(Job& job, RegridMethod method, const FileName& file, const NetcdfSites& grid,
                        const Targets& targets) {
   Weights weights;
   job.time(Stage::query, [&] {
-    weights = method == RegridMethod::bilinear ? bilinear_from(grid, targets)
-                                               : given_to_nearest(job, grid, targets);
+    if (method == RegridMethod::bilinear) weights = bilinear_from(grid, targets);
+    if (method == RegridMethod::nearest_d2s) weights = given_to_nearest(job, grid, targets);
+    if (method == RegridMethod::native) weights = in_native_cells(job, file, grid, targets);
   });
   weights.sites_hash = point_set_hash(grid.table.sites);
   weights.targets_hash = point_set_hash(targets.table.sites);
   return weights;
+}
+
+Extrapolator extrapolator_to(const Targets& targets, const NetcdfSites& grid, const Point& center,
+                             const ExtrapolationOptions& options, const Execution& execution) {
+  std::vector<LonLat> places = grid.table.positions;
+  if (!grid.table.is_lonlat()) {
+    std::vector<Point> seen = grid.table.sites;
+    for (Point& site : seen) site = {site.x - center.x, site.y - center.y, site.z - center.z};
+    places = lonlats(seen);
+  }
+  std::vector<Point> points = known_unit_vectors(targets.side.points);
+  CompressedRows<Index> neighbors;
+  if (options.method == Extrapolation::creep) {
+    neighbors = target_neighbors(points, targets.side.shape, execution);
+  }
+  return {known_unit_vectors(places), std::move(points), std::move(neighbors), options, grid.mask};
 }
 
 }  // namespace rondel::cli

@@ -14,6 +14,7 @@
 
 #include "job.h"
 #include "rondel/cell_set.h"
+#include "rondel/extrapolate.h"
 #include "rondel/named_grids.h"
 #include "rondel/regrid.h"
 #include "rondel/weight_files.h"
@@ -35,9 +36,16 @@ NamedGrid grid_of(const std::string& name, GridSides sides = GridSides::parallel
 /// Returns the indices of the sites that are not masked.
 std::vector<Index> unmasked_sites(const NetcdfSites& grid);
 
-/// Returns the weights of --method bilinear or nearest_d2s; sources that are masked take no part.
-/// \throws FileError for a source of bilinear weights that is no grid with axes
-Weights regrid_weights(Job& job, RegridMethod method, const NetcdfSites& grid,
+/// Returns the weights of --method bilinear, nearest_d2s or native; sources that are masked take no
+/// part.
+/// \param file  the file of the sources; FILE.nc:NAME says which of its meshes is meant
+/// \throws FileError for a source of bilinear weights that is no grid with axes, or one of native
+///         weights that is no mesh
+Weights regrid_weights(Job& job, RegridMethod method, const FileName& file, const NetcdfSites& grid,
                        const Targets& targets);
+/// Returns what extrapolates to the targets from sources that are not masked, as they are seen from
+/// `center`.
+Extrapolator extrapolator_to(const Targets& targets, const NetcdfSites& grid, const Point& center,
+                             const ExtrapolationOptions& options, const Execution& execution);
 
 }  // namespace rondel::cli

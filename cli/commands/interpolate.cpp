@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "column_values.h"
+#include "extrapolate_options.h"
 #include "field_carrier.h"
 #include "process.h"
 #include "report.h"
@@ -45,12 +46,19 @@ struct InterpolateOptions {
   std::string weight_format;           // --weight-format
   std::vector<std::string> columns;    // --value
   InterpolationOptions interpolation;  // --method, unless it is one of `regrid`
-  std::optional<RegridMethod> regrid;  // --method bilinear or nearest_d2s
+  std::optional<RegridMethod> regrid;  // --method bilinear, nearest_d2s or native
+  ExtrapolateOptions extrapolate;      // --extrapolate and its limits
   NetcdfOptions netcdf;                // --kind --deflate
 
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
   [[nodiscard]] FileName weights_file() const { return {weights, weight_format}; }
+  // Returns the file of the sources with the name of a variable, if one is named.
+  [[nodiscard]] FileName mesh_file() const {
+    FileName file = source_file();
+    if (file_and_variable(file).second.empty() && !columns.empty()) file.path += ":" + columns[0];
+    return file;
+  }
 };
 
 // How far the coordinates of a field may be from the sites. Both are read from one file, so they
@@ -66,6 +74,7 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
                                        {"duplicates", counts.duplicates},
                                        {"left_out", counts.left_out},
                                        {"missing", counts.missing},
+                                       {"extrapolated", counts.extrapolated},
                                        {"seconds",
                                         {{"read", seconds.read},
                                          {"interpolate", seconds.query},
@@ -81,6 +90,7 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
   }
   if (counts.left_out > 0)
     text += ", left out " + std::to_string(counts.left_out) + " without value";
+  if (options.extrapolate.method) text += "; extrapolated: " + std::to_string(counts.extrapolated);
   text += "; targets without value: " + std::to_string(counts.missing) + '\n';
   if (!options.weights.empty()) text += "wrote the weights to " + options.weights + '\n';
   job.report(json.dump(2) + '\n', text);
@@ -91,10 +101,10 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
 // memory at once, as a table was.
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
                          const Targets& targets, const std::optional<Weights>& weights,
-                         InterpolateCounts& counts) {
+                         Extrapolator* extrapolator, InterpolateCounts& counts) {
   FieldSet fields;
   fields.num_points = targets.table.sites.size();
-  FieldCarrier carrier(job, options.interpolation, table, targets, weights, counts);
+  FieldCarrier carrier(job, options.interpolation, table, targets, weights, extrapolator, counts);
   for (const std::string& name : options.columns) {
     FieldArray array;
     array.name = name;
@@ -109,7 +119,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
 // a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                         const Targets& targets, const std::optional<Weights>& weights,
-                        InterpolateCounts& counts) {
+                        Extrapolator* extrapolator, InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
   const auto [file, variable] = file_and_variable(options.source_file());
   std::vector<std::string> names = options.columns;
@@ -123,7 +133,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   out.axes = in.fields().axes;
   tell(file.path, in.fields().remarks);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
-  FieldCarrier carrier(job, options.interpolation, table, targets, weights, counts);
+  FieldCarrier carrier(job, options.interpolation, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
       std::vector<double> values(table.sites.size());
@@ -132,7 +142,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
         // A masked cell has no value, whatever number the file has there.
         if (grid.mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
       }
-      const std::vector<double> carried = carrier.carry(std::move(values));
+      const std::vector<double> carried = carrier.carry(values);
       job.time(Stage::write, [&] { writer.write(carried); });
     }
   }
@@ -171,11 +181,19 @@ void interpolate_weights(Job& job, const InterpolateOptions& options, const Netc
   if (has_masked) spread(numbers, table, file);
 }
 
+std::size_t num_rows_with_entries(const Weights& weights) {
+  std::size_t number = 0;
+  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
+    if (weights.offsets[r] != weights.offsets[r + 1]) ++number;
+  }
+  return number;
+}
+
 // Writes the file of --weights: the matrix, both sides and the name of the method. Columns count
 // the sites of the file, rows the targets. `counts.missing` becomes the number of targets without
 // an entry. `weights` and the targets' side are moved into the file.
 void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
-                      Targets& targets, std::optional<Weights>& weights,
+                      Targets& targets, std::optional<Weights>& weights, Extrapolator* extrapolator,
                       InterpolateCounts& counts) {
   WeightFile file;
   if (weights) {
@@ -184,6 +202,12 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
   } else {
     interpolate_weights(job, options, grid, targets, counts, file);
     file.method = name_of(options.interpolation.method);
+  }
+  if (extrapolator != nullptr) {
+    const std::size_t before = num_rows_with_entries(file.weights);
+    job.time(Stage::query,
+             [&] { file.weights = extrapolator->filled(file.weights, job.execution()); });
+    counts.extrapolated = num_rows_with_entries(file.weights) - before;
   }
   // Weights of points are not divided by areas. Areas and corners serve programs that read the
   // file.
@@ -197,19 +221,13 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfS
     file.target.corners = cells.corners();
     file.target.areas.assign(cells.areas().begin(), cells.areas().end());
   }
-  for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
-    if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
-  }
+  counts.missing = file.weights.num_rows() - num_rows_with_entries(file.weights);
   job.time(Stage::write, [&] { write_weights(options.weights_file(), file, options.netcdf); });
 }
 
-// Checks the options, reads both files, then interpolates values, makes weights, or does both.
-// netCDF needs no --value: all variables at the places of the sites are carried. Throws UsageError
-// for options that contradict each other, FileError for files that cannot be read.
-ExitStatus run_interpolate(const InterpolateOptions& options) {
+// Throws UsageError for options that contradict each other or say nothing to do.
+void require_options(const InterpolateOptions& options, bool has_values) {
   const CommonOptions& common = options.common;
-  const bool is_netcdf = is_netcdf_file(file_and_variable(options.source_file()).first);
-  const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
   if (has_values != !common.output.empty()) {
     throw UsageError("--value and --output go together: values of a column to a file");
   }
@@ -232,6 +250,16 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (common.build.model == Model::weighted && !is_nearest) {
     throw UsageError("--method: weighted sites have no method but nearest");
   }
+}
+
+// Checks the options, reads both files, then interpolates values, makes weights, or does both.
+// netCDF needs no --value: all variables at the places of the sites are carried. Throws UsageError
+// for options that contradict each other, FileError for files that cannot be read.
+ExitStatus run_interpolate(const InterpolateOptions& options) {
+  const CommonOptions& common = options.common;
+  const bool is_netcdf = is_netcdf_file(file_and_variable(options.source_file()).first);
+  const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
+  require_options(options, has_values);
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
@@ -249,13 +277,23 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   if (targets.table.sites.empty()) job.remark(targets.table.name, no_points);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0, 0};
   std::optional<Weights> weights;
-  if (options.regrid) weights = regrid_weights(job, *options.regrid, grid, targets);
-  if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, weights, counts);
-  if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, weights, counts);
+  if (options.regrid) {
+    weights = regrid_weights(job, *options.regrid, options.mesh_file(), grid, targets);
+  }
+  std::optional<Extrapolator> extrapolator;
+  if (const auto wanted = options.extrapolate.wanted()) {
+    extrapolator.emplace(
+        extrapolator_to(targets, grid, common.build.sphere.center, *wanted, job.execution()));
+  }
+  Extrapolator* const filler = extrapolator ? &*extrapolator : nullptr;
+  if (has_values && is_netcdf) {
+    interpolate_fields(job, options, grid, targets, weights, filler, counts);
+  } else if (has_values) {
+    interpolate_columns(job, options, table, targets, weights, filler, counts);
+  }
+  // With --weights the report counts rows without entries instead of missing values.
   if (!options.weights.empty()) {
-    // With --weights the report counts rows without entries instead of missing values.
-    counts.missing = 0;
-    write_weights_of(job, options, grid, targets, weights, counts);
+    write_weights_of(job, options, grid, targets, weights, filler, counts);
   }
   report(job, options, counts);
   return done;
@@ -279,7 +317,8 @@ void add_method(CLI::App& parser, InterpolateOptions& options) {
       .add_option_function<std::string>(
           "--method", take,
           "nearest, linear, laplace, sibson (default), hermite or cubic between any sites;\n"
-          "bilinear on a grid along axes; or nearest_d2s, each site given to its nearest target")
+          "bilinear on a grid along axes; native in the cells of the mesh of the sites; or\n"
+          "nearest_d2s, each site given to its nearest target")
       ->check([methods](const std::string& text) {
         return methods.contains(text) ? std::string() : "'" + text + "' is not a choice";
       })
@@ -298,8 +337,9 @@ void add_methods(CLI::App& parser, InterpolateOptions& options) {
   for (const CLI::Option* const option : {outside, duplicates}) {
     require_effect(
         options.common, option, [&options] { return !options.regrid; },
-        "with --method bilinear or nearest_d2s");
+        "with --method bilinear, native or nearest_d2s");
   }
+  add_extrapolate_options(parser, options.common, options.extrapolate);
 }
 
 // Returns the outputs that are netCDF: values, weights.
@@ -326,6 +366,28 @@ void add_weight_options(CLI::App& parser, InterpolateOptions& options) {
       options.common, weight_format, [&options] { return !options.weights.empty(); },
       "without --weights");
 }
+
+constexpr const char* end_of_help =
+    "A site whose value is missing (empty, nan, NA, null) takes no part in that column, as if\n"
+    "it were not in the file; weights are those of all sites. With bilinear, native and\n"
+    "nearest_d2s a target that needs a missing value has none. native takes netCDF with a mesh:\n"
+    "values at its nodes are interpolated in its faces, linearly in triangles and by Wachspress\n"
+    "coordinates in polygons, and values at its faces between their centers. bilinear takes\n"
+    "netCDF with a grid along longitudes and latitudes: between the last row and the pole of a\n"
+    "grid around the globe values change linearly to the mean of that row; other targets outside\n"
+    "have no value. With nearest_d2s (ESMF's nearest destination to source) a target has the sum\n"
+    "of what it is given.\n"
+    "Grids go from longitude -180 eastward and from the south pole northward; centers have the\n"
+    "digits of an exact division, rounded once. DEG divides 180.\n\n"
+    "Examples:\n"
+    "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
+    "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
+    "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
+    "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
+    "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4\n"
+    "  rondel interpolate model.nc --to grid:1 --method bilinear -o on-grid.nc\n"
+    "  rondel interpolate waves.nc:height --to grid:1 --method native \\\n"
+    "      --extrapolate nearest --extrapolate-distance 50 -o on-grid.nc";
 
 }  // namespace
 
@@ -360,31 +422,18 @@ Command add_interpolate_command(CLI::App& tool) {
                      [given = options.get()] { return netcdf_outputs(*given); });
   add_methods(*parser, *options);
   add_build_options(*parser, options->common);
-  // bilinear follows the axes of a grid, so it needs no triangulation, no model and no center.
+  // bilinear follows the axes of a grid, native the cells of a mesh; they need no triangulation, no
+  // model and no center.
   for (const char* const name : {"--model", "--center"}) {
     require_effect(
         options->common, parser->get_option(name),
-        [given = options.get()] { return given->regrid != RegridMethod::bilinear; },
-        "with --method bilinear");
+        [given = options.get()] {
+          return given->regrid != RegridMethod::bilinear && given->regrid != RegridMethod::native;
+        },
+        "with --method bilinear or native");
   }
   add_report_options(*parser, options->common);
-  parser->footer(
-      "A site whose value is missing (empty, nan, NA, null) takes no part in that column, as if\n"
-      "it were not in the file; weights are those of all sites. With bilinear and nearest_d2s a\n"
-      "target that needs a missing value has none. bilinear takes netCDF with a grid along\n"
-      "longitudes and latitudes: between the last row and the pole of a grid around the globe\n"
-      "values change linearly to the mean of that row; other targets outside have no value. With\n"
-      "nearest_d2s (ESMF's nearest destination to source) a target has the sum of what it is "
-      "given.\n"
-      "Grids go from longitude -180 eastward and from the south pole northward; centers have the\n"
-      "digits of an exact division, rounded once. DEG divides 180.\n\n"
-      "Examples:\n"
-      "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
-      "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
-      "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
-      "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
-      "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4\n"
-      "  rondel interpolate model.nc --to grid:1 --method bilinear -o on-grid.nc");
+  parser->footer(end_of_help);
   return {parser, [options] { return run_interpolate(*options); }};
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "extrapolate_options.h"
 #include "job.h"
 #include "process.h"
 #include "report.h"
@@ -32,6 +33,7 @@ struct RegridCommandOptions {
   std::string source;      // --source
   std::string statistics;  // --statistics
   RegridFileOptions regrid;
+  ExtrapolateOptions extrapolate;
 };
 
 std::string history_of(const RegridCommandOptions& options) {
@@ -52,6 +54,7 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
   if (!options.source.empty()) regrid.source = FileName{options.source, {}};
   regrid.history = history_of(options);
   if (!options.statistics.empty()) regrid.statistics = zonal_statistics_of(options.statistics);
+  regrid.extrapolation = options.extrapolate.wanted();
   RegridFileReport done_work;
   job.time(Stage::query, [&] {
     done_work = regrid_file(common.source(), {options.target, {}}, common.target(), regrid,
@@ -62,18 +65,22 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
                                        {"targets", done_work.targets},
                                        {"fields", done_work.fields},
                                        {"missing", done_work.missing},
+                                       {"extrapolated", done_work.extrapolated},
                                        {"tiles", done_work.tiles},
                                        {"resumed", done_work.resumed},
                                        {"seconds", {{"total", job.seconds().total}}},
                                        {"peak_memory_bytes", peak_memory_bytes()}};
+  const std::string extrapolated =
+      regrid.extrapolation ? "; extrapolated: " + std::to_string(done_work.extrapolated) : "";
   const std::string resumed =
       done_work.resumed == 0
           ? std::string()
           : "; " + count(done_work.resumed, "value", "values") + " of an earlier run";
   job.report(json.dump(2) + '\n', count(done_work.fields, "field", "fields") + " from " +
                                       count(done_work.sources, "place", "places") + " to " +
-                                      std::to_string(done_work.targets) + "; values missing: " +
-                                      std::to_string(done_work.missing) + resumed + '\n');
+                                      std::to_string(done_work.targets) + extrapolated +
+                                      "; values missing: " + std::to_string(done_work.missing) +
+                                      resumed + '\n');
   return done;
 }
 
@@ -88,7 +95,7 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
           "conservative (default): means over cells; conservative-2nd: with gradients;\n"
           "largest-share: the most frequent value (default for fields with flag_values or\n"
           "flag_meanings); nearest, linear, laplace, sibson, hermite, cubic: between the\n"
-          "centers; bilinear: on a grid along axes")
+          "centers; bilinear: on a grid along axes; native: in the cells of the mesh itself")
       ->check([](const std::string& text) {
         return named_values<FieldMethod>().contains(text) ? std::string()
                                                           : "'" + text + "' is not a choice";
@@ -176,12 +183,24 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
   const CLI::Option* const invalid = add_invalid_option(parser, cells.invalid);
-  for (const CLI::Option* const option : {edges, invalid}) {
-    require_effect(
-        options.common, option,
-        [&options] { return options.target.ends_with("json") || options.source.ends_with("json"); },
-        "without polygons in .geojson");
-  }
+  const CLI::Option* const corners = add_corners_option(parser, cells.corners);
+  const auto has_polygons = [&options] {
+    return options.target.ends_with("json") || options.source.ends_with("json");
+  };
+  require_effect(options.common, edges, has_polygons, "without polygons in .geojson");
+  require_effect(
+      options.common, invalid,
+      [&options, has_polygons] {
+        return has_polygons() || options.regrid.cells.corners == MissingCorners::made;
+      },
+      "without polygons in .geojson or --corners made");
+  require_effect(
+      options.common, corners,
+      [&options] {
+        const auto& method = options.regrid.method;
+        return !method || *method <= FieldMethod::largest_share;
+      },
+      "with a method between places");
 }
 
 void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
@@ -240,6 +259,7 @@ Command add_regrid_command(CLI::App& tool) {
                    "with cells")
       ->type_name("GRID");
   add_methods(*parser, *options);
+  add_extrapolate_options(*parser, options->common, options->extrapolate);
   add_cells(*parser, *options);
   add_amounts(*parser, *options);
   add_statistics(*parser, *options);
@@ -255,7 +275,9 @@ Command add_regrid_command(CLI::App& tool) {
       "  rondel regrid temperature.nc healpix:4 -o pixels.nc\n"
       "  rondel regrid temperature.nc grid:1 --method linear -o one-degree.nc\n"
       "  rondel regrid temperature.nc countries.geojson -o means.csv\n"
-      "  rondel regrid temperature.nc countries.geojson --statistics mean,max -o extremes.csv");
+      "  rondel regrid temperature.nc countries.geojson --statistics mean,max -o extremes.csv\n"
+      "  rondel regrid ocean.nc grid:1 --extrapolate creep --extrapolate-levels 3 -o filled.nc\n"
+      "  rondel regrid wrf.nc grid:0.1 --corners made -o means.nc");
   return {parser, [options] { return run_regrid(*options); }};
 }
 

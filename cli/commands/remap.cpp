@@ -30,7 +30,7 @@ struct RemapCommandOptions {
   CommonOptions common;   // INPUT: the source's cells; OUTPUT: the weights
   std::string target;     // TARGET; "-": standard input
   RemapOptions remap;     // --order --norm --overlap
-  CellFileOptions cells;  // --sides --edges --invalid
+  CellFileOptions cells;  // --sides --edges --invalid --corners
   NetcdfOptions netcdf;   // --kind --deflate
 
   // Return the two sides with their formats; --input-format is for the one on standard input.
@@ -102,6 +102,7 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       "latitude, RFC 7946) or geodesic (great circles)");
   const CLI::Option* const invalid =
       add_invalid_option(parser, options.cells.invalid, "cells and polygons");
+  const CLI::Option* const corners = add_corners_option(parser, options.cells.corners);
   const auto has_side = [&options](CellForm form) {
     return form_of(options.source_file()) == form || form_of(options.target_file()) == form;
   };
@@ -116,6 +117,9 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       options.common, invalid,
       [has_side] { return has_side(CellForm::netcdf) || has_side(CellForm::polygons); },
       "without cells in netCDF and polygons in .geojson");
+  require_effect(
+      options.common, corners, [has_side] { return has_side(CellForm::netcdf); },
+      "without cells in netCDF");
   add_build_options(parser, options.common);
   // Cells of the other forms are in the files; only those of sites are computed.
   for (const char* const name : {"--model", "--center"}) {

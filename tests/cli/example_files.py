@@ -126,6 +126,39 @@ data:
 """
 
 
+def waves():
+    """The text of a mesh of two triangles around a place, with heights at its nodes."""
+    return """netcdf waves {
+dimensions: node = 4 ; face = 2 ; three = 3 ;
+variables:
+  int mesh ; mesh:cf_role = "mesh_topology" ; mesh:topology_dimension = 2 ; mesh:node_coordinates = "x y" ;
+  mesh:face_node_connectivity = "faces" ;
+  double x(node) ; x:units = "degrees_east" ; double y(node) ; y:units = "degrees_north" ;
+  int faces(face, three) ; faces:start_index = 0 ;
+  double height(node) ; height:units = "m" ; height:mesh = "mesh" ; height:location = "node" ;
+data:
+  x = 0, 10, 10, 0 ; y = 50, 50, 60, 60 ; faces = 0, 1, 2, 0, 2, 3 ; height = 1, 2, 3, 2 ;
+}
+"""
+
+
+def curvilinear():
+    """The text of a small grid in coordinates of two dimensions, as WRF has it."""
+    places = [(10 + 0.2 * i - 0.05 * j, 45 + 0.05 * i + 0.2 * j) for j in range(5) for i in range(6)]
+    return f"""netcdf wrf {{
+dimensions: south_north = 5 ; west_east = 6 ;
+variables:
+  float XLONG(south_north, west_east) ; XLONG:units = "degrees_east" ;
+  float XLAT(south_north, west_east) ; XLAT:units = "degrees_north" ;
+  float T2(south_north, west_east) ; T2:units = "K" ; T2:coordinates = "XLONG XLAT" ;
+data:
+  XLONG = {", ".join(f"{lon:.2f}" for lon, _ in places)} ;
+  XLAT = {", ".join(f"{lat:.2f}" for _, lat in places)} ;
+  T2 = {", ".join(str(280 + k) for k in range(30))} ;
+}}
+"""
+
+
 def copy(root, name):
     return lambda path: shutil.copy(root / name, path)
 
@@ -168,5 +201,7 @@ def makers(root):
         "icon.nc": netcdf(icon()),
         "model.nc": netcdf(model()),
         "temperature.nc": netcdf(grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)),
+        "waves.nc": netcdf(waves()),
+        "wrf.nc": netcdf(curvilinear()),
         "spacing.nc": netcdf(grid("h", 'h:units = "km" ;', lambda lon, lat: 400 + 2 * abs(lat))),
     }
