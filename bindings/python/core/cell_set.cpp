@@ -56,13 +56,14 @@ FeatureChoice chosen(const std::optional<IndicesIn>& groups) {
 // Reads the cells of a file, or of bytes of GeoJSON; polygons whose group is below 0 are left out.
 CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb::handle overlap,
                       nb::handle invalid, const std::optional<IndicesIn>& groups,
-                      unsigned threads) {
+                      nb::handle corners, unsigned threads) {
   const PolygonOptions rules = polygon_rules(edges, overlap, invalid);
   const CellFileOptions options{.sides = named<GridSides>("sides", sides),
                                 .edges = rules.edges,
                                 .invalid = rules.invalid,
                                 .overlap = rules.overlap,
-                                .is_taken = chosen(groups)};
+                                .is_taken = chosen(groups),
+                                .corners = named<MissingCorners>("corners", corners)};
   return read_from(path, [&](const FileName& file) {
     return unlocked([&] { return CellSet::read(file, options, {.threads = threads}); });
   });
@@ -135,6 +136,7 @@ void add_cell_facts(nb::module_& module) {
       .def_rw("shape", &CellFacts::shape)
       .def_rw("columns", &CellFacts::columns)
       .def_rw("has_corners", &CellFacts::has_corners)
+      .def_rw("are_corners_made", &CellFacts::are_corners_made)
       .def_rw("remarks", &CellFacts::remarks);
 }
 
@@ -188,7 +190,8 @@ void add_makers(nb::class_<CellSet>& cells) {
           nb::arg("rings"), nb::arg("threads"))
       .def_static("read", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
-                  nb::arg("groups").noconvert().none(), nb::arg("threads"))
+                  nb::arg("groups").noconvert().none(), nb::arg("corners").none(),
+                  nb::arg("threads"))
       .def_static("of_geometries", &cells_of_geometries, nb::arg("geometries"),
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("threads"));

@@ -111,6 +111,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_geometries(module);
   rondel::python::add_constrained(module);
   rondel::python::add_dynamic_constrained(module);
+  rondel::python::add_native_weights(module);
   rondel::python::add_regrid_files(module);
   rondel::python::add_weight_checks(module);
   rondel::python::add_weight_files(module);

@@ -38,6 +38,7 @@ void add_polygons(nanobind::module_& module);
 void add_regions(nanobind::module_& module);
 void add_remap(nanobind::module_& module);
 void add_triangle_meshes(nanobind::module_& module);
+void add_native_weights(nanobind::module_& module);
 void add_regrid_files(nanobind::module_& module);
 void add_weight_checks(nanobind::module_& module);
 void add_weight_files(nanobind::module_& module);

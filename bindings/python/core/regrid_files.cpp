@@ -28,7 +28,8 @@ void add_regrid_files(nb::module_& module) {
       .def_ro("missing", &RegridFileReport::missing)
       .def_ro("tiles", &RegridFileReport::tiles)
       .def_ro("remarks", &RegridFileReport::remarks)
-      .def_ro("resumed", &RegridFileReport::resumed);
+      .def_ro("resumed", &RegridFileReport::resumed)
+      .def_ro("extrapolated", &RegridFileReport::extrapolated);
   module.def(
       "regrid_file",
       [](const std::string& in, const std::string& target, const std::string& out,
@@ -36,7 +37,9 @@ void add_regrid_files(nb::module_& module) {
          const nb::object& method, nb::handle norm, double max_missing, nb::handle sides,
          nb::handle edges, nb::handle invalid, nb::handle overlap, std::uint64_t memory,
          std::size_t cells_per_tile, int deflate, const std::string& history,
-         const std::string& statistics, nb::handle weigh_by, unsigned threads,
+         const std::string& statistics, nb::handle weigh_by, nb::handle corners,
+         const std::optional<std::string>& extrapolate, std::optional<double> max_distance_km,
+         unsigned num_sources, unsigned exponent, unsigned levels, unsigned threads,
          const nb::object& progress, bool resume) {
         RegridFileOptions options;
         options.names = names;
@@ -46,7 +49,17 @@ void add_regrid_files(nb::module_& module) {
         options.max_missing = max_missing;
         options.cells = {.sides = named<GridSides>("sides", sides),
                          .edges = named<PolygonEdges>("edges", edges),
-                         .invalid = named<InvalidPolygons>("invalid", invalid)};
+                         .invalid = named<InvalidPolygons>("invalid", invalid),
+                         .corners = named<MissingCorners>("corners", corners)};
+        if (extrapolate) {
+          const std::optional<Extrapolation> known = extrapolation_named(*extrapolate);
+          if (!known) throw nb::value_error(("there is no extrapolation " + *extrapolate).c_str());
+          options.extrapolation = ExtrapolationOptions{.method = *known,
+                                                       .max_distance_km = max_distance_km,
+                                                       .neighbors = num_sources,
+                                                       .exponent = exponent,
+                                                       .levels = levels};
+        }
         options.overlap = named<CellOverlap>("overlap", overlap);
         options.memory = memory;
         options.cells_per_tile = cells_per_tile;
@@ -65,7 +78,9 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("max_missing"), nb::arg("sides").none(), nb::arg("edges").none(),
       nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
       nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
-      nb::arg("threads"), nb::arg("progress").none(), nb::arg("resume"));
+      nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
+      nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("threads"),
+      nb::arg("progress").none(), nb::arg("resume"));
 }
 
 }  // namespace rondel::python

@@ -36,6 +36,8 @@ make_valid, is_valid, validity_reason
     Polygons that are not valid.
 interpolate
     Values at longitudes and latitudes, from values at others.
+native_weights
+    Weights that interpolate in the faces of a mesh.
 unit_vectors, lonlat
     Degrees to unit vectors and back.
 
@@ -101,6 +103,7 @@ from ._errors import CrossingConstraints, FileError, InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
+from ._native import native_weights
 from ._netcdf import netcdf_library as _netcdf_library
 from ._plot import LonLatTriangles
 from ._polygons import (
@@ -212,6 +215,7 @@ __all__ = [
     "lonlat",
     "lonlat_grid",
     "make_valid",
+    "native_weights",
     "overlaps",
     "overlay",
     "point_set_hash",

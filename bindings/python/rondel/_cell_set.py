@@ -15,6 +15,7 @@ from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, de
 from ._errors import InvalidInput, warn_caller
 from ._geo import Path, arrow_of
 from ._geometries import (
+    Corners,
     Edges,
     Invalid,
     PolygonOverlap,
@@ -374,6 +375,7 @@ class CellSet(Described):
         edges: Edges = "lonlat",
         overlap: PolygonOverlap = "keep",
         invalid: Invalid = "error",
+        corners: Corners = "error",
         threads: int | None = None,
     ) -> CellSet:
         """Reads the cells of a file.
@@ -399,6 +401,10 @@ class CellSet(Described):
             names the first one, what is wrong with it, and a place; 'repair' makes them valid, as
             `rondel.make_valid` does, and warns of it. The cells of netCDF that cross themselves
             are kept by 'error' for the functions that refuse them, and `repaired` by 'repair'.
+        corners : {'error', 'made'}, optional
+            What to do where longitudes and latitudes of two dimensions have no bounds, as those of
+            WRF, ROMS and swaths: 'error' (default), or 'made', which makes corners half way
+            between the centers, extrapolated at the border, and warns of it.
         threads
             As in `voronoi`.
 
@@ -421,7 +427,8 @@ class CellSet(Described):
 
         """
         name = os.fspath(path)
-        return cls._of(read_cells(name, edges, overlap, invalid, as_threads(threads), sides=sides))
+        rules = edges, overlap, invalid, as_threads(threads)
+        return cls._of(read_cells(name, *rules, sides=sides, corners=corners))
 
     @classmethod
     def from_geometries(

@@ -23,6 +23,7 @@ Edges: TypeAlias = Literal["lonlat", "geodesic"]
 Invalid: TypeAlias = Literal["error", "repair"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 Sides: TypeAlias = Literal["parallels", "great_circles"]
+Corners: TypeAlias = Literal["error", "made"]
 
 Groups: TypeAlias = np.ndarray[Any, np.dtype[np.int32]] | None
 
@@ -35,9 +36,10 @@ def read_cells(
     threads: int,
     groups: Groups = None,
     sides: Sides = "parallels",
+    corners: Corners = "error",
 ) -> _core.CellSet:
     """The cells of a file; polygons with a group below 0 are left out."""
-    cells = _core.CellSet.read(name, sides, edges, overlap, invalid, groups, threads)
+    cells = _core.CellSet.read(name, sides, edges, overlap, invalid, groups, corners, threads)
     for remark in cells.facts.remarks:
         warn_caller(f"{name}: {remark}")
     return cells
@@ -58,7 +60,7 @@ def polygons_of(
         made: _core.CellSet = _of_objects(
             given,
             edges,
-            lambda file: _core.CellSet.read(file, "parallels", *rules, groups, threads),
+            lambda file: _core.CellSet.read(file, "parallels", *rules, groups, "error", threads),
         )
         return made
 

@@ -23,7 +23,7 @@ from ._coordinates import (
 )
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
-from ._geometries import in_degrees
+from ._geometries import Corners, in_degrees
 from ._types import BoolArray, FloatArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MAX_APART, are_near, side_of
@@ -45,10 +45,12 @@ class Places:
         are_points: bool = False,
         are_pairs: bool = False,
         are_targets: bool = False,
+        corners: Corners = "error",
     ) -> None:
         if isinstance(data, str):
             data = CellSet.named(data)
         given = data
+        self._corners = corners
         self._cells = data if isinstance(data, CellSet) else None
         if self._cells is not None:
             data = _centers(self._cells)
@@ -254,7 +256,8 @@ class Places:
     @property
     def have_cells(self) -> bool:
         """Whether there are cells around the places: bounds, axes, or a set of cells."""
-        return self.are_axes or self._cells is not None or self._found.have_bounds
+        have_bounds = self._found.have_bounds or self._corners == "made"
+        return self.are_axes or self._cells is not None or have_bounds
 
     def cells(self, threads: int | None) -> CellSet:
         """The cells around the places, by their bounds or, of a grid, half way between them."""
@@ -274,10 +277,12 @@ class Places:
             ]
             made = CellSet.lonlat_grid(*lines, threads=threads)
             return self._described(made, mask)
+        if (lon is None or lat is None) and self._corners == "made":
+            lon, lat = self._made_nodes()
         if lon is None or lat is None:
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
-                "bounds of the coordinates"
+                "bounds of the coordinates; corners='made' makes them from the centers"
             )
         if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, lat, self.shape, self._pairs_with_gaps(None))
@@ -285,6 +290,19 @@ class Places:
         made, mask, outside = _cells_of_corners(lon, lat, mask, centers, threads)
         self._require_inside(*outside)
         return self._described(made, mask)
+
+    def _made_nodes(self) -> tuple[FloatArray, FloatArray]:
+        """The nodes between the centers of a grid of two dimensions, one row and column more."""
+        if len(self.shape) != 2 or min(self.shape) < 2:
+            raise ValueError(
+                "corners of cells are made of grids with two rows and two columns or more, not of "
+                f"shape {self.shape}"
+            )
+        warn_caller("there are no corners of cells; they are made half way between the centers")
+        nodes = _core.nodes_between(self._pairs_with_gaps(None), *self.shape)
+        rows, columns = self.shape[0] + 1, self.shape[1] + 1
+        nodes = nodes.reshape(rows, columns, 2)
+        return nodes[..., 0], nodes[..., 1]
 
     def _described(self, cells: CellSet, mask: BoolArray | None) -> CellSet:
         """The cells with these places as their centers, and which of them take part."""

@@ -12,7 +12,8 @@ from typing import Literal, TypeAlias
 from . import _core
 from ._arrays import as_threads
 from ._geo import Path
-from ._geometries import Edges, Invalid, Sides
+from ._geometries import Corners, Edges, Invalid, Sides
+from ._native import Extrapolation
 from ._remap import CellOverlap
 from ._types import Progress
 
@@ -27,6 +28,7 @@ FieldMethod: TypeAlias = Literal[
     "hermite",
     "cubic",
     "bilinear",
+    "native",
 ]
 
 
@@ -48,6 +50,8 @@ class RegridReport:
         What was left out, and why.
     resumed : int
         The number of values that an earlier run had computed.
+    extrapolated : int
+        The number of values of targets that were extrapolated.
 
     """
 
@@ -58,6 +62,7 @@ class RegridReport:
     tiles: int
     remarks: tuple[str, ...]
     resumed: int = 0
+    extrapolated: int = 0
 
 
 def regrid_file(
@@ -73,6 +78,7 @@ def regrid_file(
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
+    corners: Corners = "error",
     overlap: CellOverlap = "error",
     memory: int = 2 << 30,
     tile: int = 0,
@@ -80,6 +86,11 @@ def regrid_file(
     history: str = "",
     statistics: str | Iterable[str] = (),
     weigh_by: Literal["area", "fraction"] = "area",
+    extrapolate: Extrapolation | None = None,
+    extrapolate_distance: float | None = None,
+    extrapolate_sources: int = 8,
+    extrapolate_exponent: int = 2,
+    extrapolate_levels: int = 0,
     threads: int | None = None,
     progress: Progress = None,
     resume: bool = False,
@@ -104,9 +115,10 @@ def regrid_file(
         Where the fields are: the name of a grid, or a file with cells; by default `path`.
     method : str, optional
         'conservative', 'conservative_2nd' (with gradients), 'largest_share' (the most frequent
-        value), 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic', or 'bilinear' on a
-        grid along axes. By default fields with the attribute `flag_values` or `flag_meanings` get
-        'largest_share', and all others 'conservative'.
+        value), 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic', 'bilinear' on a grid
+        along axes, or 'native' in the cells of the mesh of the fields, at its nodes or its faces
+        (`native_weights`). By default fields with the attribute `flag_values` or `flag_meanings`
+        get 'largest_share', and all others 'conservative'.
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.
@@ -114,8 +126,9 @@ def regrid_file(
         The share of a target that may lack values, from 0 to 1; by default 0.5.
     sides : {'parallels', 'great_circles'}, optional
         The northern and southern sides of cells of grids, as in `CellSet.lonlat_grid`.
-    edges, invalid
-        How polygons are read, as in `CellSet.read`.
+    edges, invalid, corners
+        How polygons, and grids without corners, are read, as in `CellSet.read`. Corners that were
+        made are told by the attribute `source_corners` or `target_corners` of the file.
     overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
     memory : int, optional
@@ -134,6 +147,16 @@ def regrid_file(
         `zonal_statistics`: each variable becomes one for each, such as 'tas_mean'.
     weigh_by : {'area', 'fraction'}, optional
         The weight of a value in them, as `weights` in `zonal_statistics`.
+    extrapolate : str, optional
+        How targets without a value get one, field by field: 'nearest' (ESMF's 'nearest_s2d'), of
+        the nearest source with a value; 'idw' ('inverse_dist'), of several by inverse distance; or
+        'creep' ('creep_fill'), the mean of their neighbors with values, level by level.
+    extrapolate_distance : float, optional
+        How far sources with values may be from a target, in kilometers; by default any distance.
+    extrapolate_sources, extrapolate_exponent : int, optional
+        With 'idw' the number of sources (8) and the power of the distance (2).
+    extrapolate_levels : int, optional
+        With 'creep' the number of levels; 0 (default): all that can be filled.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -186,6 +209,12 @@ def regrid_file(
         history,
         statistics if isinstance(statistics, str) else ",".join(statistics),
         weigh_by,
+        corners,
+        extrapolate,
+        extrapolate_distance,
+        extrapolate_sources,
+        extrapolate_exponent,
+        extrapolate_levels,
         as_threads(threads),
         progress,
         bool(resume),
@@ -198,4 +227,5 @@ def regrid_file(
         made.tiles,
         tuple(made.remarks),
         made.resumed,
+        made.extrapolated,
     )

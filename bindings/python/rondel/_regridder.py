@@ -13,7 +13,8 @@ from . import _core
 from ._arrays import as_floats, as_threads, point_set_hash
 from ._blocks import OutputChunks
 from ._geo import Path
-from ._geometries import Invalid, require_rules
+from ._geometries import Corners, Invalid, require_rules
+from ._native import EXTRAPOLATIONS, Extrapolation, extrapolated
 from ._remap import CellOverlap, Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
@@ -75,8 +76,21 @@ class Regridder(Described):
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of `ds_in` and of `ds_out`, if they are not found
         or there are several.
-    extrap_method : {None, 'nearest_s2d'}, optional
-        The value of targets that no source covers: none (default), or that of the nearest source.
+    extrap_method : {None, 'nearest_s2d', 'inverse_dist', 'creep_fill'}, optional
+        The value of targets to which no source contributes: none (default); that of the nearest
+        source that takes part; the mean of several by inverse distance; or the mean of the
+        neighboring targets with weights, level by level. 'nearest', 'idw' and 'creep' are the same.
+        Weights know masks only: `regrid_file` extrapolates each field by its own missing values.
+    extrap_dist_exponent, extrap_num_src_pnts : int, optional
+        With 'inverse_dist' the power of the distance (2) and the number of sources (8).
+    extrap_num_levels : int, optional
+        With 'creep_fill' the number of levels; 0 (default): all that can be filled.
+    extrap_distance : float, optional
+        How far sources may be from a target that is extrapolated, in kilometers; by default any.
+    corners : {'error', 'made'}, optional
+        With conservative methods, what to do where longitudes and latitudes of two dimensions have
+        no bounds: 'error' (default), or 'made', which makes corners half way between the centers,
+        extrapolated at the border, and warns of it.
     unmapped_to_nan : bool, optional
         Whether targets to which no source contributes are NaN (default True) or 0. As in xESMF, a
         target that needs a missing value is NaN in any case, and so are all targets without a value
@@ -152,7 +166,12 @@ class Regridder(Described):
         lat: Hashable | None = None,
         lon_out: Hashable | None = None,
         lat_out: Hashable | None = None,
-        extrap_method: Literal["nearest_s2d"] | None = None,
+        extrap_method: Extrapolation | None = None,
+        extrap_dist_exponent: int = 2,
+        extrap_num_src_pnts: int = 8,
+        extrap_num_levels: int = 0,
+        extrap_distance: float | None = None,
+        corners: Corners = "error",
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
         overlap: CellOverlap = "error",
@@ -168,8 +187,13 @@ class Regridder(Described):
         if method not in _METHODS:
             raise ValueError(f"method must be one of {', '.join(_METHODS)}, not {method!r}")
         require_rules(invalid=invalid)
-        if extrap_method not in (None, "nearest_s2d"):
-            raise ValueError(f"extrap_method must be None or 'nearest_s2d', not {extrap_method!r}")
+        if corners not in ("error", "made"):
+            raise ValueError(f"corners must be 'error' or 'made', not {corners!r}")
+        if extrap_method not in (None, *EXTRAPOLATIONS):
+            raise ValueError(
+                f"extrap_method must be None, 'nearest_s2d', 'inverse_dist' or 'creep_fill', not "
+                f"{extrap_method!r}"
+            )
         for name in needless:
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
@@ -183,8 +207,10 @@ class Regridder(Described):
         self._extrap_method = extrap_method
         self._remap: Remap | None = None  # what a file says of conservative weights
         self.method = method
-        self._source = Places(ds_in, lon, lat, are_points=locstream_in)
-        self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True)
+        self._source = Places(ds_in, lon, lat, are_points=locstream_in, corners=corners)
+        self._target = Places(
+            ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True, corners=corners
+        )
         mask = self._target.mask()
         is_nan = unmapped_to_nan or (mask is not None and not mask.all())
         self._unmapped = np.nan if is_nan else 0.0
@@ -196,7 +222,13 @@ class Regridder(Described):
         else:
             made = reused(weights, method, extrap_method, self._source, self._target, threads)
         if extrap_method is not None:
-            made = _filled(made, self._source, self._target)
+            limits = {
+                "distance": extrap_distance,
+                "sources": extrap_num_src_pnts,
+                "exponent": extrap_dist_exponent,
+                "levels": extrap_num_levels,
+            }
+            made = _filled(made, self._source, self._target, extrap_method, limits, threads)
         if weights is None:
             hashes = [point_set_hash(side.points()) for side in (self._source, self._target)]
             made._weights.know_places(*hashes)
@@ -440,8 +472,19 @@ def _bilinear(source: Places, target: Places) -> Weights:
     return Weights._of(_core.bilinear_weights(lon, lat, target.pairs(), are_single))
 
 
-def _filled(weights: Weights, source: Places, target: Places) -> Weights:
-    """The nearest source where a target has nothing, but for those that take no part."""
+def _filled(
+    weights: Weights,
+    source: Places,
+    target: Places,
+    method: Extrapolation,
+    limits: dict[str, Any],
+    threads: int | None,
+) -> Weights:
+    """Entries where a target has nothing, but for those that take no part."""
+    if method not in ("nearest", "nearest_s2d") or limits["distance"] is not None:
+        places = source.pairs(), target.pairs()
+        masks = source.mask(), target.mask()
+        return extrapolated(weights, *places, target.shape, masks, method, limits, threads)
     is_kept = np.diff(weights.indptr) > 0
     mask = target.mask()
     if mask is not None:

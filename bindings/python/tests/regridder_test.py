@@ -264,7 +264,7 @@ def test_refused():
     with pytest.raises(ValueError, match="method must be one of"):
         rondel.Regridder(FINE, COARSE, "patch")
     with pytest.raises(ValueError, match="extrap_method"):
-        rondel.Regridder(FINE, COARSE, "bilinear", extrap_method="inverse_dist")
+        rondel.Regridder(FINE, COARSE, "bilinear", extrap_method="patch")
     with pytest.raises(TypeError, match="'reuse'"):
         rondel.Regridder(FINE, COARSE, "bilinear", reuse=True)
     assert rondel.Regridder(FINE, COARSE, "bilinear", periodic=True).method == "bilinear"

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/native_weights.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/delaunay.h"
+#include "rondel/extrapolate.h"
+#include "rondel/read_cells.h"
+
+namespace rondel::python {
+namespace {
+
+// Returns the cells with these corners, one ring each.
+CellRings rings_of(const PairsIn& nodes, const OffsetsIn& offsets, const IndicesIn& corners) {
+  CellRings cells;
+  const auto ends = rows_of<std::uint64_t>(offsets);
+  const auto indices = rows_of<Index>(corners);
+  cells.rings.assign(ends.begin(), ends.end());
+  cells.corners.assign(indices.begin(), indices.end());
+  for (std::size_t i = 1; i < cells.rings.size(); ++i) cells.cells.push_back(i);
+  cells.points = unit_vectors(rows_of<LonLat>(nodes));
+  return cells;
+}
+
+// Returns the weights between the nodes of cells, or with centers between these.
+Weights native_weights_of(const PairsIn& nodes, const OffsetsIn& offsets, const IndicesIn& corners,
+                          const std::optional<PairsIn>& centers, const PairsIn& targets,
+                          unsigned threads) {
+  return watched_quietly(targets.shape(0), threads, [&](const Execution& execution) {
+    CellRings cells = rings_of(nodes, offsets, corners);
+    if (centers) cells = dual_cells(cells, unit_vectors(rows_of<LonLat>(*centers)));
+    return native_weights(cells, unit_vectors(rows_of<LonLat>(targets)), execution);
+  });
+}
+
+Weights extrapolated_weights(const Weights& weights, const PairsIn& sources, const PairsIn& targets,
+                             const std::vector<std::uint64_t>& shape, const std::string& method,
+                             std::optional<double> max_distance_km, unsigned num_sources,
+                             unsigned exponent, unsigned levels, const IndicesIn& source_mask,
+                             const IndicesIn& target_mask, unsigned threads) {
+  const std::optional<Extrapolation> known = extrapolation_named(method);
+  if (!known) throw nb::value_error(("there is no extrapolation " + method).c_str());
+  return watched_quietly(targets.shape(0), threads, [&](const Execution& execution) {
+    std::vector<Point> points = known_unit_vectors(rows_of<LonLat>(targets));
+    CompressedRows<Index> neighbors;
+    if (known == Extrapolation::creep) neighbors = target_neighbors(points, shape, execution);
+    const ExtrapolationOptions options{.method = *known,
+                                       .max_distance_km = max_distance_km,
+                                       .neighbors = num_sources,
+                                       .exponent = exponent,
+                                       .levels = levels};
+    Extrapolator extrapolator(known_unit_vectors(rows_of<LonLat>(sources)), std::move(points),
+                              std::move(neighbors), options, vector_of<std::int32_t>(source_mask),
+                              vector_of<std::int32_t>(target_mask));
+    return extrapolator.filled(weights, execution);
+  });
+}
+
+ArrayOut<double> nodes_between_centers(const PairsIn& centers, std::size_t rows,
+                                       std::size_t columns) {
+  return to_array<double>(unlocked([&] {
+    return nodes_between(rows_of<LonLat>(centers), {rows, columns});
+  }));
+}
+
+}  // namespace
+
+void add_native_weights(nb::module_& module) {
+  module.def("native_weights", &native_weights_of, nb::arg("nodes").noconvert(),
+             nb::arg("offsets").noconvert(), nb::arg("corners").noconvert(),
+             nb::arg("centers").noconvert().none(), nb::arg("targets").noconvert(),
+             nb::arg("threads"));
+  module.def("extrapolated_weights", &extrapolated_weights, nb::arg("weights"),
+             nb::arg("sources").noconvert(), nb::arg("targets").noconvert(), nb::arg("shape"),
+             nb::arg("method"), nb::arg("max_distance_km").none(), nb::arg("num_sources"),
+             nb::arg("exponent"), nb::arg("levels"), nb::arg("source_mask").noconvert(),
+             nb::arg("target_mask").noconvert(), nb::arg("threads"));
+  module.def("nodes_between", &nodes_between_centers, nb::arg("centers").noconvert(),
+             nb::arg("rows"), nb::arg("columns"));
+}
+
+}  // namespace rondel::python

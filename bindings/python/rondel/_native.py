@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Interpolation in the cells of a mesh, and extrapolation."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_lonlat, as_threads
+from ._types import ArrayLike, BoolArray, FloatArray
+from ._weights import Weights
+
+Extrapolation: TypeAlias = Literal[
+    "nearest", "idw", "creep", "nearest_s2d", "inverse_dist", "creep_fill"
+]
+EXTRAPOLATIONS = ("nearest_s2d", "inverse_dist", "creep_fill", "nearest", "idw", "creep")
+
+
+def native_weights(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    faces: ArrayLike,
+    to_lon: ArrayLike,
+    to_lat: ArrayLike,
+    *,
+    centers: tuple[ArrayLike, ArrayLike] | None = None,
+    threads: int | None = None,
+) -> Weights:
+    """Computes weights that interpolate in the faces of a mesh.
+
+    Values are at the nodes, or with `centers` at the faces. In triangles they are linear, in
+    convex polygons their weights are Wachspress coordinates, in others mean value coordinates.
+
+    Parameters
+    ----------
+    lon, lat : array_like, shape (n,)
+        The nodes, in degrees.
+    faces : array_like of int, shape (m, k)
+        The nodes of each face, in either direction around it; faces with fewer nodes end with
+        negative or masked numbers.
+    to_lon, to_lat : array_like, shape (t,)
+        The targets, in degrees.
+    centers : tuple of array_like, shape (m,), optional
+        Longitudes and latitudes of the faces' centers. With them the values are those of the
+        faces, and are interpolated in the cells of the dual mesh, which surround the inner nodes.
+    threads : int, optional
+        The largest number of threads; by default one for each core.
+
+    Returns
+    -------
+    Weights
+        Shape (t, n), or (t, m) with `centers`. A target in no cell has no entries. At a node, or
+        at a center, the value is the one there, exactly.
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit; `InvalidInput` if a face has an index that is no node, or is as wide
+        as a hemisphere.
+
+    Notes
+    -----
+    The sum of weights times the unit vectors of their nodes has the direction of the target
+    (Langer, Belyaev, Seidel 2006), so that fields that are linear in x, y and z are reproduced but
+    for the shortening of that sum, which is of second order in the size of the cells.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> lon, lat = [0, 10, 10, 0], [0, 0, 10, 10]
+    >>> weights = rondel.native_weights(lon, lat, [[0, 1, 2, 3]], [0, 5, 20], [0, 0, 0])
+    >>> (weights @ [1.0, 2.0, 3.0, 4.0]).tolist()
+    [1.0, 1.5, nan]
+
+    """
+    nodes = as_lonlat(lon, lat)
+    given = np.ma.asarray(faces)
+    if given.ndim != 2 or (given.size and given.dtype.kind not in "iu"):
+        raise ValueError(f"faces must be integers of shape (m, k), not {given.dtype} {given.shape}")
+    indices = np.ma.filled(given.astype(np.int64), -1)
+    is_node = indices >= 0
+    if np.any(is_node[:, 1:] & ~is_node[:, :-1]):
+        raise ValueError("numbers that are no nodes stand before nodes of a face")
+    if np.any(indices >= len(nodes)):
+        first = int(np.flatnonzero((indices >= len(nodes)).any(axis=1))[0])
+        raise ValueError(f"face {first} has a corner that is none of {len(nodes)} nodes")
+    offsets = np.concatenate([[0], np.cumsum(is_node.sum(axis=1))]).astype(np.int64)
+    at = None
+    if centers is not None:
+        at = as_lonlat(*centers)
+        if len(at) != len(indices):
+            raise ValueError(f"there are {len(at)} centers for {len(indices)} faces")
+    corners = np.ascontiguousarray(indices[is_node], np.int32)
+    targets = as_lonlat(to_lon, to_lat)
+    made = _core.native_weights(nodes, offsets, corners, at, targets, as_threads(threads))
+    return Weights._of(made)
+
+
+def extrapolated(
+    weights: Weights,
+    sources: FloatArray,
+    targets: FloatArray,
+    shape: tuple[int, ...],
+    masks: tuple[BoolArray | None, BoolArray | None],
+    method: str,
+    options: dict[str, Any],
+    threads: int | None,
+) -> Weights:
+    """The weights with rows in place of the empty ones of targets that take part."""
+    distance = options["distance"]
+    kept = [
+        np.zeros(0, np.int32) if mask is None else mask.reshape(-1).astype(np.int32)
+        for mask in masks
+    ]
+    numbers = [operator.index(options[name]) for name in ("sources", "exponent", "levels")]
+    if min(numbers) < 0:
+        raise ValueError("numbers of sources and levels, and exponents, are not negative")
+    made = _core.extrapolated_weights(
+        weights._weights,
+        sources,
+        targets,
+        list(shape),
+        method,
+        distance,
+        *numbers,
+        *kept,
+        as_threads(threads),
+    )
+    return Weights._of(made)

@@ -1,0 +1,333 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Values in the cells of meshes, against weights that fractions compute; extrapolation."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import rondel
+
+
+def exact(point):
+    return [Fraction(float(x)) for x in point]
+
+
+def determinant(a, b, c):
+    """The sign and size of det(a, b, c), exactly."""
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
+
+
+def wachspress(corners, target):
+    """The weights of a convex cell, exactly but for the last division; None outside."""
+    corners, target = [exact(corner) for corner in corners], exact(target)
+    n = len(corners)
+    sides = [determinant(corners[k], corners[(k + 1) % n], target) for k in range(n)]
+    if min(sides) < 0:
+        return None
+    weights = []
+    for k in range(n):
+        product = determinant(corners[k - 1], corners[k], corners[(k + 1) % n])
+        for j in range(n):
+            if j not in (k, (k - 1) % n):
+                product *= sides[j]
+        weights.append(product)
+    total = sum(weights)
+    return [float(weight / total) for weight in weights]
+
+
+def turn(a, b, c):
+    """The sine of the angle by which a path turns at b, to the left."""
+    return np.linalg.det([a, b, c]) / np.linalg.norm(b - a) / np.linalg.norm(c - b)
+
+
+@pytest.fixture
+def mesh():
+    """The Voronoi cells of random sites: nodes, faces, and centers."""
+    points = np.random.default_rng(5).normal(size=(150, 3))
+    diagram = rondel.delaunay(points / np.linalg.norm(points, axis=1)[:, None]).voronoi()
+    rings = rondel.CellSet.voronoi(diagram)._cells.rings()
+    ends = rings.rings[1:]
+    faces = np.full((len(ends), int(np.diff(rings.rings).max())), -1)
+    for i, (begin, end) in enumerate(zip(rings.rings, ends, strict=False)):
+        faces[i, : end - begin] = rings.corners[begin:end]
+    lon, lat = rondel.lonlat(rings.points).T
+    return lon, lat, faces
+
+
+def targets(count, seed):
+    generator = np.random.default_rng(seed)
+    lat = np.degrees(np.arcsin(generator.uniform(-1, 1, count)))
+    return generator.uniform(-180, 180, count), lat
+
+
+def test_weights_are_those_of_fractions(mesh):
+    lon, lat, faces = mesh
+    nodes = rondel.unit_vectors(lon, lat)
+    to_lon, to_lat = targets(200, 1)
+    weights = rondel.native_weights(lon, lat, faces, to_lon, to_lat)
+    to = rondel.unit_vectors(to_lon, to_lat)
+    compared = 0
+    for t in range(200):
+        begin, end = weights.indptr[t : t + 2]
+        found = dict(zip(weights.indices[begin:end], weights.data[begin:end], strict=True))
+        assert found
+        for face in faces:
+            ring = face[face >= 0]
+            wanted = wachspress(nodes[ring], to[t])
+            if wanted is None:
+                continue
+            assert set(found) <= set(ring)
+            # Cells with a corner that hardly turns have mean values.
+            turns = [turn(*nodes[ring[[k - 1, k, (k + 1) % len(ring)]]]) for k in range(len(ring))]
+            if min(turns) > 2**-9:
+                given = [found.get(node, 0.0) for node in ring]
+                np.testing.assert_allclose(given, wanted, rtol=0, atol=1e-11)
+                compared += 1
+    assert compared > 100
+
+
+def test_linear_fields_and_nodes_are_reproduced(mesh):
+    lon, lat, faces = mesh
+    nodes = rondel.unit_vectors(lon, lat)
+    field = nodes @ [0.3, -0.5, 0.7]
+    at_nodes = rondel.native_weights(lon, lat, faces, lon, lat)
+    np.testing.assert_array_equal(at_nodes @ field, field)
+    to_lon, to_lat = targets(2000, 2)
+    weights = rondel.native_weights(lon, lat, faces, to_lon, to_lat)
+    to = rondel.unit_vectors(to_lon, to_lat)
+    sums = np.stack([weights @ nodes[:, k].copy() for k in range(3)], axis=1)
+    shortened = (sums * to).sum(axis=1)
+    assert (shortened > 0).all()
+    assert (shortened <= 1 + 1e-15).all()
+    np.testing.assert_allclose(sums, shortened[:, None] * to, rtol=0, atol=1e-14)
+
+
+def test_centers_are_interpolated_in_the_dual(mesh):
+    lon, lat, faces = mesh
+    nodes = rondel.unit_vectors(lon, lat)
+    centers = np.stack([nodes[face[face >= 0]].sum(axis=0) for face in faces])
+    at = tuple(rondel.lonlat(centers / np.linalg.norm(centers, axis=1)[:, None]).T)
+    values = np.arange(float(len(faces)))
+    weights = rondel.native_weights(lon, lat, faces, *at, centers=at)
+    np.testing.assert_array_equal(weights @ values, values)
+    weights = rondel.native_weights(lon, lat, faces, *targets(500, 3), centers=at)
+    assert (np.diff(weights.indptr) == 3).all()
+
+
+def test_faces_may_be_masked_and_turned():
+    lon, lat = [0, 10, 10, 0, 5], [0, 0, 10, 10, 20]
+    given = [[0, 1, 2, 3], [2, 3, 4, -1]]
+    wanted = rondel.native_weights(lon, lat, given, [5, 5], [5, 15])
+    masked = np.ma.masked_less(np.array([[3, 2, 1, 0], [4, 3, 2, -1]]), 0)
+    found = rondel.native_weights(lon, lat, masked, [5, 5], [5, 15])
+    np.testing.assert_array_equal(found.data, wanted.data)
+
+
+@pytest.mark.parametrize(
+    ("faces", "words"),
+    [
+        ([[0, 1, 7]], "face 0 has a corner that is none of 3 nodes"),
+        ([[0, -1, 2]], "stand before nodes"),
+        ([0, 1, 2], "integers of shape"),
+        ([[0.5, 1, 2]], "integers of shape"),
+    ],
+)
+def test_wrong_faces_are_refused(faces, words):
+    with pytest.raises(ValueError, match=words):
+        rondel.native_weights([0, 10, 0], [0, 0, 10], faces, [1], [1])
+
+
+def test_wide_faces_are_refused():
+    with pytest.raises(rondel.InvalidInput, match="as wide as a hemisphere"):
+        rondel.native_weights([0, 120, 240], [0, 0, 0], [[0, 1, 2]], [1], [1])
+
+
+@pytest.fixture
+def region():
+    pytest.importorskip("xarray")
+    source = {"lon": np.arange(0.0, 21, 2), "lat": np.arange(0.0, 21, 2)}
+    target = {"lon": np.arange(-3.0, 25, 1), "lat": np.arange(-3.0, 25, 1)}
+    field = np.add.outer(source["lat"], 10 * source["lon"])
+    return source, target, field
+
+
+@pytest.mark.parametrize("method", ["inverse_dist", "idw"])
+def test_regridder_extrapolates_by_inverse_distance(region, method):
+    source, target, field = region
+    plain = rondel.Regridder(source, target, "bilinear")(field)
+    found = rondel.Regridder(
+        source, target, "bilinear", extrap_method=method, extrap_num_src_pnts=3
+    )(field)
+    assert np.isnan(plain).any()
+    np.testing.assert_array_equal(found[~np.isnan(plain)], plain[~np.isnan(plain)])
+    lat, lon = np.meshgrid(source["lat"], source["lon"], indexing="ij")
+    points = rondel.unit_vectors(lon.ravel(), lat.ravel())
+    for j, i in np.argwhere(np.isnan(plain)):
+        at = rondel.unit_vectors(target["lon"][i], target["lat"][j])
+        squares = ((points - at) ** 2).sum(axis=1)
+        near = np.argsort(squares, kind="stable")
+        if squares[near[3]] - squares[near[2]] < 1e-12:
+            continue  # of equal distances either may count
+        wanted = (field.ravel()[near[:3]] / squares[near[:3]]).sum() / (1 / squares[near[:3]]).sum()
+        assert abs(found[j, i] - wanted) < 1e-10
+
+
+def test_regridder_creeps_as_far_as_it_may(region):
+    source, target, field = region
+    plain = rondel.Regridder(source, target, "bilinear")(field)
+    found = rondel.Regridder(
+        source, target, "bilinear", extrap_method="creep_fill", extrap_num_levels=2
+    )(field)
+    wanted = plain.copy()
+    for _ in range(2):
+        padded = np.pad(wanted, 1, constant_values=np.nan)
+        near = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
+        number = np.isfinite(near).sum(axis=0)
+        means = np.nansum(near, axis=0) / np.maximum(number, 1)
+        wanted = np.where(np.isnan(wanted) & (number > 0), means, wanted)
+    np.testing.assert_allclose(found, wanted, rtol=1e-13)
+    assert np.isnan(found).any()
+
+
+def test_regridder_has_a_largest_distance(region):
+    source, target, field = region
+    found = rondel.Regridder(
+        source, target, "bilinear", extrap_method="nearest_s2d", extrap_distance=250.0
+    )(field)
+    assert np.isnan(found[0, 0])  # 3 degrees to the west and to the south
+    assert not np.isnan(found[1, 5])
+    with pytest.raises(ValueError, match="extrap_method must be"):
+        rondel.Regridder(source, target, "bilinear", extrap_method="patch")
+
+
+def test_corners_are_made_on_request():
+    pytest.importorskip("xarray")
+    j, i = np.mgrid[0:8, 0:9].astype(float)
+    source = {"lon": 10 + i - 0.2 * j, "lat": 40 + 0.3 * i + j}
+    with pytest.raises(ValueError, match="corners='made' makes them"):
+        rondel.Regridder(source, "grid:1", "conservative_normed")
+    with pytest.warns(UserWarning, match="made half way between the centers"):
+        regridder = rondel.Regridder(source, "grid:1", "conservative_normed", corners="made")
+    found = regridder(np.ones((8, 9)))
+    assert np.isfinite(found).sum() > 50
+    np.testing.assert_allclose(found[np.isfinite(found)], 1, rtol=1e-13)
+    with pytest.raises(ValueError, match="corners must be"):
+        rondel.Regridder(source, "grid:1", "conservative_normed", corners="guess")
+
+
+def write_mesh(path, mesh, values):
+    """A file of UGRID with values at the nodes."""
+    netcdf = pytest.importorskip("netCDF4")
+    lon, lat, faces = mesh
+    with netcdf.Dataset(path, "w") as file:
+        for name, size in (("node", len(lon)), ("face", len(faces)), ("corner", faces.shape[1])):
+            file.createDimension(name, size)
+        topology = file.createVariable("mesh", "i4")
+        topology.setncatts(
+            {
+                "cf_role": "mesh_topology",
+                "topology_dimension": 2,
+                "node_coordinates": "x y",
+                "face_node_connectivity": "faces",
+            }
+        )
+        for name, numbers, units in (("x", lon, "degrees_east"), ("y", lat, "degrees_north")):
+            variable = file.createVariable(name, "f8", ("node",))
+            variable.units = units
+            variable[:] = numbers
+        connectivity = file.createVariable("faces", "i4", ("face", "corner"), fill_value=-1)
+        connectivity.start_index = 0
+        connectivity[:] = faces
+        field = file.createVariable("t", "f8", ("node",))
+        field.setncatts({"mesh": "mesh", "location": "node"})
+        field[:] = values
+
+
+def test_files_are_regridded_in_their_own_cells(mesh, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    lon, lat, faces = mesh
+    values = np.random.default_rng(8).normal(size=len(lon))
+    write_mesh(tmp_path / "mesh.nc", mesh, values)
+    out = tmp_path / "out.nc"
+    report = rondel.regrid_file(f"{tmp_path / 'mesh.nc'}:t", "grid:10", out, method="native")
+    assert (report.sources, report.missing) == (len(lon), 0)
+    with xarray.open_dataset(out) as found:
+        to_lon, to_lat = np.meshgrid(found.lon, found.lat)
+        weights = rondel.native_weights(lon, lat, faces, to_lon.ravel(), to_lat.ravel())
+        np.testing.assert_array_equal(found.t.values.ravel(), weights @ values)
+    with pytest.raises(OSError, match="means over cells need values of cells"):
+        rondel.regrid_file(f"{tmp_path / 'mesh.nc'}:t", "grid:10", out)
+
+
+def test_fields_are_extrapolated_by_their_own_gaps(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    lon, lat = np.arange(5.0, 360, 10), np.arange(-85.0, 90, 10)
+    fields = np.random.default_rng(9).normal(size=(3, 18, 36))
+    fields[np.random.default_rng(10).random(fields.shape) < 0.4] = np.nan
+    xarray.DataArray(
+        fields,
+        {
+            "lat": ("lat", lat, {"units": "degrees_north"}),
+            "lon": ("lon", lon, {"units": "degrees_east"}),
+        },
+        ("time", "lat", "lon"),
+        name="t",
+    ).to_netcdf(tmp_path / "in.nc")
+    report = rondel.regrid_file(
+        tmp_path / "in.nc",
+        "grid:36x18",
+        tmp_path / "out.nc",
+        method="nearest",
+        extrapolate="nearest",
+        extrapolate_distance=1500,
+    )
+    assert report.extrapolated > 100
+    with xarray.open_dataset(tmp_path / "out.nc") as found:
+        # The targets begin at longitude -175, in another order than the sources.
+        to_lon, to_lat = np.meshgrid(found.lon, found.lat)
+        got = found.t.values
+    points = rondel.unit_vectors(*(grid.ravel() for grid in np.meshgrid(lon, lat)))
+    to = rondel.unit_vectors(to_lon.ravel(), to_lat.ravel())
+    angles = np.arccos(np.clip(to @ points.T, -1, 1))
+    for time in range(3):
+        known = np.isfinite(fields[time].ravel())
+        away = np.where(known, angles, np.inf)
+        nearest = away.min(axis=1)
+        for t, value in enumerate(got[time].ravel()):
+            if nearest[t] * 6371.229 > 1500:
+                assert np.isnan(value)
+                continue
+            ties = fields[time].ravel()[away[t] < nearest[t] + 1e-9]
+            assert value in ties
+
+
+def test_files_tell_of_corners_that_were_made(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    j, i = np.mgrid[0:10, 0:12].astype(float)
+    places = {
+        "lon": (("y", "x"), 10 + i - 0.2 * j, {"units": "degrees_east"}),
+        "lat": (("y", "x"), 40 + 0.3 * i + j, {"units": "degrees_north"}),
+    }
+    xarray.Dataset({"t": (("y", "x"), np.ones((10, 12)))}, places).to_netcdf(tmp_path / "in.nc")
+    with pytest.raises(OSError, match="have no bounds, so no cells"):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:1", tmp_path / "out.nc")
+    report = rondel.regrid_file(tmp_path / "in.nc", "grid:1", tmp_path / "out.nc", corners="made")
+    assert "made half way between the centers" in report.remarks[0]
+    with xarray.open_dataset(tmp_path / "out.nc") as found:
+        assert "made half way" in found.attrs["source_corners"]
+        known = found.t.values[np.isfinite(found.t.values)]
+    assert known.size > 80
+    np.testing.assert_allclose(known, 1, rtol=1e-14)
+    with pytest.warns(UserWarning, match="made half way"):
+        cells = rondel.CellSet.read(tmp_path / "in.nc", corners="made")
+    assert cells.shape == (10, 12)
+    steps = np.radians(1) ** 2 * (1 + 0.3 * 0.2) * np.cos(np.radians(places["lat"][1]))
+    np.testing.assert_allclose(cells.areas.reshape(10, 12), steps, rtol=1e-2)
