@@ -20,6 +20,12 @@ Extrapolation: TypeAlias = Literal[
 EXTRAPOLATIONS = ("nearest_s2d", "inverse_dist", "creep_fill", "nearest", "idw", "creep")
 
 
+def esmf_name(method: str) -> str:
+    """The name that ESMF has for a method of extrapolation; other texts as they are."""
+    names = dict(zip(EXTRAPOLATIONS[3:], EXTRAPOLATIONS[:3], strict=True))
+    return names.get(method, method)
+
+
 def native_weights(
     lon: ArrayLike,
     lat: ArrayLike,

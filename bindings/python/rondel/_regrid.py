@@ -8,6 +8,8 @@ from collections.abc import Hashable
 from typing import Any, cast
 
 from ._blocks import OutputChunks
+from ._geometries import Corners
+from ._native import Extrapolation
 from ._regrid_files import FieldMethod
 from ._regridder import Regridder, RegridMethod
 from ._types import Progress
@@ -31,6 +33,9 @@ def regrid(
     lat_out: Hashable | None = None,
     max_missing: float = 0.5,
     output_chunks: OutputChunks = None,
+    extrap_method: Extrapolation | None = None,
+    extrap_distance: float | None = None,
+    corners: Corners = "error",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Any:
@@ -58,6 +63,9 @@ def regrid(
     output_chunks : int, tuple, dict or str, optional
         The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
         `Regridder` takes them; by default 'auto'.
+    extrap_method, extrap_distance, corners : optional
+        As in `Regridder`: values for targets to which no source contributes, and corners of cells
+        where the coordinates have no bounds.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -96,6 +104,9 @@ def regrid(
         lat=lat,
         lon_out=lon_out,
         lat_out=lat_out,
+        extrap_method=extrap_method,
+        extrap_distance=extrap_distance,
+        corners=corners,
         threads=threads,
         progress=progress,
     )

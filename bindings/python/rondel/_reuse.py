@@ -14,6 +14,7 @@ from . import _core
 from ._arrays import degrees_of, point_set_hash
 from ._errors import warn_caller
 from ._geo import Path
+from ._native import esmf_name
 from ._types import BoolArray, FloatArray, IntArray
 from ._weight_files import are_near
 from ._weights import Weights
@@ -70,7 +71,12 @@ def reused(
     if _EXTRAPOLATED in text and extrap_method is None:
         raise ValueError(
             f"{name} holds weights of the method {text!r}, but extrap_method is None: the values "
-            "outside of the source would be those of the nearest one"
+            "outside of the source would be extrapolated"
+        )
+    said = text.partition(_EXTRAPOLATED)[2].strip()
+    if said and extrap_method is not None and esmf_name(said) != esmf_name(extrap_method):
+        raise ValueError(
+            f"{name} holds weights that are extrapolated by {said!r}, not by {extrap_method!r}"
         )
     masks = source.mask(), target.mask()
     hashes = made.sites_hash, made.targets_hash

@@ -331,3 +331,27 @@ def test_files_tell_of_corners_that_were_made(tmp_path):
     assert cells.shape == (10, 12)
     steps = np.radians(1) ** 2 * (1 + 0.3 * 0.2) * np.cos(np.radians(places["lat"][1]))
     np.testing.assert_allclose(cells.areas.reshape(10, 12), steps, rtol=1e-2)
+
+
+def test_regrid_passes_on_what_regridders_take(region):
+    xarray = pytest.importorskip("xarray")
+    source, target, field = region
+    data = xarray.DataArray(field, {"lat": source["lat"], "lon": source["lon"]}, ("lat", "lon"))
+    plain = rondel.regrid(data, target, "bilinear")
+    found = rondel.regrid(data, target, "bilinear", extrap_method="creep")
+    assert np.isnan(plain).any()
+    assert not np.isnan(found).any()
+
+
+def test_weights_of_another_extrapolation_are_not_reused(region, tmp_path):
+    source, target, _ = region
+    made = rondel.Regridder(source, target, "bilinear", extrap_method="idw")
+    made.to_netcdf(tmp_path / "w.nc")
+    again = rondel.Regridder(
+        source, target, "bilinear", extrap_method="inverse_dist", weights=tmp_path / "w.nc"
+    )
+    np.testing.assert_array_equal(again.weights.data, made.weights.data)
+    with pytest.raises(ValueError, match="extrapolated by 'idw', not by 'creep'"):
+        rondel.Regridder(
+            source, target, "bilinear", extrap_method="creep", weights=tmp_path / "w.nc"
+        )
