@@ -249,8 +249,10 @@ TEST(regrid_files, refuse_what_does_not_fit) {
   EXPECT_EQ(why(table), table +
                             ": it is neither the name of a grid, nor netCDF with cells, nor "
                             ".geojson with polygons");
-  EXPECT_EQ(why("grid:60", {.source = FileName{"healpix:1", {}}}),
-            in + ": no variable has 48 points");
+  EXPECT_EQ(
+      why("grid:60", {.source = FileName{"healpix:1", {}}}),
+      in + ": no variable has 48 points; left out, as they have no values at the points: warm, "
+           "kind, patchy");
   EXPECT_EQ(
       why("grid:60", {.source = FileName{"C3", {}}, .method = FieldMethod::bilinear}).substr(0, 4),
       in.substr(0, 4));
