@@ -12,8 +12,10 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
+#include "io/netcdf_groups.h"
 #include "io/netcdf_reader.h"
 #include "overlay/cell_set_data.h"
 #include "rondel/error.h"
@@ -74,6 +76,26 @@ std::string grid_named_by(const FileName& file) {
   });
 }
 
+// Returns the cells of the grid that the first of the variables is on, where the file has several;
+// else, as where its dimensions do not say it, those of the file.
+CellTable cells_of_variable(const FileName& file, const std::vector<std::string>& names,
+                            MissingCorners corners) {
+  if (!names.empty() && file_and_variable(file).second.empty()) {
+    try {
+      FileName grid = file;
+      io::FileBytes bytes(file, true);
+      grid.path += ":" + io::in_file(bytes.name(), [&] {
+                     const io::NetcdfReader reader(bytes);
+                     return variable_of(reader, io::full_name(reader.variables(), names.front()));
+                   });
+      return read_cells(grid, corners);
+    } catch (const FileError&) {
+      return read_cells(file, corners);  // if it has none, the error is about the whole file
+    }
+  }
+  return read_cells(file, corners);
+}
+
 }  // namespace
 
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
@@ -116,7 +138,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
     }
     cells_ = CellSet::read(file, options_, execution);
   } else {
-    CellTable table = read_cells(file, options_.corners);
+    CellTable table = cells_of_variable(file, names, options_.corners);
     if (table.grid && options_.sides == GridSides::parallels) {
       lines_ = std::move(table.grid);
       shape_ = table.facts.shape;

@@ -26,8 +26,8 @@ namespace rondel::formats {
 
 class RegridSide {
  public:
-  // Reads a side. With `has_cells` false its places are enough: those of the first of `names`, if
-  // there are any.
+  // Reads a side: the grid of the first of `names`, if there are any and the file has several. With
+  // `has_cells` false its places are enough, which may be nodes or edges then.
   RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
              const Execution& execution, const std::vector<std::string>& names = {});
 

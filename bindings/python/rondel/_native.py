@@ -122,8 +122,10 @@ def extrapolated(
         np.zeros(0, np.int32) if mask is None else mask.reshape(-1).astype(np.int32)
         for mask in masks
     ]
-    numbers = [operator.index(options[name]) for name in ("sources", "exponent", "levels")]
-    if min(numbers) < 0:
+    number, exponent, levels = (
+        operator.index(options[name]) for name in ("sources", "exponent", "levels")
+    )
+    if min(number, exponent, levels) < 0:
         raise ValueError("numbers of sources and levels, and exponents, are not negative")
     made = _core.extrapolated_weights(
         weights._weights,
@@ -132,8 +134,11 @@ def extrapolated(
         list(shape),
         method,
         distance,
-        *numbers,
-        *kept,
+        number,
+        exponent,
+        levels,
+        kept[0],
+        kept[1],
         as_threads(threads),
     )
     return Weights._of(made)

@@ -355,3 +355,34 @@ def test_weights_of_another_extrapolation_are_not_reused(region, tmp_path):
         rondel.Regridder(
             source, target, "bilinear", extrap_method="creep", weights=tmp_path / "w.nc"
         )
+
+
+def test_each_variable_has_its_own_grid(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    j, i = np.mgrid[0:10, 0:12].astype(float)
+
+    def places(name, shift):
+        dims, columns = ("y", f"x_{name}"), slice(0, 12 if shift == 0 else 11)
+        lon = 10 + i[:, columns] + shift - 0.2 * j[:, columns]
+        lat = 40 + 0.3 * i[:, columns] + j[:, columns]
+        return {
+            f"lon_{name}": (dims, lon, {"units": "degrees_east"}),
+            f"lat_{name}": (dims, lat, {"units": "degrees_north"}),
+        }
+
+    xarray.Dataset(
+        {
+            "t": (("y", "x_rho"), i, {"coordinates": "lon_rho lat_rho"}),
+            "u": (("y", "x_u"), np.full((10, 11), 7.0), {"coordinates": "lon_u lat_u"}),
+            **places("rho", 0),
+            **places("u", 0.5),
+        }
+    ).to_netcdf(tmp_path / "roms.nc")
+    out = tmp_path / "out.nc"
+    report = rondel.regrid_file(f"{tmp_path / 'roms.nc'}:u", "grid:1", out, corners="made")
+    assert report.sources == 110
+    with xarray.open_dataset(out) as found:
+        known = found.u.values[np.isfinite(found.u.values)]
+    np.testing.assert_allclose(known, 7, rtol=1e-14)
+    assert rondel.regrid_file(tmp_path / "roms.nc", "grid:1", out, corners="made").sources == 120
