@@ -36,6 +36,9 @@ struct WeightSide {
   /// True if the numbers of this side counted from 0 in a file whose format counts from 1
   /// (WeightReadOptions::are_checked).
   bool counts_from_zero = false;
+  /// Whether the corners were made from the centers; netCDF has the attributes `source_corners` and
+  /// `target_corners` that say so.
+  bool are_corners_made = {};
 };
 
 /// Weights, and what a file says about them.

@@ -24,6 +24,7 @@
 #include "formats/regrid_processes.h"
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
+#include "formats/weight_formats.h"
 #include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -170,9 +171,10 @@ class RegridJob {
   }
 
   void tell_of_corners(FieldSet& written) const {
-    const std::string text = "made half way between the centers, as the file has none";
-    if (source_.are_corners_made()) written.attributes.emplace_back("source_corners", text);
-    if (target_.are_corners_made()) written.attributes.emplace_back("target_corners", text);
+    const std::string text(formats::made_corners_text);
+    const auto tell = [&](const char* name) { written.attributes.emplace_back(name, text); };
+    if (source_.are_corners_made()) tell(formats::source_corners_name);
+    if (target_.are_corners_made()) tell(formats::target_corners_name);
   }
 
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {

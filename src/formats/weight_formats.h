@@ -22,6 +22,12 @@
 
 namespace rondel::formats {
 
+// Global attributes of netCDF with weights or fields whose cells have corners that were made.
+inline constexpr const char* source_corners_name = "source_corners";
+inline constexpr const char* target_corners_name = "target_corners";
+inline constexpr const char* made_corners_text =
+    "made half way between the centers, as the file has none";
+
 // The input of a writer of weights.
 struct WeightsToWrite {
   const WeightFile& content;

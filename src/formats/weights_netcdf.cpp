@@ -195,6 +195,8 @@ void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content) {
   if (weights.targets_hash != 0) {
     out.add_attribute(target_hash_name, hexadecimal(weights.targets_hash));
   }
+  if (content.source.are_corners_made) out.add_attribute(source_corners_name, made_corners_text);
+  if (content.target.are_corners_made) out.add_attribute(target_corners_name, made_corners_text);
   add_table(out, source_table_name, content.source);
   add_table(out, target_table_name, content.target);
 }
@@ -205,6 +207,10 @@ bool has_own_method(const io::NetcdfReader& file) {
 
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   content.weights.sites_hash = hash_of(file, source_hash_name);
+  content.source.are_corners_made =
+      !io::netcdf_text(file.attributes(), source_corners_name).empty();
+  content.target.are_corners_made =
+      !io::netcdf_text(file.attributes(), target_corners_name).empty();
   content.weights.targets_hash = hash_of(file, target_hash_name);
   read_table(file, source_table_name, content.weights.num_columns, content.source);
   read_table(file, target_table_name, content.weights.num_rows(), content.target);

@@ -140,6 +140,7 @@ WeightSide weight_side(const CellSet& cells) {
   side.shape = facts.shape;
   side.corners = cells.corners();
   side.columns = facts.columns;
+  side.are_corners_made = facts.are_corners_made;
   return side;
 }
 

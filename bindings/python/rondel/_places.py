@@ -307,7 +307,9 @@ class Places:
     def _described(self, cells: CellSet, mask: BoolArray | None) -> CellSet:
         """The cells with these places as their centers, and which of them take part."""
         kept = np.zeros(0) if mask is None else mask.reshape(-1)
-        return cells._with(centers=self.pairs(), mask=kept.astype(np.int32))
+        are_made = self._corners == "made" and not self.are_axes and not self._found.have_bounds
+        facts = {"mask": kept.astype(np.int32), "are_corners_made": are_made}
+        return cells._with(centers=self.pairs(), **facts)
 
     def _pairs_with_gaps(self, mask: BoolArray | None) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2); NaN where there is none or no part is taken."""

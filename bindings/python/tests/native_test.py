@@ -206,8 +206,8 @@ def test_regridder_has_a_largest_distance(region):
         rondel.Regridder(source, target, "bilinear", extrap_method="patch")
 
 
-def test_corners_are_made_on_request():
-    pytest.importorskip("xarray")
+def test_corners_are_made_on_request(tmp_path):
+    xarray = pytest.importorskip("xarray")
     j, i = np.mgrid[0:8, 0:9].astype(float)
     source = {"lon": 10 + i - 0.2 * j, "lat": 40 + 0.3 * i + j}
     with pytest.raises(ValueError, match="corners='made' makes them"):
@@ -217,6 +217,10 @@ def test_corners_are_made_on_request():
     found = regridder(np.ones((8, 9)))
     assert np.isfinite(found).sum() > 50
     np.testing.assert_allclose(found[np.isfinite(found)], 1, rtol=1e-13)
+    regridder.to_netcdf(tmp_path / "w.nc")
+    with xarray.open_dataset(tmp_path / "w.nc") as file:
+        assert "made half way" in file.attrs["source_corners"]
+        assert "target_corners" not in file.attrs
     with pytest.raises(ValueError, match="corners must be"):
         rondel.Regridder(source, "grid:1", "conservative_normed", corners="guess")
 

@@ -106,6 +106,20 @@ TEST(weight_files, come_back_from_both_kinds_of_netcdf) {
   }
 }
 
+TEST(weight_files, tell_of_corners_that_were_made) {
+  const TemporaryDirectory directory;
+  for (const char* const format : {"esmf", "scrip"}) {
+    WeightFile content = example();
+    const FileName file(directory.file("made.nc"), format);
+    write_weights(file, content);
+    EXPECT_FALSE(read_weights(file.path).source.are_corners_made);
+    content.source.are_corners_made = true;
+    write_weights(file, content);
+    EXPECT_TRUE(read_weights(file.path).source.are_corners_made);
+    EXPECT_FALSE(read_weights(file.path).target.are_corners_made);
+  }
+}
+
 TEST(weight_files, keep_fractions_and_methods_in_npz) {
   const TemporaryDirectory directory;
   WeightFile content;
