@@ -307,7 +307,9 @@ class RegridJob {
     if (!options_.source && !names_.empty()) mesh.path += ":" + names_.front();
     auto made =
         std::make_unique<formats::PlaceTiles>(source_, target_, method, mesh, per_tile, execution_);
-    for (const std::string& remark : made->remarks()) report_.remarks.push_back(remark);
+    for (const std::string& remark : made->remarks()) {
+      if (std::ranges::count(report_.remarks, remark) == 0) report_.remarks.push_back(remark);
+    }
     return made;
   }
 

@@ -390,3 +390,24 @@ def test_each_variable_has_its_own_grid(tmp_path):
         known = found.u.values[np.isfinite(found.u.values)]
     np.testing.assert_allclose(known, 7, rtol=1e-14)
     assert rondel.regrid_file(tmp_path / "roms.nc", "grid:1", out, corners="made").sources == 120
+
+
+def test_duals_of_voronoi_cells_are_delaunay_triangles():
+    points = np.random.default_rng(6).normal(size=(200, 3))
+    sites = points / np.linalg.norm(points, axis=1)[:, None]
+    triangulation = rondel.delaunay(sites)
+    rings = rondel.CellSet.voronoi(triangulation)._cells.rings()
+    faces = np.full((200, int(np.diff(rings.rings).max())), -1)
+    for i, (begin, end) in enumerate(zip(rings.rings, rings.rings[1:], strict=False)):
+        faces[i, : end - begin] = rings.corners[begin:end]
+    to_lon, to_lat = targets(500, 4)
+    found = rondel.native_weights(
+        *rondel.lonlat(rings.points).T,
+        faces,
+        to_lon,
+        to_lat,
+        centers=tuple(rondel.lonlat(sites).T),
+    )
+    wanted = triangulation.weights(rondel.unit_vectors(to_lon, to_lat), "linear")
+    values = np.random.default_rng(7).normal(size=200)
+    np.testing.assert_allclose(found @ values, wanted @ values, rtol=0, atol=1e-12)
