@@ -44,7 +44,7 @@ struct ExtrapolationOptions {
   /// value may be from a target. In kilometers along the sphere; without it, any distance.
   std::optional<double> max_distance_km = std::nullopt;
   unsigned neighbors = 8;  ///< idw: the number of sources
-  unsigned exponent = 2;   ///< idw: the power of the distance, a chord of the sphere
+  unsigned exponent = 2;   ///< idw: the power of the distance, a chord of the sphere; at most 100
   unsigned levels = 0;     ///< creep: how many levels are filled; 0: all that can be
 };
 
@@ -86,10 +86,11 @@ class RONDEL_API Extrapolator {
  public:
   /// \param sources  unit vectors; places that are unknown are (0, 0, 0)
   /// \param targets  unit vectors; the same holds
-  /// \param neighbors  of the targets, for creep: grid_neighbors() or place_neighbors(); else empty
+  /// \param neighbors  of the targets, for creep: grid_neighbors() or place_neighbors(); else empty.
+  ///                   Two targets are neighbors if each names the other
   /// \param source_mask  0: takes no part; empty: all do
-  /// \throws InvalidInput if lengths do not fit, `neighbors` or `exponent` is 0, or the distance is
-  ///         negative or not a number
+  /// \throws InvalidInput if lengths do not fit, `neighbors` is 0, `exponent` is not from 1 to 100, or
+  ///         the distance is negative or not a number
   Extrapolator(std::vector<Point> sources, std::vector<Point> targets,
                CompressedRows<Index> neighbors, const ExtrapolationOptions& options,
                std::vector<std::int32_t> source_mask = {},

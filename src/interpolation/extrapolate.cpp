@@ -20,6 +20,7 @@
 
 #include "exact/angles.h"
 #include "exact/vector.h"
+#include "interpolation/creep_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/query.h"
@@ -58,13 +59,6 @@ struct ValueGaps {
   friend bool operator==(const ValueGaps&, const ValueGaps&) = default;
 };
 
-// The levels of targets that are filled one after the other.
-struct CreepLevels {
-  static constexpr Index never = no_index;
-  std::vector<Index> level;                // by target: 0 if it has a value
-  std::vector<std::vector<Index>> filled;  // the targets of level 1, 2 ..., each ascending
-};
-
 }  // namespace interpolation
 
 class Extrapolator::Impl {
@@ -91,7 +85,9 @@ class Extrapolator::Impl {
                          ", not 0 or more");
     }
     if (options.neighbors == 0) throw InvalidInput("neighbors is 0: one source is the least");
-    if (options.exponent == 0) throw InvalidInput("exponent is 0: 1 is the least");
+    if (options.exponent == 0 || options.exponent > 100) {
+      throw InvalidInput("exponent is " + std::to_string(options.exponent) + ", not from 1 to 100");
+    }
     if (options.max_distance_km) max_square_ = squared_chord_of(*options.max_distance_km);
   }
 
@@ -106,11 +102,11 @@ class Extrapolator::Impl {
     prepare(std::move(gaps), execution);
     std::size_t count = 0;
     if (options_.method == Extrapolation::creep) {
-      for (std::size_t k = 0; k < levels_.filled.size(); ++k) {
-        for (const Index target : levels_.filled[k]) {
+      for (const std::vector<Index>& level : levels_.filled()) {
+        for (const Index target : level) {
           double sum = 0;
           std::size_t number = 0;
-          for_each_giver(target, [&](Index giver) {
+          levels_.for_each_giver(neighbors_, target, [&](Index giver) {
             sum += target_values[giver];
             ++number;
           });
@@ -142,7 +138,7 @@ class Extrapolator::Impl {
     std::vector<std::int32_t> mask(targets_.size());
     for (std::size_t t = 0; t < mask.size(); ++t) mask[t] = has_row(t) ? 1 : 0;
     if (options_.method != Extrapolation::creep) return with_rows(weights, mask, &rows_);
-    const Weights crept = crept_rows(weights);
+    const Weights crept = levels_.rows(neighbors_, weights, sources_);
     return with_rows(weights, mask, &crept);
   }
 
@@ -180,7 +176,9 @@ class Extrapolator::Impl {
     if (options_.method == Extrapolation::creep) {
       std::vector<bool> may_fill = gaps.is_filled;
       if (max_square_ < any_square) leave_out_far(gaps, may_fill, execution);
-      find_levels(std::move(may_fill), gaps.has_value);
+      std::vector<bool> gives = gaps.has_value;
+      for (std::size_t t = 0; t < gives.size(); ++t) gives[t] = gives[t] && takes_part(t);
+      levels_ = interpolation::CreepLevels(neighbors_, gives, std::move(may_fill), options_.levels);
     } else {
       find_rows(gaps, execution);
     }
@@ -257,7 +255,7 @@ class Extrapolator::Impl {
     for (std::size_t k = first; k < rows_.values.size(); ++k) rows_.values[k] /= sum;
   }
   [[nodiscard]] double inverse_power(double square) const {
-    // Chords are at most 2, so that quotients by the largest chord keep powers in range.
+    // Sums of larger powers would overflow.
     const double inverse = 1 / std::sqrt(square);
     double power = 1;
     for (unsigned k = 0; k < options_.exponent; ++k) power *= inverse;
@@ -276,90 +274,6 @@ class Extrapolator::Impl {
           found[k] != no_index &&
           squared_chord(sources_[known.numbers[found[k]]], targets_[wanted[k]]) <= max_square_;
     }
-  }
-
-  void find_levels(std::vector<bool>&& may_fill, const std::vector<bool>& has_value) {
-    levels_.filled.clear();
-    levels_.level.assign(targets_.size(), interpolation::CreepLevels::never);
-    std::vector<Index> front;  // the targets that have had a value for one level
-    for (std::size_t t = 0; t < targets_.size(); ++t) {
-      if (!takes_part(t) || !has_value[t]) continue;
-      levels_.level[t] = 0;
-      front.push_back(static_cast<Index>(t));
-    }
-    for (Index level = 1; !front.empty(); ++level) {
-      if (options_.levels != 0 && level > options_.levels) return;
-      std::vector<Index> filled;
-      for (const Index giver : front) {
-        for (const Index target : neighbors_[giver]) {
-          if (!may_fill[target]) continue;
-          may_fill[target] = false;
-          filled.push_back(target);
-        }
-      }
-      std::ranges::sort(filled);
-      for (const Index target : filled) levels_.level[target] = level;
-      front = filled;
-      if (!filled.empty()) levels_.filled.push_back(std::move(filled));
-    }
-  }
-
-  // Calls visit(giver) for the neighbors of a target that have a value of a lower level. Neighbors
-  // are taken both ways: a target that another one names is its neighbor, too, in grid_neighbors()
-  // and place_neighbors().
-  template <class Visit>
-  void for_each_giver(Index target, const Visit& visit) const {
-    for (const Index other : neighbors_[target]) {
-      if (levels_.level[other] < levels_.level[target]) visit(other);
-    }
-  }
-
-  // Returns rows for the targets of all levels: the means of their neighbors' rows.
-  [[nodiscard]] Weights crept_rows(const Weights& weights) const {
-    using Entries = std::vector<std::pair<Index, double>>;
-    std::vector<Entries> made(targets_.size());
-    const auto row_of = [&](Index target) {
-      if (levels_.level[target] != 0) return made[target];
-      Entries row;
-      for (std::uint64_t k = weights.offsets[target]; k < weights.offsets[target + 1]; ++k) {
-        row.emplace_back(weights.columns[k], weights.values[k]);
-      }
-      return row;
-    };
-    const auto is_before = [&](Index a, Index b) {
-      const Point& p = sources_[a];
-      const Point& q = sources_[b];
-      const std::array at_p = {p.x, p.y, p.z};
-      const std::array at_q = {q.x, q.y, q.z};
-      return at_p != at_q ? at_p < at_q : a < b;
-    };
-    for (const std::vector<Index>& level : levels_.filled) {
-      for (const Index target : level) {
-        Entries sum;
-        double number = 0;
-        for_each_giver(target, [&](Index giver) {
-          const Entries row = row_of(giver);
-          sum.insert(sum.end(), row.begin(), row.end());
-          ++number;
-        });
-        std::ranges::stable_sort(sum, is_before, &Entries::value_type::first);
-        Entries& joined = made[target];
-        for (const auto& [column, weight] : sum) {
-          if (joined.empty() || joined.back().first != column) joined.emplace_back(column, 0);
-          joined.back().second += weight / number;
-        }
-      }
-    }
-    Weights rows;
-    rows.num_columns = weights.num_columns;
-    for (const Entries& row : made) {
-      for (const auto& [column, weight] : row) {
-        rows.columns.push_back(column);
-        rows.values.push_back(weight);
-      }
-      rows.end_row();
-    }
-    return rows;
   }
 
   std::vector<Point> sources_;

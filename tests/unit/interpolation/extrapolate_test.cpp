@@ -240,6 +240,19 @@ TEST(extrapolate, weights_do_what_values_do) {
   }
 }
 
+TEST(extrapolate, only_mutual_neighbors_pass_values_on) {
+  const std::vector<Point> targets = unit_vectors(std::vector<LonLat>{{0, 0}, {1, 0}, {2, 0}});
+  CompressedRows<Index> neighbors;
+  neighbors.append(std::vector<Index>{1, 2});
+  neighbors.append(std::vector<Index>{0});
+  neighbors.append(std::vector<Index>{});
+  Extrapolator extrapolator(targets, targets, neighbors, {.method = Extrapolation::creep});
+  std::vector<double> filled = {4, gap, gap};
+  EXPECT_EQ(extrapolator.fill(std::vector<double>{1, 2, 3}, filled), 1U);
+  EXPECT_EQ(filled[1], 4);
+  EXPECT_TRUE(std::isnan(filled[2]));
+}
+
 TEST(extrapolate, neighbors_are_mutual) {
   Random random(5);
   std::vector<Point> places = random_directions(100, random);
@@ -271,6 +284,7 @@ TEST(extrapolate, wrong_options_are_refused) {
   EXPECT_THROW(Extrapolator(one, one, {}, {.max_distance_km = gap}), InvalidInput);
   EXPECT_THROW(Extrapolator(one, one, {}, {.neighbors = 0}), InvalidInput);
   EXPECT_THROW(Extrapolator(one, one, {}, {.exponent = 0}), InvalidInput);
+  EXPECT_THROW(Extrapolator(one, one, {}, {.exponent = 101}), InvalidInput);
   EXPECT_THROW(Extrapolator(one, one, {}, {.method = Extrapolation::creep}), InvalidInput);
   EXPECT_THROW(Extrapolator(one, one, {}, {}, {1, 1}), InvalidInput);
   EXPECT_THROW((void)grid_neighbors(one, 2, 1), InvalidInput);
