@@ -206,7 +206,17 @@ class RegridJob {
             .of_target = of_side(target_),
             .of_source_beside = beside(source_) + (are_compared ? of_compared : 0),
             .of_target_beside = beside(target_) + of_place,
-            .of_cell_in_tile = 400};
+            .of_cell_in_tile = bytes_in_tile()};
+  }
+
+  // Returns the bytes of a cell in a tile, the mean of both sides. Sources between parallels have
+  // nothing but their pieces in other cells.
+  [[nodiscard]] std::uint64_t bytes_in_tile() const {
+    constexpr std::uint64_t of_cell = 400;
+    constexpr std::uint64_t of_pieces = 70;
+    if (!source_.has_parallels() || target_.has_parallels()) return of_cell;
+    const std::uint64_t cells = std::max<std::uint64_t>(report_.sources + report_.targets, 1);
+    return (of_pieces * report_.sources + of_cell * report_.targets) / cells + 1;
   }
 
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
