@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Hashable, Iterable
 from typing import TYPE_CHECKING, Any, Literal
@@ -143,11 +144,12 @@ def zonal_statistics(
     rules = listed, weights, max_missing, as_threads(threads)
     found = carried(
         data,
-        _OfZones(made, cells.num_cells, len(names), rules),  # type: ignore[arg-type]
+        _OfZones(made, (cells.num_cells, len(names)), source.shape, rules),  # type: ignore[arg-type]
         source,
         _Zones(cells.num_cells, names),  # type: ignore[arg-type]
         skipna=True,
         max_missing=1.0,
+        output_chunks=-1 if _is_lazy(data) else None,  # all zones are one block
     )
     index = getattr(zones, "index", None) if hasattr(zones, "geometry") else None
     if isinstance(found, xarray.DataArray):
@@ -168,6 +170,11 @@ def _in_doubles(data: Any) -> Any:
     return data.assign({name: array.astype("float64") for name, array in reals.items()})
 
 
+def _is_lazy(data: Any) -> bool:
+    arrays = data.data_vars.values() if hasattr(data, "data_vars") else [data]
+    return any(array.chunks is not None for array in arrays)
+
+
 _ZONE, _STATISTIC = "rondel_zone", "rondel_statistic"
 
 
@@ -186,9 +193,13 @@ class _Zones:
 class _OfZones:
     """What `carried` asks of weights: all statistics of each zone, one after the other."""
 
-    def __init__(self, made: _core.Remap, zones: int, statistics: int, rules: Any) -> None:
-        self._made, self._zones, self._statistics, self._rules = made, zones, statistics, rules
-        self.indptr = np.arange(zones + 1)
+    def __init__(
+        self, made: _core.Remap, shape: tuple[int, int], source_shape: tuple[int, ...], rules: Any
+    ) -> None:
+        self._made, self._rules = made, rules
+        self._zones, self._statistics = shape
+        self.shape = (math.prod(shape), math.prod(source_shape))
+        self.indptr = np.arange(self._zones + 1)
 
     def apply(self, fields: Any, **_: Any) -> Any:
         """The statistics of fields, shape (..., cells), as (..., zones * statistics)."""
