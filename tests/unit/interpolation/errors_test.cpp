@@ -153,7 +153,7 @@ TEST(names, are_those_of_the_enumerators) {
 
 TEST(names, lead_back_to_their_values) {
   expect_names<Method>({"nearest", "linear", "laplace", "sibson", "hermite", "cubic"});
-  expect_names<RegridMethod>({"bilinear", "nearest_d2s"});
+  expect_names<RegridMethod>({"bilinear", "nearest_d2s", "native"});
   expect_names<Outside>({"nan", "nearest", "error"});
   expect_names<SharedPlace>({"first", "mean", "error"});
   expect_names<Normalization>({"unity", "homogeneous"});

@@ -89,7 +89,8 @@ TEST(regrid, bad_sources_are_named) {
 TEST(regrid, methods_have_the_names_of_esmf) {
   EXPECT_EQ(name_of(RegridMethod::bilinear), "bilinear");
   EXPECT_EQ(name_of(RegridMethod::nearest_d2s), "nearest_d2s");
-  EXPECT_EQ(name_of(static_cast<RegridMethod>(2)), "");
+  EXPECT_EQ(name_of(RegridMethod::native), "native");
+  EXPECT_EQ(name_of(static_cast<RegridMethod>(3)), "");
 }
 
 // Rows {1: 0.25, 3: 0.75}, {} and {0: 0.5, 1: 0.25, 2: 0.25}.
