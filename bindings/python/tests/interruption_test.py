@@ -28,8 +28,8 @@ def alarm():
 
 @pytest.mark.parametrize("make", [rondel.delaunay, rondel.SphericalVoronoi])
 def test_an_interrupt_ends_the_work(alarm, make):
-    alarm(0.01)
     with pytest.raises(KeyboardInterrupt):
+        alarm(0.01)
         make(MANY, threads=1)
 
 
@@ -44,8 +44,8 @@ def test_an_interrupt_ends_the_work(alarm, make):
 )
 def test_an_interrupt_ends_questions_too(alarm, ask):
     tri = rondel.delaunay(MANY)
-    alarm(0.002)
     with pytest.raises(KeyboardInterrupt):
+        alarm(0.002)
         ask(tri)
 
 
@@ -55,8 +55,8 @@ def test_an_interrupt_ends_the_writing_of_files(alarm, tmp_path):
     assert diagram.areas.size
     path = tmp_path / "out.geojson"
     for write in (diagram.to_geojson, tri.to_geojson):
-        alarm(0.05)
         with pytest.raises(KeyboardInterrupt):
+            alarm(0.05)
             write(path)
         assert not path.exists()
 
@@ -79,9 +79,9 @@ def test_an_interrupt_ends_the_work_early(alarm):
     begin = time.process_time()
     tri.k_nearest(MANY, 8)
     whole = time.process_time() - begin
-    alarm(0.01)
     begin = time.process_time()
     with pytest.raises(KeyboardInterrupt):
+        alarm(0.01)
         tri.k_nearest(MANY, 8)
     assert time.process_time() - begin < whole
 
