@@ -373,25 +373,43 @@ class RegridJob {
     const std::size_t begin = output.skip_fields(num_fields, report_.targets);
     const std::size_t of_slice = fields_of_slice(num_fields);
     const std::size_t num_slices = (num_fields - begin + of_slice - 1) / of_slice;
-    std::vector<double> carried;
-    const auto compute = [&](std::size_t slice) {
-      const std::size_t first = begin + slice * of_slice;
-      const std::size_t count = std::min(of_slice, num_fields - first);
-      carried.resize(count * report_.targets);
-      carry_slice(array, first, count, method, carried);
-      system::announce(execution_, "regrid", first + count, num_fields);
+    const auto first_of = [&](std::size_t slice) { return begin + slice * of_slice; };
+    const auto end_of = [&](std::size_t slice) {
+      return std::min(first_of(slice) + of_slice, num_fields);
     };
+    const auto read = [&](std::size_t slice) {
+      std::vector<double> values((end_of(slice) - first_of(slice)) * report_.sources);
+      fields_->read(array, first_of(slice), values);
+      return values;
+    };
+    std::vector<double> carried;
     if (ranks_.size == 1) {
+      std::vector<double> values;
+      std::vector<double> next;
       for (std::size_t slice = 0; slice < num_slices; ++slice) {
-        compute(slice);
-        output.write(carried);
+        if (next.empty()) next = read(slice);
+        values.swap(next);
+        next.clear();
+        const auto carry_on = [&] {
+          carried = carried_slice(values, method);
+          output.write(carried);
+        };
+        if (plan_.reads_ahead && slice + 1 < num_slices) {
+          weights_of(method);  // before, as they may be read from the same file
+          system::parallel_invoke(
+              execution_.threads, [&] { next = read(slice + 1); }, carry_on);
+        } else {
+          carry_on();
+        }
+        system::announce(execution_, "regrid", end_of(slice), num_fields);
       }
       return;
     }
     formats::deal_units(
         ranks_, 0, num_slices,
         [&](std::size_t slice) {
-          compute(slice);
+          carried = carried_slice(read(slice), method);
+          system::announce(execution_, "regrid", end_of(slice), num_fields);
           const auto bytes = std::as_bytes(std::span<const double>(carried));
           return RegridRanks::Message(bytes.begin(), bytes.end());
         },
@@ -402,11 +420,10 @@ class RegridJob {
         });
   }
 
-  void carry_slice(std::size_t array, std::size_t first, std::size_t count, FieldMethod method,
-                   std::span<double> carried) {
+  std::vector<double> carried_slice(const std::vector<double>& values, FieldMethod method) {
     const Weights& weights = weights_of(method);
-    std::vector<double> values(count * report_.sources);
-    fields_->read(array, first, values);
+    const std::size_t count = report_.sources == 0 ? 0 : values.size() / report_.sources;
+    std::vector<double> carried(count * report_.targets);
     const ApplyOptions rules{.fill = missing, .max_missing = options_.max_missing};
     if (method == FieldMethod::largest_share) {
       apply_largest_share(weights, values, carried, count, rules, execution_);
@@ -416,6 +433,7 @@ class RegridJob {
       apply(weights, values, carried, count, rules, execution_);
     }
     extrapolate(values, carried);
+    return carried;
   }
 
   const formats::RegridTiles& tiles(FieldMethod method) {

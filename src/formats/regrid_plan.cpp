@@ -95,8 +95,12 @@ RegridPlan plan_of(const RegridTask& task) {
   if (weights + of_field <= task.memory && !is_tile_wanted) {
     const std::uint64_t largest = std::max({task.sources, task.targets, std::uint64_t{1}});
     const std::uint64_t of_slice = std::max<std::uint64_t>(values_per_slice / largest, 1);
-    const std::uint64_t fitting = (task.memory - weights) / std::max<std::uint64_t>(of_field, 1);
     RegridPlan plan;
+    const std::uint64_t of_field_and_next = of_field + bytes_of_value * task.sources;
+    plan.reads_ahead = task.fields > 1 && weights + of_field_and_next <= task.memory;
+    const std::uint64_t fitting =
+        (task.memory - weights) /
+        std::max<std::uint64_t>(plan.reads_ahead ? of_field_and_next : of_field, 1);
     plan.fields_at_once = std::clamp<std::uint64_t>(fitting, 1, of_slice);
     return plan;
   }

@@ -45,6 +45,7 @@ struct RegridPlan {
   std::size_t cells_per_tile = 0;
   std::size_t tiles_at_once = 1;
   std::size_t fields_at_once = 1;
+  bool reads_ahead = false;  // whether the next fields are read meanwhile
   // Whether each tile is written when it is computed, since one field is too large to be kept.
   bool is_streamed = false;
 };
