@@ -162,7 +162,8 @@ class RegridJob {
     const std::uint64_t number = report_.extrapolated;
     std::memcpy(own.data(), &number, sizeof number);
     report_.extrapolated = 0;
-    for (const RegridRanks::Message& message : ranks_.gather(std::move(own))) {
+    const std::vector<RegridRanks::Message> of_all = ranks_.gather(std::move(own));
+    for (const RegridRanks::Message& message : of_all) {
       std::uint64_t of_rank = 0;
       std::memcpy(&of_rank, message.data(), sizeof of_rank);
       report_.extrapolated += of_rank;
