@@ -19,8 +19,9 @@
 #include "rondel/names.h"
 
 namespace rondel::python {
+namespace {
 
-void add_regrid_files(nb::module_& module) {
+void add_report(nb::module_& module) {
   nb::class_<RegridFileReport>(module, "RegridFileReport")
       .def_ro("sources", &RegridFileReport::sources)
       .def_ro("targets", &RegridFileReport::targets)
@@ -30,6 +31,12 @@ void add_regrid_files(nb::module_& module) {
       .def_ro("remarks", &RegridFileReport::remarks)
       .def_ro("resumed", &RegridFileReport::resumed)
       .def_ro("extrapolated", &RegridFileReport::extrapolated);
+}
+
+}  // namespace
+
+void add_regrid_files(nb::module_& module) {
+  add_report(module);
   module.def(
       "regrid_file",
       [](const std::string& in, const std::string& target, const std::string& out,
