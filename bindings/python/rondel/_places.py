@@ -419,8 +419,9 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 
 def _centers(cells: CellSet) -> xarray.Dataset:
     """The places of the cells: those of the file or the axes, or else the centers of mass."""
-    dims = ("y", "x") if len(cells.shape) == 2 else ("cell",)
-    degrees = cells._degrees().reshape(*cells.shape, 2)
+    is_grid = len(cells.shape) == 2  # the faces of a cubed sphere have no axes in common
+    dims = ("y", "x") if is_grid else ("cell",)
+    degrees = cells._degrees().reshape(*(cells.shape if is_grid else (-1,)), 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 

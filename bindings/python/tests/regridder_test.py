@@ -350,3 +350,12 @@ def test_weights_of_a_grid_in_another_order_are_refused(tmp_path):
     for grids in ((source.isel(lat=slice(None, None, -1)), COARSE), (source, turned)):
         with pytest.raises(ValueError, match="in another order"):
             rondel.Regridder(*grids, "bilinear", weights=tmp_path / "w.nc")
+
+
+def test_a_cubed_sphere_is_a_source_and_a_target():
+    data = dataset(FINE, a=(("lat", "lon"), field(FINE)))
+    found = rondel.regrid(data, "C6")
+    assert found["a"].dims == ("cell",)
+    assert np.allclose(found["a"], smooth(found["lon"].values, found["lat"].values), atol=0.05)
+    back = rondel.Regridder(rondel.CellSet.named("C6"), COARSE, "conservative")(np.ones(216))
+    assert np.allclose(back, 1, atol=1e-13)
