@@ -19,9 +19,16 @@ MANY = clouds.uniform(1 << 18)
 
 @pytest.fixture
 def alarm():
-    """Raises KeyboardInterrupt in the main thread after a time, as Ctrl-C does."""
+    """Calls a function, and raises KeyboardInterrupt in the main thread after a time, as Ctrl-C
+    does.
+    """
+
+    def call(seconds, function, *arguments, **options):
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+        return function(*arguments, **options)
+
     before = signal.signal(signal.SIGALRM, signal.default_int_handler)
-    yield lambda seconds: signal.setitimer(signal.ITIMER_REAL, seconds)
+    yield call
     signal.setitimer(signal.ITIMER_REAL, 0)
     signal.signal(signal.SIGALRM, before)
 
@@ -29,8 +36,7 @@ def alarm():
 @pytest.mark.parametrize("make", [rondel.delaunay, rondel.SphericalVoronoi])
 def test_an_interrupt_ends_the_work(alarm, make):
     with pytest.raises(KeyboardInterrupt):
-        alarm(0.01)
-        make(MANY, threads=1)
+        alarm(0.01, make, MANY, threads=1)
 
 
 @pytest.mark.parametrize(
@@ -45,8 +51,7 @@ def test_an_interrupt_ends_the_work(alarm, make):
 def test_an_interrupt_ends_questions_too(alarm, ask):
     tri = rondel.delaunay(MANY)
     with pytest.raises(KeyboardInterrupt):
-        alarm(0.002)
-        ask(tri)
+        alarm(0.002, ask, tri)
 
 
 def test_an_interrupt_ends_the_writing_of_files(alarm, tmp_path):
@@ -56,8 +61,7 @@ def test_an_interrupt_ends_the_writing_of_files(alarm, tmp_path):
     path = tmp_path / "out.geojson"
     for write in (diagram.to_geojson, tri.to_geojson):
         with pytest.raises(KeyboardInterrupt):
-            alarm(0.05)
-            write(path)
+            alarm(0.05, write, path)
         assert not path.exists()
 
 
@@ -65,8 +69,7 @@ def test_an_interrupt_ends_the_reading_of_what_was_written(alarm):
     text = json.dumps({"features": [{"type": "Feature", "n": n} for n in range(1 << 19)]})
 
     def write(_):
-        alarm(0.01)
-        return text.encode()
+        return alarm(0.01, text.encode)
 
     with pytest.raises(KeyboardInterrupt):
         _geo.written(None, write)
@@ -81,8 +84,7 @@ def test_an_interrupt_ends_the_work_early(alarm):
     whole = time.process_time() - begin
     begin = time.process_time()
     with pytest.raises(KeyboardInterrupt):
-        alarm(0.01)
-        tri.k_nearest(MANY, 8)
+        alarm(0.01, tri.k_nearest, MANY, 8)
     assert time.process_time() - begin < whole
 
 
