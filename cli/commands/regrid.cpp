@@ -166,7 +166,7 @@ void add_statistics(CLI::App& parser, RegridCommandOptions& options) {
   require_effect(
       options.common, weigh, [&options] { return !options.statistics.empty(); },
       "without --statistics");
-  for (const char* const name : {"--method", "--norm", "--tile", "--resume"}) {
+  for (const char* const name : {"--method", "--norm", "--tile", "--resume", "--extrapolate"}) {
     require_effect(
         options.common, parser.get_option(name), [&options] { return options.statistics.empty(); },
         "with --statistics");

@@ -49,6 +49,10 @@ struct ApplyOptions {
   /// other values is divided by their share of the row's sum. With 0 one missing value is too many,
   /// with 1 one value is enough.
   double max_missing = 0;
+  /// Whether the sum of the other values stays what it is: integrals are then those of the values that
+  /// are there, as RemapNorm::destarea has them. apply_largest_share() and apply_limited() do not look
+  /// at it.
+  bool keeps_sums = false;
 };
 
 /// Multiplies fields by the matrix: out[f * num_rows() + r] becomes the sum of values[k] * in[f *

@@ -142,7 +142,8 @@ std::vector<double> TileCarrier::applied(const RemapTile& tile, SourceValues& va
                                          std::size_t count) const {
   const std::size_t num_targets = tile.targets.size();
   std::vector<double> result(count * num_targets);
-  const ApplyOptions rules{.fill = missing_value, .max_missing = job_.max_missing};
+  const ApplyOptions rules{
+      .fill = missing_value, .max_missing = job_.max_missing, .keeps_sums = job_.keeps_sums};
   for (std::size_t f = 0; f < count; ++f) {
     const auto out = std::span(result).subspan(f * num_targets, num_targets);
     const auto in = values.of(f, tile.first_source, tile.weights.num_columns);

@@ -30,6 +30,7 @@ struct ArrayToCarry {
   bool has_windows;  // whether a tile needs consecutive sources
   bool is_largest_share;
   double max_missing;
+  bool keeps_sums;  // ApplyOptions::keeps_sums
   // What is done with whole fields from `first` on before they are written, if anything.
   using Complete =
       std::function<void(std::size_t first, std::size_t count, std::span<double> carried)>;

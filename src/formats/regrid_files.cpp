@@ -298,6 +298,11 @@ class RegridJob {
     return second_->weights;
   }
 
+  // True if the area of a missing value counts as 0, so that integrals are kept.
+  [[nodiscard]] bool keeps_sums() const {
+    return needs_cells_ && options_.norm == RemapNorm::destarea;
+  }
+
   // Extrapolates fields that were carried, if the options ask for it.
   void extrapolate(std::span<const double> values, std::span<double> carried) {
     if (!options_.extrapolation) return;
@@ -339,6 +344,7 @@ class RegridJob {
                                     .has_windows = needs_cells_ && source_.has_parallels(),
                                     .is_largest_share = method == FieldMethod::largest_share,
                                     .max_missing = options_.max_missing,
+                                    .keeps_sums = keeps_sums(),
                                     .complete = completing(array)};
     formats::TileCarrier(tiles(method), plan_, job, output, ranks_, execution_).run();
   }
@@ -425,7 +431,8 @@ class RegridJob {
     const Weights& weights = weights_of(method);
     const std::size_t count = report_.sources == 0 ? 0 : values.size() / report_.sources;
     std::vector<double> carried(count * report_.targets);
-    const ApplyOptions rules{.fill = missing, .max_missing = options_.max_missing};
+    const ApplyOptions rules{
+        .fill = missing, .max_missing = options_.max_missing, .keeps_sums = keeps_sums()};
     if (method == FieldMethod::largest_share) {
       apply_largest_share(weights, values, carried, count, rules, execution_);
     } else if (second_ && method == FieldMethod::conservative_2nd) {
@@ -536,6 +543,9 @@ RegridFileReport regrid_by_ranks(const FileName& in, const FileName& target, con
   if (!options.statistics.empty()) {
     if (options.resume || ranks.size > 1) {
       throw InvalidInput("statistics are computed by one process, in one run that is not resumed");
+    }
+    if (options.extrapolation) {
+      throw InvalidInput("statistics are of the values in a target: they are not extrapolated");
     }
     inputs_of(in, target, options).require_other(out);
     return formats::write_zonal_statistics(in, target, out, options, execution);

@@ -20,6 +20,7 @@ PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, Field
                        const FileName& mesh, std::size_t targets_per_tile,
                        const Execution& execution)
     : source_(source),
+      target_(target),
       method_(method),
       targets_per_tile_(std::max<std::size_t>(targets_per_tile, 1)),
       targets_(target.places()) {
@@ -87,31 +88,35 @@ std::size_t PlaceTiles::num_targets(std::size_t tile) const {
   return std::min(targets_per_tile_, targets_.size() - tile * targets_per_tile_);
 }
 
+// Masked targets have no value.
 RemapTile PlaceTiles::tile(std::size_t number, const Execution& execution) const {
   RemapTile result;
   const std::size_t begin = number * targets_per_tile_;
   result.targets.resize(num_targets(number));
   std::iota(result.targets.begin(), result.targets.end(), static_cast<Index>(begin));
-  const auto places = std::span(targets_).subspan(begin, result.targets.size());
+  result.weights = weights_at(std::span(targets_).subspan(begin, result.targets.size()), execution);
+  if (target_.mask().empty()) return result;
+  const auto mask = std::span(target_.mask()).subspan(begin, result.targets.size());
+  result.weights = with_rows(result.weights, mask);
+  return result;
+}
+
+Weights PlaceTiles::weights_at(std::span<const LonLat> places, const Execution& execution) const {
   if (method_ == FieldMethod::bilinear) {
     const LonLatAxes& axes = *source_.axes();
-    result.weights = bilinear_weights(axes, places, rounding_of(axes));
-    if (!source_.mask().empty()) {
-      result.weights = without_columns(result.weights, source_.mask());
-    }
-    return result;
+    const Weights weights = bilinear_weights(axes, places, rounding_of(axes));
+    return source_.mask().empty() ? weights : without_columns(weights, source_.mask());
   }
   if (method_ == FieldMethod::native) {
-    result.weights = native_weights(native_.cells, unit_vectors(places), execution);
-    return result;
+    return native_weights(native_.cells, unit_vectors(places), execution);
   }
   InterpolationOptions options;
   options.method = *from_name<Method>(name_of(method_));
   options.hashes = false;
-  result.weights = interpolator_->weights(unit_vectors(places), options, execution);
-  for (Index& column : result.weights.columns) column = numbers_[column];
-  result.weights.num_columns = source_.num_places();
-  return result;
+  Weights weights = interpolator_->weights(unit_vectors(places), options, execution);
+  for (Index& column : weights.columns) column = numbers_[column];
+  weights.num_columns = source_.num_places();
+  return weights;
 }
 
 }  // namespace rondel::formats

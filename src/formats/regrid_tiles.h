@@ -58,7 +58,7 @@ class ConservativeTiles : public RegridTiles {
 // Weights of a method between places: those of consecutive targets at a time.
 class PlaceTiles : public RegridTiles {
  public:
-  // `source` must outlive this; `mesh` has the cells of the method native. Throws FileError for
+  // Both sides must outlive this; `mesh` has the cells of the method native. Throws FileError for
   // bilinear without axes, and native without such cells.
   PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
              const FileName& mesh, std::size_t targets_per_tile, const Execution& execution);
@@ -73,8 +73,11 @@ class PlaceTiles : public RegridTiles {
 
  private:
   void triangulate(const Execution& execution);
+  [[nodiscard]] Weights weights_at(std::span<const LonLat> places,
+                                   const Execution& execution) const;
 
   const RegridSide& source_;
+  const RegridSide& target_;
   FieldMethod method_;
   std::size_t targets_per_tile_;
   std::vector<LonLat> targets_;

@@ -109,7 +109,7 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
   const bool is_whole = absolute_missing == 0;
   const bool is_enough = absolute_missing <= options.max_missing * absolute;
   if (!is_whole && (!is_enough || present == 0)) return options.fill;
-  const double share = is_whole ? 1 : all / present;
+  const double share = is_whole || options.keeps_sums ? 1 : all / present;
   return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
 }
 

@@ -107,6 +107,42 @@ class Regrid(unittest.TestCase):
                 clear = np.abs(share - 0.5) > 1e-6
                 np.testing.assert_allclose(found[clear], sea[clear], rtol=1e-6)
 
+    def test_integrals_of_the_values_that_are_there_are_kept_on_request(self):
+        _, sea, share = self.sums(12, 6)
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        for options in ((), ("--tile", "200")):
+            self.regrid("in.nc", "grid:12x6", "-o", "out.nc", "--value", "sst", "--norm", "destarea", "--max-missing", "1", *options)
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                found = out["sst"][:].filled(np.nan)
+            known = np.isfinite(sea)
+            self.assertLess(share[known].min(), 0.9)
+            np.testing.assert_allclose(found[known], (sea * share)[known], rtol=1e-6)
+
+    def test_masked_targets_have_no_value(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        mask = np.arange(72) % 3 > 0
+        lon, lat = (part.ravel() for part in np.meshgrid(np.arange(15.0, 360, 30), np.arange(-75.0, 80, 30)))
+        with netCDF4.Dataset(self.folder / "target.nc", "w", format="NETCDF3_CLASSIC") as file:
+            file.createDimension("grid_size", 72)
+            file.createDimension("grid_corners", 4)
+            for name, center, steps in (("lon", lon, (-15, 15, 15, -15)), ("lat", lat, (-15, -15, 15, 15))):
+                for kind, values in (("center", center), ("corner", center[:, None] + np.array(steps))):
+                    dimensions = ("grid_size", "grid_corners")[: values.ndim]
+                    variable = file.createVariable(f"grid_{kind}_{name}", "f8", dimensions)
+                    variable.units = "degrees"
+                    variable[:] = values
+            file.createVariable("grid_imask", "i4", ("grid_size",))[:] = mask
+        for method in ("conservative", "nearest", "linear", "bilinear", "sibson"):
+            for options in ((), ("--extrapolate", "nearest")):
+                self.regrid("in.nc", "target.nc", "-o", "out.nc", "--value", "t", "--method", method, *options)
+                with netCDF4.Dataset(self.folder / "out.nc") as out:
+                    found = np.isfinite(out["t"][:].filled(np.nan))
+                np.testing.assert_array_equal(found, np.broadcast_to(mask, found.shape), method)
+
+    def test_statistics_are_not_extrapolated(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        self.regrid("in.nc", "grid:12x6", "--statistics", "mean", "--extrapolate", "nearest", "-o", "out.nc", status=2)
+
     def test_what_is_known_of_the_fields_is_kept(self):
         self.write("in.nc", "NETCDF4", True)
         said = self.regrid("in.nc", "healpix:2", "-o", "out.nc")
