@@ -39,7 +39,7 @@ struct CheckWeightsOptions {
   WeightCheckOptions check;         // --allow-negative
   std::string source;               // --source
   std::string target;               // --target
-  CellFileOptions cells;            // --sides --edges --invalid
+  CellFileOptions cells;            // --sides --edges --invalid --corners
   WeightComparisonOptions compare;  // --tolerance --overlap
 
   [[nodiscard]] bool has_sides() const { return !source.empty() && !target.empty(); }
@@ -222,6 +222,7 @@ void add_sides(CLI::App& parser, CheckWeightsOptions& options) {
       parser, "--edges", options.cells.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default) or geodesic (great circles)"));
   others.push_back(add_invalid_option(parser, options.cells.invalid, "cells and polygons"));
+  others.push_back(add_corners_option(parser, options.cells.corners));
   add_threads_option(parser, options.common);
   for (const CLI::Option* const option : others) {
     require_effect(

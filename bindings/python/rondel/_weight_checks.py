@@ -15,7 +15,7 @@ from ._arrays import as_threads
 from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
-from ._geometries import Edges, Invalid, Sides
+from ._geometries import Corners, Edges, Invalid, Sides
 from ._remap import CellOverlap, Remap, as_cell_set
 from ._repr import Described, count
 from ._types import IntArray, Progress
@@ -194,6 +194,7 @@ def check_weights(
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
+    corners: Corners = "error",
     overlap: CellOverlap = "error",
     threads: int | None = None,
     progress: Progress = None,
@@ -216,7 +217,7 @@ def check_weights(
         Whether negative weights are right for any method; by default False.
     tolerance : float, optional
         How far a weight may be from the right one, beside the rounding of areas; by default 1e-9.
-    sides, edges, invalid
+    sides, edges, invalid, corners
         How cells of files are read, as in `CellSet.read`; `sides` also for names of grids.
     overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
@@ -264,7 +265,8 @@ def check_weights(
     cells = None
     if source is not None:
         cells = tuple(
-            _cells_of(side, sides, edges, invalid, overlap, threads) for side in (source, target)
+            _cells_of(side, sides, edges, invalid, corners, overlap, threads)
+            for side in (source, target)
         )
     if isinstance(weights, Weights):
         file = _core.WeightFile(weights._weights)
@@ -340,7 +342,13 @@ def _comparison_of(made: _core.WeightComparison) -> WeightComparison:
 
 
 def _cells_of(
-    side: Any, sides: Sides, edges: Edges, invalid: Invalid, overlap: str, threads: int | None
+    side: Any,
+    sides: Sides,
+    edges: Edges,
+    invalid: Invalid,
+    corners: Corners,
+    overlap: str,
+    threads: int | None,
 ) -> CellSet:
     """The cells of an object, of the name of a grid, or of a file."""
     if isinstance(side, str) and _core.is_grid_name(side):
@@ -353,5 +361,6 @@ def _cells_of(
         edges=edges,
         overlap="error" if overlap == "error" else "keep",
         invalid=invalid,
+        corners=corners,
         threads=threads,
     )
