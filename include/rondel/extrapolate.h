@@ -56,7 +56,7 @@ struct ExtrapolationOptions {
 RONDEL_API CompressedRows<Index> grid_neighbors(std::span<const Point> places, std::size_t rows,
                                                 std::size_t columns);
 /// Returns the neighbors of any places: those that share an edge of their Delaunay triangulation.
-/// Of several in one direction, the first one has these neighbors and the others, and each other
+/// Where several are in one direction, the first one has these neighbors and the others, and each other
 /// one has the first. Unknown places, (0, 0, 0), have none.
 /// \throws InvalidInput as delaunay() does
 RONDEL_API CompressedRows<Index> place_neighbors(std::span<const Point> places,

@@ -64,7 +64,7 @@ struct RegridFileOptions {
   CellOverlap overlap = CellOverlap::error;  ///< of both sides
   /// About how many bytes may be in use, beside some 30 MiB of the program itself. Weights that need
   /// more are computed tile by tile, and again for each group of fields; the values are the same.
-  /// Those of conservative_2nd, of cells that overlap, and between two sides of which neither covers
+  /// Weights of conservative_2nd, of cells that overlap, and between two sides of which neither covers
   /// the sphere nor is between parallels have no tiles.
   std::uint64_t memory = std::uint64_t{2} << 30U;
   /// The number of cells of a tile, or of targets with a method between places; 0: as `memory` says.
