@@ -8,18 +8,48 @@
 #include <utility>
 
 namespace rondel::formats {
+namespace {
 
-FieldsOfSide fields_of_side(const FileName& in, std::vector<std::string>&& names,
-                            const RegridSide& side) {
-  auto [file, variable] = file_and_variable(in);
-  std::vector<std::string> wanted = std::move(names);
-  if (wanted.empty() && !variable.empty()) wanted.push_back(variable);
-  FieldsOfSide opened;
-  if (side.num_places() <= max_compared) opened.places = side.places();
-  opened.file = std::make_unique<FieldFile>(
-      file, wanted, side.num_places(), ReadOptions{}, side.shape(), WantedPlaces{opened.places},
-      FieldExtras{.has_others = true, .has_positions = false});
-  return opened;
+void add_history(const std::string& line, FieldSet& fields) {
+  if (line.empty()) return;
+  for (auto& [name, text] : fields.attributes) {
+    if (name != "history") continue;
+    text.insert(0, line + "\n");
+    return;
+  }
+  fields.attributes.emplace_back("history", line);
+}
+
+}  // namespace
+
+std::vector<std::string> wanted_variables(const FileName& in,
+                                          const std::vector<std::string>& names) {
+  const std::string variable = file_and_variable(in).second;
+  return names.empty() && !variable.empty() ? std::vector{variable} : names;
+}
+
+// The places are compared while the file is opened.
+std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
+                                       const RegridSide& side) {
+  std::vector<LonLat> places;
+  if (side.num_places() <= max_compared) places = side.places();
+  return std::make_unique<FieldFile>(file_and_variable(in).first, names, side.num_places(),
+                                     ReadOptions{}, side.shape(), WantedPlaces{places},
+                                     FieldExtras{.has_others = true, .has_positions = false});
+}
+
+FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
+                           const RegridSide& target, const std::string& history) {
+  FieldSet fields;
+  fields.num_points = target.num_places();
+  fields.arrays = std::move(arrays);
+  fields.axes = in.axes;
+  fields.others = in.others;
+  fields.attributes = in.attributes;
+  fields.dimension = "cell";
+  target.add_mapping(fields);
+  add_history(history, fields);
+  return fields;
 }
 
 std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& target,
@@ -31,16 +61,6 @@ std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& 
     }
   }
   return all;
-}
-
-void add_history(const std::string& line, FieldSet& fields) {
-  if (line.empty()) return;
-  for (auto& [name, text] : fields.attributes) {
-    if (name != "history") continue;
-    text.insert(0, line + "\n");
-    return;
-  }
-  fields.attributes.emplace_back("history", line);
 }
 
 }  // namespace rondel::formats

@@ -18,22 +18,22 @@ namespace rondel::formats {
 // Places that are compared with those of the fields' file; more are known by their number alone.
 inline constexpr std::size_t max_compared = std::size_t{1} << 24U;
 
-// The fields of a file at the places of a side.
-struct FieldsOfSide {
-  std::vector<LonLat> places;  // with which those of the file are compared; empty if they are many
-  std::unique_ptr<FieldFile> file;
-};
+// Returns the variables that are wanted: those that are named, or the one that `in` names (FILE.nc:NAME).
+// None stand for all at the places of the side.
+std::vector<std::string> wanted_variables(const FileName& in,
+                                          const std::vector<std::string>& names);
 
-// Opens the fields with these names, or those that `in` names (FILE.nc:NAME), or all at the places of
-// the side.
-FieldsOfSide fields_of_side(const FileName& in, std::vector<std::string>&& names,
-                            const RegridSide& side);
+// Opens the fields with these names, or all at the places of the side.
+std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
+                                       const RegridSide& side);
+
+// Returns arrays at the targets, with what the input has beside its fields, and a line in front of
+// the attribute `history` unless it is empty.
+FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
+                           const RegridSide& target, const std::string& history);
 
 // Returns the remarks of both sides and of the fields, each once.
 std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& target,
                                     const FieldSet& fields);
-
-// Puts a line in front of the attribute `history`, unless it is empty.
-void add_history(const std::string& line, FieldSet& fields);
 
 }  // namespace rondel::formats

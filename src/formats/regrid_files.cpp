@@ -75,7 +75,7 @@ class RegridJob {
         execution_(execution),
         inputs_(inputs_of(in, target, options)),
         needs_cells_(!options.method || is_conservative(*options.method)),
-        names_(names_of(in, options)),
+        names_(formats::wanted_variables(in, options.names)),
         mesh_file_(options.source.value_or(file_and_variable(in).first)),
         source_(mesh_file_, options.cells, needs_cells_, execution,
                 options.source ? std::vector<std::string>() : names_),
@@ -89,15 +89,8 @@ class RegridJob {
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     const FieldSet& in = fields_->fields();
-    FieldSet written;
-    written.num_points = report_.targets;
-    written.arrays = in.arrays;
-    written.axes = in.axes;
-    written.others = in.others;
-    written.attributes = in.attributes;
-    written.dimension = "cell";
-    target_.add_mapping(written);
-    formats::add_history(options_.history, written);
+    FieldSet written =
+        formats::fields_at_targets(in, std::vector(in.arrays), target_, options_.history);
     make_plan();
     const bool is_netcdf = is_netcdf_file(out_);
     tell_of_corners(written);
@@ -124,14 +117,6 @@ class RegridJob {
   }
 
  private:
-  // Returns the variables that are named, by themselves or with the file.
-  static std::vector<std::string> names_of(const FileName& in, const RegridFileOptions& options) {
-    std::vector<std::string> names = options.names;
-    const std::string variable = file_and_variable(in).second;
-    if (names.empty() && !variable.empty()) names.push_back(variable);
-    return names;
-  }
-
   // True if the first variable that is named has values at other places than the source's cells.
   [[nodiscard]] bool is_elsewhere(const FileName& file) const {
     if (names_.empty()) return false;
@@ -147,7 +132,7 @@ class RegridJob {
     const FileName file = file_and_variable(in).first;
     fields_name_ = file.path;
     try {
-      fields_ = formats::fields_of_side(in, std::vector(names_), source_).file;
+      fields_ = formats::open_fields(in, names_, source_);
     } catch (const FileError& error) {
       if (!needs_cells_ || !is_elsewhere(file)) throw;
       throw FileError(std::string(error.what()) +

@@ -12,8 +12,6 @@
 namespace rondel::formats {
 namespace {
 
-// A slice of fields has 32 MiB; larger ones are not faster.
-constexpr std::uint64_t values_per_slice = std::uint64_t{1} << 22U;
 // The largest tile. What is at its border is computed for both tiles there, and takes most of the time
 // of tiles with a few rows of targets; larger ones than this are not faster.
 constexpr std::uint64_t largest_tile = std::uint64_t{1} << 23U;

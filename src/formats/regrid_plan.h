@@ -12,6 +12,9 @@
 
 namespace rondel::formats {
 
+// A slice of fields has 32 MiB; larger ones are not faster.
+inline constexpr std::uint64_t values_per_slice = std::uint64_t{1} << 22U;
+
 // The bytes that a kind of weights takes, for each cell or place of a side.
 struct RegridCost {
   std::uint64_t of_source = 0;  // if weights are whole

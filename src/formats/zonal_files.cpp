@@ -6,9 +6,9 @@
 #include "formats/zonal_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "formats/regrid_fields.h"
+#include "formats/regrid_output.h"
+#include "formats/regrid_plan.h"
 #include "formats/regrid_side.h"
 #include "io/bad_value.h"
 #include "io/number.h"
@@ -29,9 +31,6 @@
 namespace rondel {
 namespace formats {
 namespace {
-
-// A slice of fields has 32 MiB; larger ones are not faster.
-constexpr std::size_t values_per_slice_of_zones = std::size_t{1} << 22U;
 
 // Returns the number that a text is; -1 if it is none.
 double share_of(std::string_view text) {
@@ -141,8 +140,8 @@ class ZonalJob {
         source_(options.source.value_or(file_and_variable(in).first), options.cells, true,
                 execution),
         target_(target, options.cells, true, execution),
-        fields_(fields_of_side(in, std::vector(options.names), source_)) {
-    report_.remarks = remarks_of(source_, target_, fields_.file->fields());
+        fields_(open_fields(in, wanted_variables(in, options.names), source_)) {
+    report_.remarks = remarks_of(source_, target_, fields_->fields());
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     RemapOptions rules;
@@ -151,36 +150,31 @@ class ZonalJob {
   }
 
   RegridFileReport run(const FileName& out) {
-    const FieldSet& in = fields_.file->fields();
-    FieldSet written;
-    written.num_points = report_.targets;
+    const FieldSet& in = fields_->fields();
+    std::vector<FieldArray> arrays;
     for (const FieldArray& array : in.arrays) {
       for (const ZonalStatistic& statistic : options_.statistics) {
-        written.arrays.push_back(array_of_statistic(array, statistic));
+        arrays.push_back(array_of_statistic(array, statistic));
       }
     }
-    written.axes = in.axes;
-    written.others = in.others;
-    written.attributes = in.attributes;
-    written.dimension = "cell";
-    target_.add_mapping(written);
-    add_history(options_.history, written);
+    const FieldSet written = fields_at_targets(in, std::move(arrays), target_, options_.history);
     const WeightSide side = target_.description(is_netcdf_file(out));
-    FieldWriter writer(out, written, side, options_.netcdf);
+    RegridOutput output(out, written, side, options_.netcdf);
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {
-      compute(a, writer);
+      compute(a, output);
       report_.fields += in.arrays[a].num_fields();
     }
-    writer.finish();
+    report_.missing = output.num_missing();
+    output.finish();
     return std::move(report_);
   }
 
  private:
   // Computes and writes the statistics of an array. Where those of all fields have no room for one
   // statistic, they are written slice by slice.
-  void compute(std::size_t array, FieldWriter& writer) {
+  void compute(std::size_t array, RegridOutput& output) {
     const std::span<const ZonalStatistic> all = options_.statistics;
-    const std::size_t num_fields = fields_.file->fields().arrays[array].num_fields();
+    const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
     const std::size_t size = num_fields * report_.targets;  // of one statistic
     const std::uint64_t room = options_.memory / 2 / sizeof(double);
     const std::size_t at_once =
@@ -189,7 +183,7 @@ class ZonalJob {
       const auto group = all.subspan(first, std::min(at_once, all.size() - first));
       std::vector<double> kept(group.size() > 1 ? group.size() * size : 0);
       for_each_slice(array, group, [&](std::size_t begin, std::span<const double> numbers) {
-        if (kept.empty()) return write(numbers, writer);
+        if (kept.empty()) return output.write(numbers);
         const std::size_t of_slice = numbers.size() / group.size();
         for (std::size_t s = 0; s < group.size(); ++s) {
           std::ranges::copy(
@@ -197,17 +191,17 @@ class ZonalJob {
               kept.begin() + static_cast<std::ptrdiff_t>(s * size + begin * report_.targets));
         }
       });
-      if (!kept.empty()) write(kept, writer);
+      if (!kept.empty()) output.write(kept);
     }
   }
 
   // Calls take(first field, numbers) for the statistics of some fields of an array in turn.
   template <class Take>
   void for_each_slice(std::size_t array, std::span<const ZonalStatistic> group, const Take& take) {
-    const std::size_t num_fields = fields_.file->fields().arrays[array].num_fields();
+    const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
     const std::size_t largest = std::max(report_.sources, report_.targets * group.size());
     const std::size_t of_slice =
-        std::max<std::size_t>(values_per_slice_of_zones / std::max<std::size_t>(largest, 1), 1);
+        std::max<std::size_t>(values_per_slice / std::max<std::size_t>(largest, 1), 1);
     const ZonalOptions rules{options_.statistic_weights, options_.max_missing};
     std::vector<double> values;
     std::vector<double> numbers;
@@ -215,24 +209,18 @@ class ZonalJob {
       const std::size_t count = std::min(of_slice, num_fields - first);
       values.resize(count * report_.sources);
       numbers.resize(group.size() * count * report_.targets);
-      fields_.file->read(array, first, values);
+      fields_->read(array, first, values);
       zonal_statistics(pieces_, group, values, numbers, count, rules, execution_);
       take(first, std::span<const double>(numbers));
       system::announce(execution_, "regrid", first + count, num_fields);
     }
   }
 
-  void write(std::span<const double> numbers, FieldWriter& writer) {
-    report_.missing += static_cast<std::size_t>(
-        std::ranges::count_if(numbers, [](double number) { return std::isnan(number); }));
-    writer.write(numbers);
-  }
-
   const RegridFileOptions& options_;
   const Execution& execution_;
   RegridSide source_;
   RegridSide target_;
-  FieldsOfSide fields_;
+  std::unique_ptr<FieldFile> fields_;
   Remap pieces_;
   RegridFileReport report_;
 };
