@@ -63,6 +63,8 @@ class TileCarrier::SourceValues {
     whole_.resize(count * job.sources);
     job.file.read(job.array, first, whole_);
   }
+  // Returns the values of all fields at all sources, unless they are read when they are asked for.
+  [[nodiscard]] std::span<const double> whole() const { return whole_; }
   // Returns the values of a field at the sources from `begin` on.
   std::span<const double> of(std::size_t field, std::size_t begin, std::size_t count) {
     if (!whole_.empty()) {
@@ -134,7 +136,7 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
                });
   }
   if (plan_.is_streamed) return;
-  if (job_.complete && ranks_.is_first()) job_.complete(first, count, carried);
+  if (job_.complete && ranks_.is_first()) job_.complete(values.whole(), carried);
   out_.write(carried);
 }
 

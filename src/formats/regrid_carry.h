@@ -31,9 +31,9 @@ struct ArrayToCarry {
   bool is_largest_share;
   double max_missing;
   bool keeps_sums;  // ApplyOptions::keeps_sums
-  // What is done with whole fields from `first` on before they are written, if anything.
-  using Complete =
-      std::function<void(std::size_t first, std::size_t count, std::span<double> carried)>;
+  // What is done with whole fields before they are written, if anything. It gets their values at all
+  // sources, so tiles must not have windows.
+  using Complete = std::function<void(std::span<const double> values, std::span<double> carried)>;
   Complete complete = {};
 };
 

@@ -205,6 +205,11 @@ class RegridJob {
     return (of_pieces * report_.sources + of_cell * report_.targets) / cells + 1;
   }
 
+  // True if a tile needs consecutive sources. Extrapolation needs all of them.
+  [[nodiscard]] bool has_windows() const {
+    return needs_cells_ && source_.has_parallels() && !options_.extrapolation;
+  }
+
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
   void make_plan() {
     formats::RegridTask task;
@@ -224,7 +229,7 @@ class RegridJob {
                        (source_.is_walked() || target_.is_walked());
       task.are_cells = true;
       task.is_in_order = target_.has_parallels();
-      task.has_windows = source_.has_parallels() && !options_.extrapolation;
+      task.has_windows = has_windows();
       task.largest_target = target_.largest_share();
       task.rows = target_.has_parallels() ? target_.axes()->lat_deg.size() : 1;
       task.cost = cost_of_cells(is_second);
@@ -326,24 +331,22 @@ class RegridJob {
                                     .num_fields = num_fields,
                                     .sources = report_.sources,
                                     .targets = report_.targets,
-                                    .has_windows = needs_cells_ && source_.has_parallels(),
+                                    .has_windows = has_windows(),
                                     .is_largest_share = method == FieldMethod::largest_share,
                                     .max_missing = options_.max_missing,
                                     .keeps_sums = keeps_sums(),
-                                    .complete = completing(array)};
+                                    .complete = completing()};
     formats::TileCarrier(tiles(method), plan_, job, output, ranks_, execution_).run();
   }
 
-  // Returns what extrapolates whole fields of an array; nothing if that is not asked for.
-  formats::ArrayToCarry::Complete completing(std::size_t array) {
+  // Returns what extrapolates whole fields; nothing if that is not asked for.
+  formats::ArrayToCarry::Complete completing() {
     if (!options_.extrapolation) return {};
     if (plan_.is_streamed) {
       throw InvalidInput("memory of " + std::to_string(options_.memory) +
                          " bytes is too small: extrapolation needs whole fields");
     }
-    return [this, array](std::size_t first, std::size_t count, std::span<double> carried) {
-      std::vector<double> values(count * report_.sources);
-      fields_->read(array, first, values);
+    return [this](std::span<const double> values, std::span<double> carried) {
       extrapolate(values, carried);
     };
   }

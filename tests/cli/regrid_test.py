@@ -187,6 +187,17 @@ class Regrid(unittest.TestCase):
                 self.assertGreater(json.loads(said.stdout)["tiles"], 2)
                 self.assertEqual((self.folder / "tiles.nc").read_bytes(), (self.folder / "whole.nc").read_bytes())
 
+    def test_tiles_are_extrapolated_as_whole_fields_are(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        for how in ("nearest", "creep"):
+            common = ("in.nc", "grid:7.5", "--value", "sst", "--extrapolate", how, "--json")
+            whole = json.loads(self.regrid(*common, "-o", "whole.nc").stdout)
+            tiles = json.loads(self.regrid(*common, "-o", "tiles.nc", "--tile", "200").stdout)
+            self.assertEqual((whole["tiles"], whole["missing"]), (0, 0))
+            self.assertGreater(tiles["tiles"], 2)
+            self.assertEqual(tiles["extrapolated"], whole["extrapolated"])
+            self.assertEqual((self.folder / "tiles.nc").read_bytes(), (self.folder / "whole.nc").read_bytes())
+
     def test_nothing_is_left_of_what_fails(self):
         self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
         data = (self.folder / "in.nc").read_bytes()
