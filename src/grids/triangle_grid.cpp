@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +16,9 @@ namespace rondel::grids {
 namespace {
 
 using Corners = std::array<Point, 3>;
+
+// The number of cells fits an Index.
+constexpr unsigned max_bisections = 16;
 
 // The faces of the icosahedron as corners of mesh::icosahedron(), counterclockwise.
 using Face = std::array<Index, 3>;
@@ -61,29 +66,47 @@ class TriangleGrid : public GridFormula {
   }
 
  private:
+  // The triangle that each level of bisection leads to, for the cell that a thread asked for last.
+  // Cells are mostly asked for in their order, so that the next one differs in the last levels.
+  struct Path {
+    Index root = 0;  // of the grid; 0 for no cell
+    unsigned bisections = 0;
+    Index cell = 0;
+    std::array<Corners, max_bisections + 1> triangles{};
+  };
+
   [[nodiscard]] Corners corners_of(Index cell) const {
-    Corners at = root_triangle(cell >> (2 * bisections_));
-    for (unsigned level = bisections_; level-- > 0;) {
-      const auto& [a, b, c] = at;
-      const Point bc = middle_of(b, c);
-      const Point ca = middle_of(c, a);
-      const Point ab = middle_of(a, b);
-      switch (cell >> (2 * level) & 3U) {
-        case 0:
-          at = {bc, ca, ab};
-          break;
-        case 1:
-          at = {a, ab, ca};
-          break;
-        case 2:
-          at = {b, bc, ab};
-          break;
-        default:
-          at = {c, ca, bc};
-          break;
-      }
+    thread_local Path path;
+    unsigned known = 0;  // triangles of the path that are those of this cell, too
+    if (path.root == root_ && path.bisections == bisections_) {
+      const auto differing = static_cast<unsigned>(std::bit_width(path.cell ^ cell));
+      const unsigned levels = (differing + 1) / 2;
+      known = levels > bisections_ ? 0 : bisections_ - levels + 1;
     }
-    return at;
+    if (known == 0) path.triangles[0] = root_triangle(cell >> (2 * bisections_));
+    for (unsigned level = std::max(known, 1U); level <= bisections_; ++level) {
+      const Index part = cell >> (2 * (bisections_ - level)) & 3U;
+      path.triangles[level] = part_of(path.triangles[level - 1], part);
+    }
+    path.root = root_;
+    path.bisections = bisections_;
+    path.cell = cell;
+    return path.triangles[bisections_];
+  }
+
+  // Returns one of the four triangles that the middles of the sides divide a triangle into.
+  static Corners part_of(const Corners& triangle, Index part) {
+    const auto& [a, b, c] = triangle;
+    switch (part) {
+      case 0:
+        return {middle_of(b, c), middle_of(c, a), middle_of(a, b)};
+      case 1:
+        return {a, middle_of(a, b), middle_of(c, a)};
+      case 2:
+        return {b, middle_of(b, c), middle_of(a, b)};
+      default:
+        return {c, middle_of(c, a), middle_of(b, c)};
+    }
   }
 
   // Returns one of the root^2 triangles of each face: strips along the side between its first two
