@@ -187,12 +187,13 @@ class RegridJob {
     // Places of fields are compared when their file is opened.
     const std::uint64_t of_compared = source_.axes() != nullptr ? 40 : 110;
     const bool are_compared = source_.num_places() <= formats::max_compared;
-    const std::uint64_t of_place = target_.axes() == nullptr ? 2 * sizeof(LonLat) : 0;
+    const std::uint64_t of_place = target_.axes() == nullptr ? sizeof(LonLat) : 0;
     return {.of_source = of_side(source_),
             .of_target = of_side(target_),
-            .of_source_beside = beside(source_) + (are_compared ? of_compared : 0),
+            .of_source_beside = beside(source_),
             .of_target_beside = beside(target_) + of_place,
-            .of_cell_in_tile = bytes_in_tile()};
+            .of_cell_in_tile = bytes_in_tile(),
+            .of_source_opened = are_compared ? of_compared : 0};
   }
 
   // Returns the bytes of a cell in a tile, the mean of both sides. Sources between parallels have

@@ -42,8 +42,13 @@ std::string mebibytes_of(std::uint64_t bytes) {
   return std::to_string((bytes + mebi - 1) / mebi) + "M";
 }
 
-[[noreturn]] void refuse_memory(const RegridTask& task, std::uint64_t needed) {
+std::uint64_t needed_to_open(const RegridTask& task) {
+  return task.cost.of_source_opened * task.sources;
+}
+
+[[noreturn]] void refuse_memory(const RegridTask& task, std::uint64_t needed_to_carry) {
   const bool is_whole = !task.has_tiles;
+  const std::uint64_t needed = std::max(needed_to_carry, needed_to_open(task));
   throw InvalidInput("memory of " + std::to_string(task.memory) +
                      " bytes is too small: " + mebibytes_of(needed) + " are enough for " +
                      std::to_string(task.sources) + " sources and " + std::to_string(task.targets) +
@@ -83,9 +88,8 @@ RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) 
   return plan;
 }
 
-}  // namespace
-
-RegridPlan plan_of(const RegridTask& task) {
+// Returns the plan for what follows when the fields are open.
+RegridPlan plan_to_carry(const RegridTask& task) {
   const std::uint64_t of_field = bytes_of_value * (task.sources + task.targets);
   const std::uint64_t weights =
       task.cost.of_source * task.sources + task.cost.of_target * task.targets;
@@ -104,6 +108,14 @@ RegridPlan plan_of(const RegridTask& task) {
   }
   if (!task.has_tiles) refuse_memory(task, weights + of_field);
   return plan_of_tiles(task, weights + of_field);
+}
+
+}  // namespace
+
+RegridPlan plan_of(const RegridTask& task) {
+  const RegridPlan plan = plan_to_carry(task);
+  if (needed_to_open(task) > task.memory) refuse_memory(task, needed_to_open(task));
+  return plan;
 }
 
 }  // namespace rondel::formats

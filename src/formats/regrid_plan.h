@@ -24,6 +24,7 @@ struct RegridCost {
   std::uint64_t of_target_beside = 0;
   std::uint64_t of_cell_in_tile = 0;  // cells of both sides, or targets of a method between places
   std::uint64_t smallest_tile = std::uint64_t{1} << 14U;  // cells
+  std::uint64_t of_source_opened = 0;  // while the file of the fields is opened, before all else
 };
 
 struct RegridTask {
