@@ -92,6 +92,11 @@ class RONDEL_API CellSet {
   /// areas(), by centers(), and, as cells that overlap each other, by the functions that use them
   /// (remap.h, regions.h).
   static CellSet polygons(const CellRings& cells, const Execution& execution = {});
+  /// Makes cells that set_operations.h returned, or others whose rings neither cross nor meet along
+  /// sides. polygons() makes the same of them, and looks for such faults before, which takes most
+  /// of its time for cells of millions of corners.
+  /// \throws InvalidInput as polygons() for indices, corners and rings
+  static CellSet valid_polygons(const CellRings& cells, const Execution& execution = {});
   /// Prepares the cells of a file, which read_cells() or read_polygons() has read.
   /// \throws FileError with the file's name for cells that polygons() or lonlat_grid() refuses
   static CellSet of(CellTable table, GridSides sides = GridSides::parallels,

@@ -102,8 +102,8 @@ bool append_from(const Geometries& from, std::size_t g, int dimension, Geometrie
   return true;
 }
 
-Geometries geometries_of(std::span<const arrangement::Region> regions) {
-  Geometries result{{}, arrangement::cells_of(regions)};
+Geometries geometries_of(std::span<const arrangement::Region> regions, unsigned threads) {
+  Geometries result{{}, arrangement::cells_of(regions, threads)};
   for (const arrangement::Region& region : regions) {
     for (const std::vector<Point>& line : region.lines) result.lines.rows.append(line);
     result.lines.end_group();
@@ -117,7 +117,8 @@ Geometries combine(const Geometries& first, const Geometries& second, SetOperati
                    const Execution& execution) {
   const system::Call call(execution);
   const arrangement::Sides sides = sides_of_all(first, second);
-  return geometries_of(std::vector{joined_region(sides, operation, RegionParts::all, execution)});
+  return geometries_of(std::vector{joined_region(sides, operation, RegionParts::all, execution)},
+                       execution.threads);
 }
 
 Geometries unite(const Geometries& geometries, const Execution& execution) {
@@ -141,19 +142,21 @@ Geometries combine_pairs(const Geometries& first, const Geometries& second,
   const auto has_lines = [](const Geometries& geometries, std::size_t g) {
     return geometries.lines.offsets[g] < geometries.lines.offsets[g + 1];
   };
-  return geometries_of(arrangement::joined_each(
-      pairs.size(), operation, RegionParts::all, execution, [&](std::size_t k) {
-        const auto [a, b] = pairs[k];
-        if (!has_lines(first, a) && !has_lines(second, b)) {
-          return shortcuts.sides(k);
-        }
-        arrangement::Sides sides;
-        sides.append_cell(first.polygons, a, 0);
-        sides.append_cell(second.polygons, b, 1);
-        append_lines(first.lines, a, 0, sides);
-        append_lines(second.lines, b, 1, sides);
-        return sides;
-      }));
+  return geometries_of(
+      arrangement::joined_each(pairs.size(), operation, RegionParts::all, execution,
+                               [&](std::size_t k) {
+                                 const auto [a, b] = pairs[k];
+                                 if (!has_lines(first, a) && !has_lines(second, b)) {
+                                   return shortcuts.sides(k);
+                                 }
+                                 arrangement::Sides sides;
+                                 sides.append_cell(first.polygons, a, 0);
+                                 sides.append_cell(second.polygons, b, 1);
+                                 append_lines(first.lines, a, 0, sides);
+                                 append_lines(second.lines, b, 1, sides);
+                                 return sides;
+                               }),
+      execution.threads);
 }
 
 GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,
@@ -162,7 +165,7 @@ GeometryPieces overlay_pieces(const Geometries& first, const Geometries& second,
   const arrangement::Sides sides = sides_of_all(first, second);
   const std::vector<arrangement::Region> regions = arrangement::regions_of(
       sides, arrangement::RegionRule(operation, false), RegionParts::all, execution);
-  GeometryPieces result{geometries_of(regions), {}, {}};
+  GeometryPieces result{geometries_of(regions, execution.threads), {}, {}};
   const auto num_first = static_cast<Index>(first.size());
   for (const auto& [key, rings, is_whole, lines] : regions) {
     result.first.push_back(key.first);

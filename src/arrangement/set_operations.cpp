@@ -60,7 +60,8 @@ CellRings combine(const CellRings& first, const CellRings& second, SetOperation 
                   const Execution& execution) {
   const system::Call call(execution);
   const Sides sides = sides_of(first, second);
-  return cells_of(std::vector{joined_region(sides, operation, RegionParts::areas, execution)});
+  return cells_of(std::vector{joined_region(sides, operation, RegionParts::areas, execution)},
+                  execution.threads);
 }
 
 RegionPieces overlay_pieces(const CellRings& first, const CellRings& second, SetOperation operation,
@@ -69,7 +70,7 @@ RegionPieces overlay_pieces(const CellRings& first, const CellRings& second, Set
   const Sides sides = sides_of(first, second);
   const std::vector<Region> regions =
       regions_of(sides, arrangement::RegionRule(operation, false), RegionParts::areas, execution);
-  RegionPieces result{cells_of(regions), {}, {}};
+  RegionPieces result{cells_of(regions, execution.threads), {}, {}};
   for (const Region& region : regions) {
     result.cells.push_back(region.key.first);
     const Index second_key = region.key.second;
@@ -97,18 +98,21 @@ CellRings combine_pairs(const CellRings& first, const CellRings& second,
   }
   const arrangement::PairShortcuts shortcuts(first, second, pairs, operation, execution.threads);
   return cells_of(joined_each(pairs.size(), operation, RegionParts::areas, execution,
-                              [&](std::size_t k) { return shortcuts.sides(k); }));
+                              [&](std::size_t k) { return shortcuts.sides(k); }),
+                  execution.threads);
 }
 
 CellRings repaired(const CellRings& polygons, const Execution& execution) {
   const system::Call call(execution);
   arrangement::validate_rings(polygons);
-  return cells_of(joined_each(polygons.num_cells(), SetOperation::unite, RegionParts::areas,
-                              execution, [&](std::size_t cell) {
-                                Sides sides;
-                                sides.append_cell(polygons, cell, 0);
-                                return sides;
-                              }));
+  return cells_of(
+      joined_each(polygons.num_cells(), SetOperation::unite, RegionParts::areas, execution,
+                  [&](std::size_t cell) {
+                    Sides sides;
+                    sides.append_cell(polygons, cell, 0);
+                    return sides;
+                  }),
+      execution.threads);
 }
 
 namespace arrangement {
@@ -131,10 +135,12 @@ CellRings extracted(const CellRings& cells, std::size_t begin, std::size_t end) 
 
 CellRings combined_each(std::size_t count, const std::function<Operands(std::size_t)>& operands_of,
                         SetOperation operation, const Execution& execution) {
-  return cells_of(joined_each(count, operation, RegionParts::areas, execution, [&](std::size_t i) {
-    const Operands operands = operands_of(i);
-    return sides_of(operands.first, operands.second);
-  }));
+  return cells_of(joined_each(count, operation, RegionParts::areas, execution,
+                              [&](std::size_t i) {
+                                const Operands operands = operands_of(i);
+                                return sides_of(operands.first, operands.second);
+                              }),
+                  execution.threads);
 }
 
 CellRings even_odd_union(const CellRings& polygons,
@@ -144,7 +150,8 @@ CellRings even_odd_union(const CellRings& polygons,
   sides.append(polygons, 0);
   sides.known.assign(known.begin(), known.end());
   return cells_of(
-      std::vector{joined_region(sides, SetOperation::unite, RegionParts::areas, execution)});
+      std::vector{joined_region(sides, SetOperation::unite, RegionParts::areas, execution)},
+      execution.threads);
 }
 
 }  // namespace arrangement

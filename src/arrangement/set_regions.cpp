@@ -7,11 +7,16 @@
 #include "arrangement/set_regions.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "arrangement/halfedges.h"
 #include "arrangement/lower_parts.h"
 #include "exact/point_order.h"
+#include "system/parallel.h"
 #include "system/row_assembly.h"
 
 namespace rondel::arrangement {
@@ -181,6 +186,98 @@ std::vector<Region> with_lines(std::vector<Region> regions, const Arrangement& a
   return result;
 }
 
+// The different corners of rings, sorted, and the index among them of each given one.
+struct SortedCorners {
+  std::vector<Point> points;
+  std::vector<Index> numbers;
+};
+
+// Deals corners to buckets of their first coordinate, which threads sort.
+class CornerSort {
+ public:
+  CornerSort(std::span<const Point> given, unsigned threads)
+      : given_(given),
+        threads_(threads),
+        num_buckets_(std::max<std::size_t>(given.size() / corners_per_bucket, 1)) {}
+
+  SortedCorners run() {
+    const std::vector<Index> begins = deal();
+    std::vector<Index> different(num_buckets_ + 1, 0);  // of each bucket, and then before it
+    const auto row_of = [&](std::size_t bucket) {
+      return std::span(entries_).subspan(begins[bucket], begins[bucket + 1] - begins[bucket]);
+    };
+    system::parallel_for(threads_, num_buckets_, buckets_per_task,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t bucket = begin; bucket < end; ++bucket) {
+                             const auto row = row_of(bucket);
+                             std::ranges::sort(row, is_before);
+                             for (std::size_t k = 0; k < row.size(); ++k)
+                               different[bucket + 1] += is_new(row, k);
+                           }
+                         });
+    system::sum_counts(different);
+    SortedCorners result;
+    result.points.resize(different.back());
+    result.numbers.resize(given_.size());
+    system::parallel_for(threads_, num_buckets_, buckets_per_task,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t bucket = begin; bucket < end; ++bucket) {
+                             const auto row = row_of(bucket);
+                             Index next = different[bucket];
+                             for (std::size_t k = 0; k < row.size(); ++k) {
+                               if (is_new(row, k) != 0) result.points[next++] = row[k].point;
+                               result.numbers[row[k].corner] = next - 1;
+                             }
+                           }
+                         });
+    return result;
+  }
+
+ private:
+  static constexpr std::size_t corners_per_bucket = 256;
+  static constexpr std::size_t buckets_per_task = 64;
+
+  struct SortedCorner {
+    Point point;
+    Index corner;
+  };
+
+  static bool is_before(const SortedCorner& a, const SortedCorner& b) {
+    return a.point == b.point ? a.corner < b.corner : exact::is_less(a.point, b.point);
+  }
+  // Returns 1 for the first of equal corners, and otherwise 0.
+  static Index is_new(std::span<const SortedCorner> row, std::size_t k) {
+    return k == 0 || row[k - 1].point != row[k].point ? 1 : 0;
+  }
+
+  // Returns where the entries of each bucket begin. Each step of the arithmetic keeps the order.
+  std::vector<Index> deal() {
+    entries_.resize(given_.size());
+    const auto [least, most] = std::ranges::minmax_element(given_, {}, &Point::x);
+    const double width = given_.empty() ? 0 : most->x - least->x;
+    constexpr double least_width = 1e-30;
+    const double scale = width > least_width ? static_cast<double>(num_buckets_) / width : 0;
+    const auto bucket_of = [&](const Point& p) {
+      const auto bucket = static_cast<std::size_t>((p.x - least->x) * scale);
+      return std::min(bucket, num_buckets_ - 1);
+    };
+    system::RowPlaces<Index> places(num_buckets_);
+    for (const Point& p : given_) places.count(bucket_of(p));
+    places.sum();
+    for (Index i = 0; i < given_.size(); ++i) {
+      entries_[places.place(bucket_of(given_[i]))] = {given_[i], i};
+    }
+    return std::move(places).offsets();
+  }
+
+  std::span<const Point> given_;
+  unsigned threads_;
+  std::size_t num_buckets_;
+  std::vector<SortedCorner> entries_;
+};
+
+constexpr std::size_t rings_per_task = 256;
+
 }  // namespace
 
 std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, RegionParts parts,
@@ -234,32 +331,38 @@ Region joined_region(const Sides& sides, SetOperation operation, RegionParts par
   return regions.empty() ? Region{} : std::move(regions.front());
 }
 
-CellRings cells_of(std::span<const Region> regions) {
-  CellRings result;
-  for (const Region& region : regions) {
-    for (const auto& ring : region.rings) {
-      result.points.insert(result.points.end(), ring.begin(), ring.end());
-    }
+CellRings cells_of(std::span<const Region> regions, unsigned threads) {
+  std::vector<const std::vector<Point>*> rings;
+  std::vector<std::size_t> begins(regions.size() + 1, 0);  // the rings of each region
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    for (const auto& ring : regions[k].rings) rings.push_back(&ring);
+    begins[k + 1] = rings.size();
   }
-  std::ranges::sort(result.points, exact::is_less);
-  result.points.erase(std::unique(result.points.begin(), result.points.end()), result.points.end());
-  const auto number_of = [&](const Point& p) {
-    return static_cast<Index>(std::ranges::lower_bound(result.points, p, exact::is_less) -
-                              result.points.begin());
-  };
-  for (const Region& region : regions) {
-    std::vector<std::vector<Index>> rings;
-    rings.reserve(region.rings.size());
-    for (const auto& points : region.rings) {
-      std::vector<Index> ring;
-      ring.reserve(points.size());
-      for (const Point& p : points) ring.push_back(number_of(p));
-      std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
-      rings.push_back(std::move(ring));
-    }
-    std::ranges::sort(rings);
-    if (region.is_whole) result.whole.push_back(static_cast<Index>(result.num_cells()));
-    for (const auto& ring : rings) result.append_ring(ring);
+  const std::vector<std::uint64_t> offsets =
+      system::offsets_of(rings.size(), [&](std::size_t r) { return rings[r]->size(); });
+  std::vector<Point> corners;
+  corners.reserve(offsets.back());
+  for (const auto* ring : rings) corners.insert(corners.end(), ring->begin(), ring->end());
+  SortedCorners sorted = CornerSort(corners, threads).run();
+
+  std::vector<std::vector<Index>> numbers(rings.size());
+  system::parallel_for(
+      threads, rings.size(), rings_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r) {
+          const auto row =
+              std::span(sorted.numbers).subspan(offsets[r], offsets[r + 1] - offsets[r]);
+          numbers[r].assign(row.begin(), row.end());
+          std::rotate(numbers[r].begin(), std::ranges::min_element(numbers[r]), numbers[r].end());
+        }
+      });
+  CellRings result;
+  result.points = std::move(sorted.points);
+  result.corners.reserve(corners.size());
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    if (regions[k].is_whole) result.whole.push_back(static_cast<Index>(result.num_cells()));
+    const auto own = std::span(numbers).subspan(begins[k], begins[k + 1] - begins[k]);
+    std::ranges::sort(own);
+    for (const auto& ring : own) result.append_ring(ring);
     result.end_cell();
   }
   return result;

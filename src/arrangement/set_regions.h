@@ -135,7 +135,7 @@ Region joined_region(const Sides& sides, SetOperation operation, RegionParts par
 
 // Returns a cell for each region. Points are sorted by their coordinates; a ring begins at its
 // first point, and the rings of a cell are sorted.
-CellRings cells_of(std::span<const Region> regions);
+CellRings cells_of(std::span<const Region> regions, unsigned threads);
 
 // Returns a region for each of `count` operations on a few polygons; sides_at(k) returns the sides
 // of those of operation k. Throws InvalidInput with the first operation whose sides are refused.

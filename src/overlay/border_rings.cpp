@@ -207,22 +207,10 @@ class RingMaker {
     return best;
   }
 
-  // True if a ring is no larger than what rounding can make. A ring that rounding has turned
-  // clockwise is no hole: alone it would be the border of nearly the whole sphere. Its corners are
-  // crossings of sides that themselves end in crossings, so it may be wider than a counterclockwise
-  // ring.
   [[nodiscard]] bool is_rounding(const std::vector<Index>& ring) {
-    double length = 0;
     border_.clear();
-    for (const Index p : ring) {
-      if (!border_.empty()) length += rough_length(border_.back(), points_[p]);
-      border_.push_back(points_[p]);
-    }
-    length += rough_length(border_.back(), border_.front());
-    const double rounding = area_of_rounding(length);
-    if (map::is_surely_larger(border_, of_holes * rounding)) return false;
-    const RingArea area = area_of_ring(border_);
-    return area.is_nothing() || (area.area <= rounding && area.area >= -of_holes * rounding);
+    for (const Index p : ring) border_.push_back(points_[p]);
+    return overlay::is_rounding(border_);
   }
 
   const std::vector<Point>& points_;
@@ -235,6 +223,16 @@ class RingMaker {
 };
 
 }  // namespace
+
+bool is_rounding(std::span<const Point> ring) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < ring.size(); ++k) length += rough_length(ring[k], ring[k + 1]);
+  length += rough_length(ring.back(), ring.front());
+  const double rounding = area_of_rounding(length);
+  if (map::is_surely_larger(ring, of_holes * rounding)) return false;
+  const RingArea area = area_of_ring(ring);
+  return area.is_nothing() || (area.area <= rounding && area.area >= -of_holes * rounding);
+}
 
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads) {
   if (arcs.size() >= no_index / 2) throw InvalidInput("there are too many corners");

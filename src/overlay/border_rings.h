@@ -47,6 +47,11 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
 CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide> sides,
                        std::size_t num_keys, unsigned threads);
 
+// True if a ring is no larger than what rounding can make. A ring that rounding has turned clockwise
+// is no hole: alone it would be the border of nearly the whole sphere. Its corners are crossings of
+// sides that themselves end in crossings, so it may be wider than a counterclockwise ring.
+bool is_rounding(std::span<const Point> ring);
+
 // True if between any two points as many arcs lead back as forth, so that the arcs bound no region.
 bool is_nothing(std::span<const KeyedArc> arcs);
 

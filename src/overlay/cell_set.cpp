@@ -274,6 +274,18 @@ CellSet CellSet::polygons(const CellRings& cells, const Execution& execution) {
                                                      execution.threads));
 }
 
+CellSet CellSet::valid_polygons(const CellRings& cells, const Execution& execution) {
+  const system::Call call(execution);
+  validate(cells);
+  Subdivision subdivision(cells, false, execution.threads);
+  // Rings no wider than rounding are dropped here, too.
+  if (overlay::may_be_untidy(cells, subdivision, execution.threads)) {
+    return polygons(cells, execution);
+  }
+  return CellSet(std::make_shared<const CellSetData>(
+      std::move(subdivision), std::vector<Index>(cells.whole), execution.threads));
+}
+
 CellSet CellSet::voronoi(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
   std::vector<Index> whole;

@@ -4,6 +4,7 @@
 #include "overlay/tidy_rings.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -21,6 +22,7 @@
 #include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"
+#include "system/parallel.h"
 
 namespace rondel::overlay {
 namespace {
@@ -189,6 +191,27 @@ bool has_balanced_crossing(const CellRings& cells, std::size_t cell) {
     if (!kept.empty() && is_balanced(kept) && crosses_surely(kept)) return true;
   }
   return false;
+}
+
+bool may_be_untidy(const CellRings& cells, const Subdivision& known, unsigned threads) {
+  std::vector<std::uint64_t> rings;  // of all cells that tidied() looks at
+  for (const auto& [place, area] : known.areas_of_others) {
+    const Index cell = known.names[place];
+    for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {
+      rings.push_back(r);
+    }
+  }
+  std::atomic<bool> is_found = false;
+  constexpr std::size_t rings_per_task = 64;
+  system::parallel_for(threads, rings.size(), rings_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t k = begin; k < end && !is_found; ++k) {
+                           const std::vector<Point> ring = points_of_ring(cells, rings[k]);
+                           if (without_turns(ring).size() != ring.size() || is_rounding(ring))
+                             is_found = true;
+                         }
+                       });
+  return is_found;
 }
 
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known) {

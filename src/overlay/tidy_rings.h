@@ -23,6 +23,10 @@ namespace rondel::overlay {
 // left although a ring of it is wider than rounding.
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known);
 
+// Returns false only for cells which tidied() does not change if their sides do not meet: none of
+// their rings turns back on itself or is no wider than rounding.
+bool may_be_untidy(const CellRings& cells, const Subdivision& known, unsigned threads);
+
 // Whether tidying has made a region its complement: its area was less than half of the sphere, and
 // is more, or the other way. That happens where rounding is all that is left of one of the two; if
 // wide rings are left, the region crosses itself.

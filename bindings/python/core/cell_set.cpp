@@ -188,6 +188,12 @@ void add_makers(nb::class_<CellSet>& cells) {
             return unlocked([&] { return CellSet::polygons(rings, {.threads = threads}); });
           },
           nb::arg("rings"), nb::arg("threads"))
+      .def_static(
+          "valid_polygons",
+          [](const CellRings& rings, unsigned threads) {
+            return unlocked([&] { return CellSet::valid_polygons(rings, {.threads = threads}); });
+          },
+          nb::arg("rings"), nb::arg("threads"))
       .def_static("read", &read_cell_set, nb::arg("path"), nb::arg("sides").none(),
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("corners").none(),

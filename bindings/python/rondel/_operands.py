@@ -507,7 +507,7 @@ def geometries_at(made: _core.Geometries, places: IntArray, number: int) -> _cor
 
 def cell_set(cells: _core.CellRings, threads: int | None) -> CellSet:
     """The cells of a result, none of which crosses itself."""
-    made = CellSet._of(_core.CellSet.polygons(cells, as_threads(threads)))
+    made = CellSet._of(_core.CellSet.valid_polygons(cells, as_threads(threads)))
     made._is_sound = True
     return made
 

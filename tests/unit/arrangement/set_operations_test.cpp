@@ -19,6 +19,7 @@
 
 #include "exact/vector.h"
 #include "rondel/arrangement.h"
+#include "rondel/cell_set.h"
 #include "rondel/error.h"
 #include "rondel/names.h"
 #include "rondel/predicates.h"
@@ -200,6 +201,8 @@ TEST(combine, has_the_places_that_the_operation_says) {
             has(result, 0, p, make.outside()),
             result_of(operation, any_has(a, p, make.outside()), any_has(b, p, make.outside())));
       }
+      ASSERT_TRUE(is_equal(CellSet::valid_polygons(result, {2}).given_rings(),
+                           CellSet::polygons(result, {1}).given_rings()));
       // Promise 3, and that a result is itself.
       ASSERT_TRUE(is_equal(unite(result, {2}), result));
       if (operation == SetOperation::difference) continue;
