@@ -67,6 +67,7 @@ Command add_remap_command(CLI::App& tool);
 Command add_apply_command(CLI::App& tool);
 Command add_check_weights_command(CLI::App& tool);
 Command add_mesh_command(CLI::App& tool);
+Command add_completion_command(CLI::App& tool);
 Command add_mesh_scvt_command(CLI::App& group);
 Command add_mesh_triangles_command(CLI::App& group);
 Command add_mesh_icosahedral_command(CLI::App& group);

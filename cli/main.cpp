@@ -32,22 +32,37 @@ int fail(ExitStatus status, std::string message) {
   return status;
 }
 
+// Puts commands below a heading of `rondel --help`, and adds them to a list.
+void add_group(std::vector<Command>& all, const char* heading, std::vector<Command>&& commands) {
+  for (Command& command : commands) {
+    command.parser->group(heading);
+    all.push_back(std::move(command));
+  }
+}
+
 // Adds all commands, in the order in which `rondel --help` shows them.
 std::vector<Command> add_commands(CLI::App& tool) {
-  return {
-    add_delaunay_command(tool), add_triangulate_command(tool), add_voronoi_command(tool),
-        add_regions_command(tool), add_overlay_command(tool), add_relate_command(tool),
-        add_repair_command(tool), add_buffer_command(tool), add_simplify_command(tool),
-        add_hull_command(tool), add_check_command(tool), add_contours_command(tool),
-        add_graph_command(tool),
+  std::vector<Command> all;
+  add_group(all, "Commands for triangulations and cells",
+            {add_delaunay_command(tool), add_triangulate_command(tool), add_voronoi_command(tool),
+             add_hull_command(tool), add_check_command(tool)});
+  add_group(all, "Commands for regions, polygons and lines",
+            {add_regions_command(tool), add_overlay_command(tool), add_relate_command(tool),
+             add_repair_command(tool), add_buffer_command(tool), add_simplify_command(tool)});
+  add_group(all, "Commands for neighbors and places",
+            {add_nearest_command(tool), add_locate_command(tool), add_graph_command(tool)});
+  add_group(all, "Commands for values at sites",
+            {add_interpolate_command(tool), add_contours_command(tool)});
+  add_group(all, "Commands for fields on grids",
+            {add_regrid_command(tool), add_remap_command(tool), add_apply_command(tool),
+             add_check_weights_command(tool)});
+  add_group(all, "Commands for meshes of models", {add_mesh_command(tool)});
 #if defined(RONDEL_HAS_PLOT)
-        add_plot_command(tool),
+  add_group(all, "Commands for pictures", {add_plot_command(tool)});
 #endif
-        add_generate_command(tool), add_info_command(tool), add_locate_command(tool),
-        add_nearest_command(tool), add_interpolate_command(tool), add_regrid_command(tool),
-        add_remap_command(tool), add_apply_command(tool), add_check_weights_command(tool),
-        add_mesh_command(tool)
-  };
+  add_group(all, "Commands to begin with",
+            {add_info_command(tool), add_generate_command(tool), add_completion_command(tool)});
+  return all;
 }
 
 // Returns the command that the command line chose, or null if there was only `rondel`.
@@ -80,7 +95,13 @@ void require_known_command(const std::vector<Command>& commands, int argc,
   const auto found = std::ranges::find_if(
       commands, [&](const Command& command) { return command.parser->get_name() == name; });
   if (found == commands.end()) {
-    throw UsageError("'" + name + "' is not a command (see rondel --help)");
+    std::error_code ignored;
+    const bool is_file = std::filesystem::exists(name, ignored);
+    throw UsageError("'" + name + "' is " +
+                     (is_file ? "a file; 'rondel info " + name +
+                                    "' says what is in it and which commands take it"
+                              : "not a command") +
+                     " (see rondel --help)");
   }
   const std::vector<const CLI::App*> parts = std::as_const(*found->parser).get_subcommands({});
   if (parts.empty()) return;

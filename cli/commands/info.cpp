@@ -14,6 +14,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 
 #include "job.h"
 #include "process.h"
@@ -181,8 +182,31 @@ std::string coordinates_of(const SiteTable& table) {
   return given + (table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius");
 }
 
+// Returns the name of the first column of numbers that are no coordinates; nothing if there is none.
+std::string name_of_values(const SiteTable& table, const ReadOptions& read) {
+  static constexpr std::string_view coordinates[] = {
+      "lon", "lng", "long", "longitude", "lat", "latitude", "x", "y", "z", "radius"};
+  const std::string_view given[] = {read.lon, read.lat, read.x, read.y, read.z, read.radius};
+  for (const Column& column : table.columns) {
+    if (column.is_numeric && std::ranges::count(coordinates, column.name) == 0 &&
+        std::ranges::count(given, column.name) == 0) {
+      return column.name;
+    }
+  }
+  return {};
+}
+
+// Returns the lines that say what to do with the sites; none if there are no sites.
+std::string commands_for(const SiteTable& table, const ReadOptions& read) {
+  if (table.sites.empty()) return {};
+  std::string text = "commands that take it: delaunay, voronoi, regions, nearest, graph, plot\n";
+  const std::string values = name_of_values(table, read);
+  if (values.empty()) return text;
+  return text + "and with --value " + values + ": interpolate, contours\n";
+}
+
 // Returns the report for people.
-std::string text_of(const SiteTable& table, const Facts& facts) {
+std::string text_of(const SiteTable& table, const Facts& facts, const ReadOptions& read) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text =
       table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
@@ -193,13 +217,13 @@ std::string text_of(const SiteTable& table, const Facts& facts) {
   if (triangulation.model() == Model::weighted) {
     text += "hidden: " + std::to_string(triangulation.hidden().size()) + '\n';
   }
-  if (table.columns.empty()) return text;
+  if (table.columns.empty()) return text + commands_for(table, read);
   text += "columns:";
   for (const Column& column : table.columns) {
     text += (&column == table.columns.data() ? " " : ", ") + column.name +
             (column.is_numeric ? " (number)" : " (text)");
   }
-  return text + '\n';
+  return text + '\n' + commands_for(table, read);
 }
 
 // Returns the nodes in degrees.
@@ -217,7 +241,8 @@ std::string text_of(const std::string& name, const mesh::TriangleMesh& mesh, con
   }
   return name + ": " + text_of_triangles(mesh) + '\n' + text_of("lon", lon) + text_of("lat", lat) +
          text_of("depth", depth) +
-         (mesh.levels.empty() ? "" : "levels: " + std::to_string(mesh.levels.size()) + '\n');
+         (mesh.levels.empty() ? "" : "levels: " + std::to_string(mesh.levels.size()) + '\n') +
+         "commands that take it: mesh convert\n";
 }
 
 // Prints what a mesh of triangles has. Throws FileError for a file that cannot be read.
@@ -243,7 +268,7 @@ ExitStatus run_info(const CommonOptions& options) {
   Job job(common);
   const SiteTable table = job.read();
   const Facts facts = find_facts(table, job, common.build.sphere);
-  job.report(json_of(table, facts, job.seconds()), text_of(table, facts));
+  job.report(json_of(table, facts, job.seconds()), text_of(table, facts, common.read));
   return done;
 }
 
@@ -257,7 +282,8 @@ Command add_info_command(CLI::App& tool) {
   add_report_options(*parser, *options);
   parser->footer(
       "Prints the number of sites, their bounds, exact duplicates, the distance from\n"
-      "the sphere, and the columns. Of triangles (.msh .14 .gr3 .ll .2dm, a folder of FESOM):\n"
+      "the sphere, the columns, and the commands that take the file. Of triangles (.msh .14 .gr3 "
+      ".ll .2dm, a folder of FESOM):\n"
       "the numbers of nodes, triangles and segments of the border, bounds and depths.\n\n"
       "Example:\n"
       "  rondel info stations.csv\n"

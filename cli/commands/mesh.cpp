@@ -20,6 +20,7 @@ Command add_mesh_command(CLI::App& tool) {
       add_mesh_icosahedral_command(*parser), add_mesh_points_command(*parser),
       add_mesh_equal_area_command(*parser),  add_mesh_convert_command(*parser),
       add_mesh_cull_command(*parser),        add_mesh_quality_command(*parser)};
+  for (const Command& command : commands) command.parser->group("Commands");
   parser->footer("'rondel mesh COMMAND --help' explains a command.");
   return {parser, [commands] {
             const auto at = std::ranges::find_if(

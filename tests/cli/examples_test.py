@@ -50,10 +50,16 @@ def help_of(command):
     return run(" ".join(["rondel", *command, "--help"]), ROOT).stdout
 
 
+def listed(text):
+    """The part of a help page that lists commands."""
+    found = re.search(r"(?ms)^Commands.*?(?=^'rondel )", text)
+    return found[0] if found else ""
+
+
 def commands(command=()):
     """All commands that the help pages name, from the tool itself on."""
     yield command
-    for name in re.findall(r"(?m)^  ([a-z-]+) ", help_of(command).partition("Subcommands:\n")[2].partition("\n\n")[0]):
+    for name in re.findall(r"(?m)^  ([a-z-]+) ", listed(help_of(command))):
         yield from commands((*command, name))
 
 
