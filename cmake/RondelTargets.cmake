@@ -42,7 +42,7 @@ function(rondel_library_settings target)
   # what it does not use (-Wl,--gc-sections), although the files of a layer are one object.
   target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL SHARED_LIBRARY)
+  if(type STREQUAL SHARED_LIBRARY AND NOT APPLE)  # whose linker does so by itself
     target_link_options(${target} PRIVATE -Wl,--no-undefined)
   endif()
 endfunction()
@@ -64,7 +64,7 @@ function(rondel_harden target)
   target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS
     $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:_FORTIFY_SOURCE=2>)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL EXECUTABLE)
+  if(type STREQUAL EXECUTABLE AND NOT APPLE)  # whose programs are so by themselves
     target_link_options(${target} PRIVATE -pie -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
   endif()
 endfunction()
