@@ -88,7 +88,7 @@ void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
       next.store(pieces, std::memory_order_relaxed);
     }
   };
-  std::vector<std::jthread> helpers;
+  std::vector<std::thread> helpers;  // C++ libraries of LLVM before 20 have no std::jthread
   while (helpers.size() + 1 < std::min<std::size_t>(threads, pieces)) {
     if (num_helpers.fetch_add(1) + 1 >= threads) {
       --num_helpers;
@@ -105,7 +105,7 @@ void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
     }
   }
   work();
-  helpers.clear();
+  for (std::thread& helper : helpers) helper.join();
   if (error) std::rethrow_exception(error);
 }
 
