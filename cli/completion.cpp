@@ -114,10 +114,34 @@ std::string zsh_arguments(const CompletedCommand& command) {
     std::string what = '[' + escaped_for_zsh(option.what) + ']';
     if (option.has_value) what += option.is_file ? ":file:_files" : ":value: ";
     for (const std::string& name : option.names) {
-      lines += " \\\n        " + in_quotes('(' + together + ')' + name + what);
+      std::string argument = '(' + together;
+      argument.append(")").append(name).append(what);
+      lines += " \\\n        " + in_quotes(argument);
     }
   }
   return lines;
+}
+
+// Returns the function that completes what follows the words of a command.
+std::string zsh_function(const CompletedCommand& command) {
+  std::string name = "_rondel" + (command.words.empty() ? "" : '_' + command.words);
+  std::ranges::replace(name, ' ', '_');
+  std::string text = name + "() {\n";
+  if (command.commands.empty()) {
+    return text + "  _arguments -s" + zsh_arguments(command) + " \\\n        '*:file:_files'\n}\n";
+  }
+  text += "  local context state state_descr line\n  typeset -A opt_args\n  _arguments -C";
+  text += zsh_arguments(command);
+  text +=
+      " \\\n        '1:command:->command' '*::argument:->argument'\n"
+      "  case $state in\n  command)\n    local -a commands=(";
+  for (const CompletedCommand& below : command.commands) {
+    text += "\n      " + in_quotes(last_word_of(below) + ':' + below.what);
+  }
+  name += "_$line[1]";
+  text += ")\n    _describe command commands\n    ;;\n  argument)\n    (( $+functions[";
+  text.append(name).append("] )) && ").append(name);
+  return text + "\n    ;;\n  esac\n}\n";
 }
 
 // Returns the condition of fish that the words typed so far call a command.
@@ -193,25 +217,7 @@ std::string bash_completion(const CompletedCommand& tool) {
 
 std::string zsh_completion(const CompletedCommand& tool) {
   std::string functions;
-  for (const CompletedCommand* command : all_of(tool)) {
-    std::string name = "_rondel" + (command->words.empty() ? "" : '_' + command->words);
-    std::ranges::replace(name, ' ', '_');
-    functions += '\n' + name + "() {\n";
-    if (command->commands.empty()) {
-      functions +=
-          "  _arguments -s" + zsh_arguments(*command) + " \\\n        '*:file:_files'\n}\n";
-      continue;
-    }
-    functions += "  local context state state_descr line\n  typeset -A opt_args\n  _arguments -C" +
-                 zsh_arguments(*command) +
-                 " \\\n        '1:command:->command' '*::argument:->argument'\n"
-                 "  case $state in\n  command)\n    local -a commands=(";
-    for (const CompletedCommand& below : command->commands) {
-      functions += "\n      " + in_quotes(last_word_of(below) + ':' + below.what);
-    }
-    functions += ")\n    _describe command commands\n    ;;\n  argument)\n    (( $+functions[" +
-                 name + "_$line[1]] )) && " + name + "_$line[1]\n    ;;\n  esac\n}\n";
-  }
+  for (const CompletedCommand* command : all_of(tool)) functions += '\n' + zsh_function(*command);
   return "#compdef rondel\n# Completion of rondel for zsh, made by 'rondel completion zsh'.\n" +
          functions +
          "\nif [ \"$funcstack[1]\" = _rondel ]; then\n  _rondel \"$@\"\nelse\n  compdef _rondel "
