@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
-// are in one place or hidden, and which columns there are.
-// in    sites; a file whose sites are all in one place, or at the center, is described as well; or
-//       triangles in a format of ocean models
+// are in one place or hidden, which columns there are, and which commands take it.
+// in    sites; a file whose sites are all in one place, or at the center, is described as well;
+//       triangles in a format of ocean models; features with lines and polygons; weights
 // out   text for people, or one JSON object
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,10 +13,12 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "job.h"
+#include "other_facts.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
@@ -183,30 +185,35 @@ std::string coordinates_of(const SiteTable& table) {
 }
 
 // Returns the name of the first column of numbers that are no coordinates; nothing if there is none.
-std::string name_of_values(const SiteTable& table, const ReadOptions& read) {
+std::string name_of_values(const SiteTable& table, const CommonOptions& common) {
   static constexpr std::string_view coordinates[] = {
       "lon", "lng", "long", "longitude", "lat", "latitude", "x", "y", "z", "radius"};
+  const ReadOptions& read = common.read;
   const std::string_view given[] = {read.lon, read.lat, read.x, read.y, read.z, read.radius};
+  const bool has_coordinates = !is_netcdf_file(common.source());
   for (const Column& column : table.columns) {
-    if (column.is_numeric && std::ranges::count(coordinates, column.name) == 0 &&
-        std::ranges::count(given, column.name) == 0) {
-      return column.name;
-    }
+    const bool is_coordinate =
+        has_coordinates && (std::ranges::count(coordinates, column.name) > 0 ||
+                            std::ranges::count(given, column.name) > 0);
+    if (column.is_numeric && !is_coordinate) return column.name;
   }
   return {};
 }
 
 // Returns the lines that say what to do with the sites; none if there are no sites.
-std::string commands_for(const SiteTable& table, const ReadOptions& read) {
+std::string commands_for(const SiteTable& table, const CommonOptions& common) {
   if (table.sites.empty()) return {};
   std::string text = "commands that take it: delaunay, voronoi, regions, nearest, graph, plot\n";
-  const std::string values = name_of_values(table, read);
-  if (values.empty()) return text;
-  return text + "and with --value " + values + ": interpolate, contours\n";
+  const std::string values = name_of_values(table, common);
+  if (!values.empty()) text += "and with --value " + values + ": interpolate, contours\n";
+  if (is_netcdf_file(common.source())) {
+    text += "and if its values are on cells: regrid, remap, mesh quality\n";
+  }
+  return text;
 }
 
 // Returns the report for people.
-std::string text_of(const SiteTable& table, const Facts& facts, const ReadOptions& read) {
+std::string text_of(const SiteTable& table, const Facts& facts, const CommonOptions& common) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text =
       table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
@@ -217,13 +224,7 @@ std::string text_of(const SiteTable& table, const Facts& facts, const ReadOption
   if (triangulation.model() == Model::weighted) {
     text += "hidden: " + std::to_string(triangulation.hidden().size()) + '\n';
   }
-  if (table.columns.empty()) return text + commands_for(table, read);
-  text += "columns:";
-  for (const Column& column : table.columns) {
-    text += (&column == table.columns.data() ? " " : ", ") + column.name +
-            (column.is_numeric ? " (number)" : " (text)");
-  }
-  return text + '\n' + commands_for(table, read);
+  return text + line_of_columns(table.columns) + commands_for(table, common);
 }
 
 // Returns the nodes in degrees.
@@ -266,9 +267,17 @@ ExitStatus run_info(const CommonOptions& options) {
   CommonOptions common = options;
   common.read.keep_columns = true;
   Job job(common);
-  const SiteTable table = job.read();
+  SiteTable table;
+  try {
+    table = job.read();
+  } catch (const FileError&) {
+    const std::optional<OtherFacts> others = other_facts_of(common, job);
+    if (!others) throw;
+    job.report(others->json, others->text);
+    return done;
+  }
   const Facts facts = find_facts(table, job, common.build.sphere);
-  job.report(json_of(table, facts, job.seconds()), text_of(table, facts, common.read));
+  job.report(json_of(table, facts, job.seconds()), text_of(table, facts, common));
   return done;
 }
 
@@ -276,7 +285,8 @@ ExitStatus run_info(const CommonOptions& options) {
 
 Command add_info_command(CLI::App& tool) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* parser = tool.add_subcommand("info", "Say what a file of sites holds");
+  CLI::App* parser =
+      tool.add_subcommand("info", "Say what a file holds and which commands take it");
   add_input_options(*parser, *options);
   add_build_options(*parser, *options);
   add_report_options(*parser, *options);
@@ -284,7 +294,8 @@ Command add_info_command(CLI::App& tool) {
       "Prints the number of sites, their bounds, exact duplicates, the distance from\n"
       "the sphere, the columns, and the commands that take the file. Of triangles (.msh .14 .gr3 "
       ".ll .2dm, a folder of FESOM):\n"
-      "the numbers of nodes, triangles and segments of the border, bounds and depths.\n\n"
+      "the numbers of nodes, triangles and segments of the border, bounds and depths. Of\n"
+      "features with lines and polygons (.geojson) and of weights (.nc .npz): their numbers.\n\n"
       "Example:\n"
       "  rondel info stations.csv\n"
       "  rondel info hgrid.gr3");
