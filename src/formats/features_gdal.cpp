@@ -6,6 +6,8 @@
 // the file appears whole or not at all.
 #include "formats/features_gdal.h"
 
+#include <fast_float/fast_float.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,6 +20,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -144,12 +147,20 @@ std::vector<unsigned char> wkb_of(const DrawnGeometry& geometry) {
   return wkb.bytes();
 }
 
-// Returns the number if the whole text is one.
+// Returns the number if the whole text is one. LLVM's C++ library before 20 has no
+// std::from_chars() of doubles.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = [&] {
+    if constexpr (std::is_integral_v<Number>) {
+      return std::from_chars(text.data(), last, number);
+    } else {
+      return fast_float::from_chars(text.data(), last, number);
+    }
+  }();
+  if (error != std::errc() || end != last) return std::nullopt;
   return number;
 }
 

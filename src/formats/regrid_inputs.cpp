@@ -30,8 +30,10 @@ std::optional<std::string> file_state(const std::string& path) {
   for (const char c : bytes.head()) {
     hash = system::mixed(hash, static_cast<unsigned char>(c));
   }
-  return std::to_string(size) + " bytes of time " +
-         std::to_string(time.time_since_epoch().count()) + " and hash " + std::to_string(hash);
+  // Clocks of some C++ libraries count in integers of 128 bits.
+  const auto ticks = static_cast<std::int64_t>(time.time_since_epoch().count());
+  return std::to_string(size) + " bytes of time " + std::to_string(ticks) + " and hash " +
+         std::to_string(hash);
 }
 
 }  // namespace
