@@ -68,7 +68,7 @@ class TriangleGrid : public GridFormula {
  private:
   // The triangle that each level of bisection leads to, for the cell that a thread asked for last.
   // Cells are mostly asked for in their order, so that the next one differs in the last levels.
-  struct Path {
+  struct PathOfCell {
     Index root = 0;  // of the grid; 0 for no cell
     unsigned bisections = 0;
     Index cell = 0;
@@ -76,7 +76,7 @@ class TriangleGrid : public GridFormula {
   };
 
   [[nodiscard]] Corners corners_of(Index cell) const {
-    thread_local Path path;
+    thread_local PathOfCell path;
     unsigned known = 0;  // triangles of the path that are those of this cell, too
     if (path.root == root_ && path.bisections == bisections_) {
       const auto differing = static_cast<unsigned>(std::bit_width(path.cell ^ cell));
