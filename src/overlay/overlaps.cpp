@@ -25,6 +25,7 @@
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "rondel/error.h"
+#include "rondel/polygon_files.h"
 #include "rondel/predicates.h"
 #include "rondel/regions.h"
 #include "rondel/relate.h"
@@ -359,10 +360,10 @@ std::string fault_of(const CrossingCells& crossing) {
   return "crosses or overlaps itself" + text_at(crossing.place);
 }
 
-std::string message_of(const CrossingCells& overlap) {
-  const std::string first = std::to_string(overlap.first);
+std::string message_of(const CrossingCells& overlap, std::span<const Column> columns) {
+  const std::string first = feature_name(columns, overlap.first);
   if (overlap.first == overlap.second) return "cell " + first + ' ' + fault_of(overlap);
-  return "cells " + first + " and " + std::to_string(overlap.second) + " overlap" +
+  return "cells " + first + " and " + feature_name(columns, overlap.second) + " overlap" +
          text_at(overlap.place);
 }
 

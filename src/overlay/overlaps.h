@@ -42,8 +42,8 @@ std::vector<std::pair<Index, Index>> near_cells(const Subdivision& cells, unsign
 // Returns "crosses or overlaps itself at 12.5000 40.2500" for a pair of a cell with itself.
 std::string fault_of(const CrossingCells& crossing);
 // Returns "cells 3 and 17 overlap at 12.5000 40.2500", or "cell 3" and its fault for a pair of a
-// cell with itself.
-std::string message_of(const CrossingCells& overlap);
+// cell with itself; columns with names of the cells add these, "cell 3 (Peru)".
+std::string message_of(const CrossingCells& overlap, std::span<const Column> columns = {});
 
 // Returns some of the cells, given by their places in spatial order, in this order.
 CellRings rings_of(const Subdivision& cells, std::span<const Index> some);

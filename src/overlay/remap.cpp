@@ -231,9 +231,9 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   const bool is_second = result.order == 2;
   const CellOverlap of_source = overlap == CellOverlap::each ? CellOverlap::error : overlap;
   const overlay::OverlaySide of_sources =
-      overlay::taking_part(sources, source_mask, of_source, "source", execution);
+      overlay::taking_part(sources, result.source.facts(), of_source, "source", execution);
   const overlay::OverlaySide of_targets =
-      overlay::taking_part(targets, result.target.facts().mask, overlap, "target", execution);
+      overlay::taking_part(targets, result.target.facts(), overlap, "target", execution);
   const std::size_t num_sources = result.source.num_cells();
   PieceRows pieces =
       overlay::joined_parts(overlay_of(*of_sources.data, *of_targets.data, is_second, execution),

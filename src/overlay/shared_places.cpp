@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -98,16 +99,23 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
 
 }  // namespace
 
-OverlaySide taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
-                        CellOverlap rule, const char* what, const Execution& execution) {
+OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOverlap rule,
+                        const char* what, const Execution& execution) {
+  const std::vector<std::int32_t>& mask = facts.mask;
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);
   std::vector<std::vector<Index>> others(rings.num_cells());
   for (const CrossingCells& pair : overlaps) {
     if (is_masked(mask, pair.first) || is_masked(mask, pair.second)) continue;
-    if (pair.first == pair.second || rule == CellOverlap::error) {
-      throw InvalidInput(std::string(what) + ' ' + message_of(pair), pair.second);
+    const std::string message = std::string(what) + ' ' + message_of(pair, facts.columns);
+    if (pair.first == pair.second) throw InvalidInput(message, pair.second);
+    if (rule == CellOverlap::error) {
+      const bool is_target = std::string_view(what) == "target";
+      throw InvalidInput(message + "; --overlap first" +
+                             (is_target ? ", share or each (overlap='each' in Python) takes them"
+                                        : " or share (overlap='first' in Python) takes them"),
+                         pair.second);
     }
     others[pair.second].push_back(pair.first);
     if (rule != CellOverlap::first) others[pair.first].push_back(pair.second);

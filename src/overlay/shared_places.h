@@ -40,9 +40,10 @@ struct OverlaySide {
 };
 
 // Returns the cells that are not masked. If some of them overlap and `rule` is error, or if one
-// overlaps itself, throws InvalidInput with `what` ("source" or "target"), the cells and a place.
-OverlaySide taking_part(const CellSetData& cells, const std::vector<std::int32_t>& mask,
-                        CellOverlap rule, const char* what, const Execution& execution);
+// overlaps itself, throws InvalidInput with `what` ("source" or "target"), the cells by their numbers
+// and names, a place, and the rules that take such cells.
+OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOverlap rule,
+                        const char* what, const Execution& execution);
 
 // Converts rows and columns of parts into those of the cells that own them.
 PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t num_rows,

@@ -272,7 +272,9 @@ TEST(overlay_parts, names_cells_that_overlap) {
     return std::string("nothing");
   };
   const std::string pair = "source cells 0 and 1 overlap at ";
-  EXPECT_EQ(message_of({{box}, {rectangle(10, 10, 30, 30)}}), pair + "14.9648 15.1233");
+  EXPECT_EQ(
+      message_of({{box}, {rectangle(10, 10, 30, 30)}}),
+      pair + "14.9648 15.1233; --overlap first or share (overlap='first' in Python) takes them");
   EXPECT_EQ(message_of({{apart}, {box}, {within}}).substr(0, 29), "source cells 1 and 2 overlap ");
   EXPECT_EQ(message_of({{within}, {box}}).substr(0, pair.size()), pair);
   EXPECT_EQ(message_of({{box}, {box}}).substr(0, pair.size()), pair);
