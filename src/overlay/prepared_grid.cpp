@@ -228,6 +228,14 @@ Point moment_of_row(const PreparedGrid::Parallel& south, const PreparedGrid::Par
 CellRings rings_of(const LonLatGrid& grid) {
   validate(grid);
   const std::size_t num_columns = grid.lon_deg.size() - 1;
+  // The shorter arc between corners that are so far apart runs over a pole, or around the other way.
+  for (std::size_t k = 0; k < num_columns; ++k) {
+    const double width = std::abs(grid.lon_deg[k + 1] - grid.lon_deg[k]);
+    if (width < 180) continue;
+    throw InvalidInput("cell " + std::to_string(k) + " is " + system::shortest_text(width) +
+                           " degrees wide: sides along great circles need less than 180 degrees",
+                       k);
+  }
   const bool is_around = goes_around(grid.lon_deg);
   const bool is_southward = grid.lat_deg[1] < grid.lat_deg[0];
   const bool is_westward = grid.lon_deg[1] < grid.lon_deg[0];

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "rondel/error.h"
+#include "rondel/named_grids.h"
 #include "rondel/regions.h"
 #include "support/thrown.h"
 #include "unit/overlay/grid_oracle.h"
@@ -217,6 +218,11 @@ TEST(overlay_grid, great_circles_are_sides_on_request) {
     const bool is_smaller = i < 24 || i >= 48;
     EXPECT_EQ(arcs.areas()[i] < parallels.areas()[i], is_smaller) << i;
   }
+  // Sides of 180 degrees along other parallels than the equator would run over a pole.
+  EXPECT_THROW((void)CellSet::lonlat_grid(regular_grid(2, 7), GridSides::great_circles),
+               InvalidInput);
+  EXPECT_THROW((void)NamedGrid("grid:1x3", GridSides::great_circles).cells(), InvalidInput);
+  EXPECT_TRUE(CellSet::lonlat_grid(regular_grid(3, 7), GridSides::great_circles).covers_sphere());
   EXPECT_THROW((void)CellSet::lonlat_grid(regular_grid(2, 2), GridSides::great_circles),
                InvalidInput);
   const Remap remap = rondel::remap(arcs, parallels);
