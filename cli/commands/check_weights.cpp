@@ -159,6 +159,7 @@ JudgedWeights judge(const CheckWeightsOptions& options, Job& job) {
   JudgedWeights judged{read_weights(common.source(), read), {}};
   WeightCheckOptions check = options.check;
   check.is_conservative = options.has_sides();
+  check.targets_overlap = options.compare.overlap == CellOverlap::each;
   judged.report = check_weights(judged.file, check);
   if (!options.has_sides()) return judged;
   job.time(Stage::query, [&] {
@@ -211,9 +212,14 @@ void add_sides(CLI::App& parser, CheckWeightsOptions& options) {
                                    "How far a weight may be from the right one (default 1e-9)")
                        ->check([](const std::string& text) { return range_error(text, 0, 1); })
                        ->type_name("NUMBER"));
-  others.push_back(add_word<CellOverlap>(
+  const CLI::Option* const overlap = add_word<CellOverlap>(
       parser, "--overlap", options.compare.overlap, named_values<CellOverlap>(),
-      "What becomes of a place that several cells of one side have, as for rondel remap"));
+      "What becomes of a place that several cells of one side have, as for rondel remap;\n"
+      "with each, also without cells, fractions of sources may be above 1");
+  require_effect(
+      options.common, overlap,
+      [&options] { return options.has_sides() || options.compare.overlap == CellOverlap::each; },
+      "without --source and --target");
   others.push_back(add_word<GridSides>(
       parser, "--sides", options.cells.sides, named_values<GridSides>(),
       "What cells of grids have in the north and south: parallels (default) or\n"

@@ -51,6 +51,9 @@ struct WeightCheckOptions {
   bool allow_negative = false;
   /// Whether the weights are conservative although the file names no method.
   bool is_conservative = false;
+  /// Whether targets that overlap have all of their places (CellOverlap::each), so that a source may
+  /// give its area several times.
+  bool targets_overlap = false;
 };
 
 /// Checks weights of this library or of another program, by what the file says of the cells.

@@ -26,7 +26,8 @@ class WeightChecker {
       : file_(file),
         weights_(file.weights),
         method_(file.method.empty() && options.is_conservative ? "conservative" : file.method),
-        allow_negative_(options.allow_negative || !method_.is_never_negative) {
+        allow_negative_(options.allow_negative || !method_.is_never_negative),
+        may_give_repeatedly_(options.targets_overlap) {
     report_.sums_are_of_columns = method_.gives_sources_away;
     report_.sums_are_fractions = file.normalization == "destarea" &&
                                  !file.target.fractions.empty() && !method_.gives_sources_away;
@@ -166,8 +167,8 @@ class WeightChecker {
       const double wanted = fractions.empty() ? 1 : fractions[c];
       report_.worst_column = std::max(*report_.worst_column, std::abs(given - wanted));
       const double tolerance = tolerance_of(entries_of_column_[c], from, c);
-      const bool is_right =
-          fractions.empty() ? given <= 1 + tolerance : std::abs(given - wanted) <= tolerance;
+      const bool is_right = fractions.empty() ? may_give_repeatedly_ || given <= 1 + tolerance
+                                              : std::abs(given - wanted) <= tolerance;
       if (method_.is_conservative && !is_right) {
         conservation_.add("source " + std::to_string(c), given);
       }
@@ -191,7 +192,8 @@ class WeightChecker {
     for (std::size_t i = 0; i < side.fractions.size(); ++i) {
       const double tolerance = tolerance_of(entries[i], side.areas, i);
       const std::string place = word + ' ' + std::to_string(i);
-      if (side.fractions[i] > 1 + tolerance) {
+      const bool may_be_above = word == "source" && may_give_repeatedly_;
+      if (side.fractions[i] > 1 + tolerance && !may_be_above) {
         above.add(place, side.fractions[i]);
       } else if (!(side.fractions[i] >= -tolerance)) {
         below.add(place, side.fractions[i]);
@@ -258,6 +260,7 @@ class WeightChecker {
   const Weights& weights_;
   MethodFacts method_;
   bool allow_negative_;
+  bool may_give_repeatedly_;        // sources, to targets that overlap
   bool is_at_most_wanted_ = false;  // each sum is a fraction that is not known
   WeightReport report_;
   std::vector<std::size_t> entries_of_column_;

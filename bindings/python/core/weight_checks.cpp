@@ -85,10 +85,13 @@ void add_weight_checks(nb::module_& module) {
       nb::arg("remap"));
   module.def(
       "check_weights",
-      [](const WeightFile& file, bool allow_negative, bool is_conservative) {
-        return unlocked([&] { return check_weights(file, {allow_negative, is_conservative}); });
+      [](const WeightFile& file, bool allow_negative, bool is_conservative, bool targets_overlap) {
+        return unlocked([&] {
+          return check_weights(file, {allow_negative, is_conservative, targets_overlap});
+        });
       },
-      nb::arg("file"), nb::arg("allow_negative"), nb::arg("is_conservative"));
+      nb::arg("file"), nb::arg("allow_negative"), nb::arg("is_conservative"),
+      nb::arg("targets_overlap"));
   module.def(
       "compare_weights",
       [](const WeightFile& file, const CellSet& source, const CellSet& target, double tolerance,

@@ -220,7 +220,8 @@ def check_weights(
     sides, edges, invalid, corners
         How cells of files are read, as in `CellSet.read`; `sides` also for names of grids.
     overlap : {'error', 'first', 'share', 'each'}, optional
-        What becomes of cells of one side that overlap, as in `remap`.
+        What becomes of cells of one side that overlap, as in `remap`. With 'each' fractions of
+        sources may be above 1, since several targets have one place.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -277,7 +278,7 @@ def check_weights(
         file = _core.read_weights_to_check(os.fspath(weights), *numbers)
         for remark in file.remarks:
             warn_caller(f"{os.fspath(weights)}: {remark}")
-    found = _core.check_weights(file, allow_negative, cells is not None)
+    found = _core.check_weights(file, allow_negative, cells is not None, overlap == "each")
     faults = list(found.faults)
     comparison = None
     if cells is not None:

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Weights that are checked: faults that are planted are found where they are."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -121,3 +123,24 @@ def test_wrong_calls_are_refused(tmp_path):
         rondel.check_weights(remap, SOURCE, TARGET, tolerance=float("nan"))
     with pytest.raises(OSError, match=r"none\.nc"):
         rondel.check_weights(tmp_path / "none.nc")
+
+
+def test_sources_give_to_each_of_targets_that_overlap(tmp_path):
+    boxes = [[(10, 0), (60, 0), (60, 40), (10, 40)], [(30, 10), (80, 10), (80, 50), (30, 50)]]
+    rings = {"type": "FeatureCollection", "features": []}
+    for box in boxes:
+        ring = [list(map(float, position)) for position in (*box, box[0])]
+        geometry = {"type": "Polygon", "coordinates": [ring]}
+        rings["features"].append({"type": "Feature", "properties": {}, "geometry": geometry})
+    path = tmp_path / "boxes.geojson"
+    path.write_text(json.dumps(rings))
+    target = rondel.CellSet.read(path, overlap="keep")
+    remap = rondel.remap("grid:5", target, overlap="each", norm="destarea")
+    assert remap.source_fractions.max() > 1.9
+    remap.to_netcdf(tmp_path / "weights.nc")
+    for weights in (remap, tmp_path / "weights.nc"):
+        assert rondel.check_weights(weights, "grid:5", target, overlap="each")
+        assert rondel.check_weights(weights, overlap="each")
+        assert rondel.check_weights(weights).count("source fraction") > 0
+    with pytest.raises(rondel.InvalidInput, match=r"overlap='each' in Python"):
+        rondel.remap("grid:5", target)
