@@ -25,12 +25,21 @@ namespace grids {
 class GridFormula;
 }  // namespace grids
 
-/// The attributes by which files say on which grid points are (CF 1.13, appendix F): none but for
-/// HEALPix.
+/// The attribute by which a file that Rondel wrote names the grid of its points, where neither a grid
+/// mapping nor axes say it: "O320".
+inline constexpr const char* grid_attribute = "rondel_grid";
+
+/// The attributes by which files say on which grid points are: of a grid mapping for HEALPix (CF 1.13,
+/// appendix F), `grid_attribute` for others, and none for `grid:`, whose axes say it.
 struct GridMapping {
   std::vector<std::pair<std::string, std::string>> texts = {};
   std::vector<std::pair<std::string, double>> numbers = {};
 };
+
+/// Returns the name of the grid on which points are by the attributes of a variable or of a file: the
+/// pixels of HEALPix by its grid mapping, as CF has it or as tools had it before, or what
+/// `grid_attribute` says; an empty text if they say neither.
+RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 
 /// A grid of the whole sphere that is given by its name:
 ///
@@ -68,7 +77,7 @@ class RONDEL_API NamedGrid {
   /// Returns the lengths of the dimensions of the cells, the last one varying fastest: nlat, nlon
   /// for `grid:` and `F`; 6, n, n for `C`; otherwise the number of cells.
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
-  /// Returns the attributes by which files say that points are the pixels of HEALPix.
+  /// Returns the attributes by which files say that points are those of this grid.
   [[nodiscard]] GridMapping mapping() const;
   /// Returns the axes of the centers of `grid:` and `F`, else null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }

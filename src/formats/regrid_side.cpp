@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,44 +34,42 @@ std::set<std::string> taken_names(const FieldSet& fields) {
   return names;
 }
 
-// Returns the number that an attribute has, or nothing.
-std::optional<double> number_of(const io::VariableInFile& variable, std::string_view name) {
-  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
-  if (attribute == nullptr || attribute->numbers.empty()) return std::nullopt;
-  return attribute->numbers.front();
+// Returns what attributes say of a grid.
+GridMapping mapping_of(std::span<const io::NetcdfAttribute> attributes) {
+  GridMapping mapping;
+  for (const io::NetcdfAttribute& attribute : attributes) {
+    if (!attribute.text.empty()) mapping.texts.emplace_back(attribute.name, attribute.text);
+    if (attribute.numbers.empty()) continue;
+    mapping.numbers.emplace_back(attribute.name, attribute.numbers.front());
+  }
+  return mapping;
 }
 
-// Returns the name of the grid whose pixels a variable says that points are, or an empty text: by
-// CF's attributes, or by those that tools for HEALPix had before.
-std::string pixels_of(const io::VariableInFile& variable) {
-  if (io::netcdf_text(variable.attributes, "grid_mapping_name") != "healpix") return {};
-  std::optional<double> level = number_of(variable, "refinement_level");
-  if (const auto side = number_of(variable, "healpix_nside"); side && !level) {
-    for (int k = 0; k < 14; ++k) {
-      if (*side == static_cast<double>(1U << static_cast<unsigned>(k))) level = k;
-    }
+// True if the file has the dimensions of the grid. A file may also have some of its points, with their
+// longitudes and latitudes.
+bool has_dimensions_of(const io::NetcdfReader& reader, const std::string& name) {
+  const auto has = [&](std::uint64_t length) {
+    return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
+  };
+  try {
+    const NamedGrid grid(name);
+    return has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has);
+  } catch (const InvalidInput& error) {
+    throw io::BadValue(error.what());
   }
-  if (!level || *level != std::floor(*level)) return {};
-  std::string order = io::netcdf_text(variable.attributes, "indexing_scheme");
-  if (order.empty()) order = io::netcdf_text(variable.attributes, "healpix_order");
-  if (order != "ring" && order != "nested" && order != "nest") return {};
-  return "healpix:" + std::to_string(static_cast<int>(*level)) +
-         (order == "ring" ? ":ring" : ":nested");
 }
 
 // Returns the name of the grid that netCDF says its points are on, or an empty text.
-std::string grid_named_by(const FileName& file) {
+std::string grid_named_by_file(const FileName& file) {
   io::FileBytes bytes(file_and_variable(file).first, true);
   if (!io::is_netcdf(bytes.head())) return {};
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
+    std::string name = grid_named_by(mapping_of(reader.attributes()));
+    if (!name.empty() && has_dimensions_of(reader, name)) return name;
     for (const io::VariableInFile& variable : reader.variables()) {
-      std::string name = pixels_of(variable);
-      if (name.empty()) continue;
-      // A file may also have some of the pixels, with their longitudes and latitudes.
-      const std::size_t all = NamedGrid(name).num_cells();
-      if (std::ranges::count(reader.dimensions(), all, &io::NetcdfDimension::size) != 0)
-        return name;
+      name = grid_named_by(mapping_of(variable.attributes));
+      if (!name.empty() && has_dimensions_of(reader, name)) return name;
     }
     return std::string();
   });
@@ -102,7 +101,7 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
                        const Execution& execution, const std::vector<std::string>& names)
     : name_(file.path), options_(options) {
   const bool is_name = NamedGrid::is_name(file.path);
-  const std::string grid = is_name ? file.path : grid_named_by(file);
+  const std::string grid = is_name ? file.path : grid_named_by_file(file);
   if (grid.empty()) {
     read_file(file, has_cells, execution, names);
     return;
@@ -229,6 +228,10 @@ void RegridSide::add_mapping(FieldSet& fields) const {
   if (!named_) return;
   const GridMapping mapping = named_->mapping();
   if (mapping.texts.empty()) return;
+  if (mapping.texts.front().first == grid_attribute) {
+    fields.attributes.push_back(mapping.texts.front());
+    return;
+  }
   FieldArray crs;
   crs.name = free_names({"crs"}, taken_names(fields)).front();
   crs.values = {0};

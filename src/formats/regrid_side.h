@@ -58,7 +58,8 @@ class RegridSide {
   // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no
   // list of places.
   [[nodiscard]] WeightSide description(bool has_axes) const;
-  // Adds the variable by which a file says that points are the pixels of HEALPix, if they are.
+  // Adds the variable by which a file says that points are the pixels of HEALPix, if they are, or the
+  // attribute that names another grid.
   void add_mapping(FieldSet& fields) const;
 
  private:

@@ -157,6 +157,33 @@ bool is_digits(std::string_view text) {
 
 }  // namespace
 
+std::string grid_named_by(const GridMapping& attributes) {
+  const auto text_of = [&](std::string_view name) {
+    for (const auto& [key, text] : attributes.texts) {
+      if (key == name) return text;
+    }
+    return std::string();
+  };
+  const auto number_of = [&](std::string_view name) {
+    for (const auto& [key, number] : attributes.numbers) {
+      if (key == name) return number;
+    }
+    return -1.0;
+  };
+  if (const std::string name = text_of(grid_attribute); NamedGrid::is_name(name)) return name;
+  if (text_of("grid_mapping_name") != "healpix") return {};
+  double level = number_of("refinement_level");
+  for (unsigned k = 0; level < 0 && k <= max_healpix_order; ++k) {
+    if (number_of("healpix_nside") == static_cast<double>(1U << k)) level = k;
+  }
+  if (level < 0 || level > max_healpix_order || level != std::floor(level)) return {};
+  std::string order = text_of("indexing_scheme");
+  if (order.empty()) order = text_of("healpix_order");
+  if (order != "ring" && order != "nested" && order != "nest") return {};
+  return "healpix:" + std::to_string(static_cast<int>(level)) +
+         (order == "ring" ? ":ring" : ":nested");
+}
+
 bool NamedGrid::is_name(std::string_view text) {
   if (text.starts_with("grid:") || text.starts_with("healpix:")) return true;
   if (text.size() < 2) return false;
@@ -206,7 +233,8 @@ std::vector<LonLat> NamedGrid::centers() const {
 
 GridMapping NamedGrid::mapping() const {
   constexpr std::string_view pixels = "healpix:";
-  if (!name_.starts_with(pixels)) return {};
+  if (name_.starts_with("grid:")) return {};
+  if (!name_.starts_with(pixels)) return {{{grid_attribute, name_}}, {}};
   const std::string level =
       name_.substr(pixels.size(), name_.find(':', pixels.size()) - pixels.size());
   const bool is_in_rings = name_.ends_with(":ring");

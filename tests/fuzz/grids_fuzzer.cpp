@@ -89,8 +89,11 @@ void test_grid(const NamedGrid& grid, const CellSet& cells) {
   for (const std::uint64_t length : grid.shape()) product *= length;
   require(product == grid.num_cells(), "the shape has all cells");
   require(!grid.name().empty(), "a grid has its name");
-  require(grid.mapping().texts.empty() != grid.name().starts_with("healpix"),
-          "pixels say what they are");
+  const GridMapping mapping = grid.mapping();
+  require(mapping.texts.empty() == grid.name().starts_with("grid:"), "axes say where cells are");
+  require(
+      mapping.texts.empty() || NamedGrid(grid_named_by(mapping)).num_cells() == grid.num_cells(),
+      "points say on which grid they are");
 }
 
 std::vector<std::int32_t> next_mask(ByteSource& source, std::size_t n) {

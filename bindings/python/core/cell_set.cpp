@@ -5,6 +5,7 @@
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -203,9 +204,33 @@ void add_makers(nb::class_<CellSet>& cells) {
                   nb::arg("groups").noconvert().none(), nb::arg("threads"));
 }
 
+// Adds how data say on which named grid they are.
+void add_grid_mappings(nb::module_& module) {
+  using Texts = std::vector<std::pair<std::string, std::string>>;
+  using Numbers = std::vector<std::pair<std::string, double>>;
+  module.def(
+      "grid_named_by",
+      [](const Texts& texts, const Numbers& numbers) {
+        const std::string name = grid_named_by({texts, numbers});
+        std::vector<std::uint64_t> shape;
+        if (!name.empty()) shape = NamedGrid(name).shape();
+        return std::pair(name, shape);
+      },
+      nb::arg("texts"), nb::arg("numbers"));
+  module.def(
+      "grid_mapping",
+      [](const std::string& name) {
+        const GridMapping mapping =
+            NamedGrid::is_name(name) ? NamedGrid(name).mapping() : GridMapping();
+        return std::pair(mapping.texts, mapping.numbers);
+      },
+      nb::arg("name"));
+}
+
 }  // namespace
 
 void add_cell_set(nb::module_& module) {
+  add_grid_mappings(module);
   add_cell_facts(module);
   nb::class_<CellSet> cells(module, "CellSet");
   add_makers(cells);

@@ -161,7 +161,20 @@ TEST(named_grids, pixels_say_what_they_are) {
   EXPECT_EQ(mapping.texts[1], (std::pair<std::string, std::string>("indexing_scheme", "ring")));
   EXPECT_EQ(mapping.numbers[0], (std::pair<std::string, double>("refinement_level", 5)));
   EXPECT_EQ(mapping.numbers[1], (std::pair<std::string, double>("healpix_nside", 32)));
-  EXPECT_TRUE(NamedGrid("O8").mapping().texts.empty());
+  EXPECT_TRUE(NamedGrid("grid:10").mapping().texts.empty());
+  for (const char* const name :
+       {"O8", "N32", "F4", "C3", "R2B1", "healpix:2:nested", "healpix:0:ring"}) {
+    EXPECT_EQ(grid_named_by(NamedGrid(name).mapping()), name);
+  }
+  // Tools for HEALPix had other attributes before CF did.
+  EXPECT_EQ(grid_named_by({{{"grid_mapping_name", "healpix"}, {"healpix_order", "nest"}},
+                           {{"healpix_nside", 8}}}),
+            "healpix:3:nested");
+  EXPECT_EQ(grid_named_by({{{"grid_mapping_name", "healpix"}, {"healpix_order", "nest"}},
+                           {{"healpix_nside", 7}}}),
+            "");
+  EXPECT_EQ(grid_named_by({{{grid_attribute, "nothing"}}, {}}), "");
+  EXPECT_EQ(grid_named_by({}), "");
 }
 
 TEST(named_grids, refuse_what_is_none) {
