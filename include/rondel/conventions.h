@@ -105,6 +105,18 @@ RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHe
 /// \returns true or false for each variable
 RONDEL_API std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables);
 
+/// Tells which variables have values that depend on place: those with a dimension of any longitudes
+/// and latitudes, of the nodes, edges or faces of a mesh (by UGRID, or as MPAS, ICON, FESOM and FVCOM
+/// call them), or of an axis x or y, as ROMS, WRF and MOM call staggered ones, too; and those that
+/// say by `mesh` and `location` that they are on a mesh.
+/// \returns true or false for each variable
+RONDEL_API std::vector<bool> are_at_places(std::span<const VariableHeader> variables);
+
+/// True for an attribute that belongs to the places of a variable or a file, or to how numbers are
+/// stored, so that values at other places do not have it: `coordinates`, `grid_mapping`, `mesh`,
+/// `_FillValue` ...
+RONDEL_API bool is_attribute_of_places(std::string_view name);
+
 /// Tells whether the attributes of a file say that its mesh is in a plane, so that its longitudes
 /// and latitudes mean nothing: `on_a_sphere = NO` of MPAS.
 /// \param texts  the global attributes that are texts

@@ -15,6 +15,8 @@
 
 #include "formats/cf_names.h"
 #include "formats/netcdf_cells.h"
+#include "formats/weight_formats.h"
+#include "rondel/named_grids.h"
 
 namespace rondel {
 namespace {
@@ -136,6 +138,29 @@ bool formats::has_mesh(std::span<const VariableHeader> variables) {
     return std::ranges::find(marks, variable.name) != marks.end() ||
            !variable.text("face_node_connectivity").empty();
   });
+}
+
+bool is_attribute_of_places(std::string_view name) {
+  constexpr std::array<std::string_view, 19> names = {"coordinates",
+                                                      "bounds",
+                                                      "climatology",
+                                                      "cell_measures",
+                                                      "grid_mapping",
+                                                      "formula_terms",
+                                                      "ancillary_variables",
+                                                      "mesh",
+                                                      "location",
+                                                      "compress",
+                                                      "interpolation",
+                                                      "grid",
+                                                      "CDI_grid_type",
+                                                      "_Unsigned",
+                                                      "_FillValue",
+                                                      "missing_value",
+                                                      grid_attribute,
+                                                      formats::source_corners_name,
+                                                      formats::target_corners_name};
+  return std::ranges::find(names, name) != names.end();
 }
 
 bool is_planar(std::span<const std::pair<std::string, std::string>> texts) {

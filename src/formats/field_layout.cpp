@@ -36,7 +36,8 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       shape_(wanted.shape.begin(), wanted.shape.end()),
       wanted_(wanted.places),
       headers_(headers_of(file)),
-      parts_of_grids_(parts_of_grids(headers_)) {
+      parts_of_grids_(parts_of_grids(headers_)),
+      are_at_places_(are_at_places(headers_)) {
   // Places that are not as many as the points cannot be compared with them.
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
   wanted_places_ =
@@ -234,6 +235,10 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
   }
   return std::ranges::any_of(
       headers_, [&](const VariableHeader& other) { return other.text("bounds") == header.name; });
+}
+
+bool FieldDimensionFinder::is_at_places(const io::VariableInFile& variable) const {
+  return are_at_places_[static_cast<std::size_t>(&variable - file_.variables().data())];
 }
 
 bool FieldDimensionFinder::is_lost(const io::VariableInFile& variable) const {

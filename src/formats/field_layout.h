@@ -93,6 +93,8 @@ class FieldDimensionFinder {
   // True if the variable is a coordinate, bounds, or a part of a mesh or grid: it is no field,
   // unless it is named.
   [[nodiscard]] bool is_auxiliary(const io::VariableInFile& variable) const;
+  // True if the values of the variable depend on place, here or elsewhere (are_at_places()).
+  [[nodiscard]] bool is_at_places(const io::VariableInFile& variable) const;
   // True if the variable is a number without dimensions, or the bounds of another axis than those
   // of the points: these are not carried to other points.
   [[nodiscard]] bool is_lost(const io::VariableInFile& variable) const;
@@ -198,6 +200,7 @@ class FieldDimensionFinder {
   std::vector<VariableHeader> headers_;
   // The headers are by variable of the file, and so are these: true for parts of grids and meshes.
   std::vector<bool> parts_of_grids_;
+  std::vector<bool> are_at_places_;
   // Places that were read. References to them stay valid when others are added.
   std::deque<KnownPlaces> known_;
   std::optional<SetsOfPlaces> sets_of_places_;

@@ -26,21 +26,13 @@
 namespace rondel::formats {
 namespace {
 
-// Attributes that say how a file stores its numbers, or which other variables belong to them.
-constexpr std::string_view attributes_of_the_file[] = {
-    "coordinates",   "bounds",        "climatology",         "cell_measures",
-    "grid_mapping",  "formula_terms", "ancillary_variables", "mesh",
-    "location",      "compress",      "interpolation",       "grid",
-    "CDI_grid_type", "_Unsigned",     "_FillValue",          "missing_value"};
-
 // Returns the texts that still hold for values at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(
     std::span<const io::NetcdfAttribute> attributes) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
-    const bool is_kept = std::ranges::find(attributes_of_the_file, attribute.name) ==
-                         std::ranges::end(attributes_of_the_file);
-    if (is_kept && !attribute.text.empty()) kept.emplace_back(attribute.name, attribute.text);
+    if (!is_attribute_of_places(attribute.name) && !attribute.text.empty())
+      kept.emplace_back(attribute.name, attribute.text);
   }
   return kept;
 }
@@ -120,6 +112,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     : file_(file),
       extras_(wanted.extras),
       max_per_block_(max_per_block),
+      are_all_wanted_(wanted.names.empty()),
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
   fields_.attributes = kept_attributes(file.attributes());
@@ -137,8 +130,9 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     throw io::BadValue("no longitudes and latitudes of variable " + io::in_quotes(named.name) +
                        remark_on_units(headers_of(file)));
   }
-  if (wanted.names.empty()) add_all();
+  wanted.names.empty() ? add_all() : keep_named();
   name_bounds();
+  name_coordinates();
   if (fields_.arrays.empty()) {
     std::string why;
     if (fields_.num_points == 0) why = remark_on_units(headers_of(file));
@@ -223,11 +217,11 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
 
 // Adds all variables that are fields, and reports the others unless they are coordinates.
 void FieldSlices::add_all() {
-  NameList without_points;
+  std::vector<ApartVariable> apart;
   NameList elsewhere;
   std::vector<std::string> refused;
   for (const io::VariableInFile& variable : file_.variables()) {
-    if (layouts_.is_lost(variable) && !keep_other(variable)) without_points.add(variable.name);
+    if (layouts_.is_lost(variable)) apart.push_back({&variable, true});
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
       if (add(variable)) continue;
@@ -239,8 +233,7 @@ void FieldSlices::add_all() {
     }
     if (layouts_.other_places().empty()) {
       // A variable at places of another number is no axis, nor bounds of one.
-      const bool is_elsewhere = !layouts_.why_not().empty();
-      if (is_elsewhere || !keep_other(variable)) without_points.add(variable.name);
+      apart.push_back({&variable, layouts_.why_not().empty()});
     } else {
       elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
     }
@@ -254,15 +247,60 @@ void FieldSlices::add_all() {
     fields_.remarks.push_back("left out, as their types are those that the file defines itself: " +
                               unread.text());
   }
-  if (!without_points.text().empty()) {
-    fields_.remarks.push_back("left out, as they have no values at the points: " +
-                              without_points.text());
-  }
+  keep_others(apart);
   if (elsewhere.text().empty()) return;
   const std::string names = layouts_.names_of_places();
   fields_.remarks.push_back("left out, as they are at other places than " +
                             (names.empty() ? "those that are wanted" : names) + ": " +
                             elsewhere.text());
+}
+
+// All fields are known here, and with them the dimensions of the points. A variable with some of
+// these, or at other places, would be wrong beside values at new points.
+void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
+  NameList without_points;
+  NameList unknown;
+  for (const ApartVariable& other : apart) {
+    const io::VariableInFile& variable = *other.variable;
+    if (other.may_be_kept && !depends_on_place(variable) && keep_other(variable)) {
+      const std::string dimension = unknown_dimension(variable);
+      if (!dimension.empty()) unknown.add(variable.name + " (" + dimension + ")");
+    } else {
+      without_points.add(variable.name);
+    }
+  }
+  if (!without_points.text().empty()) {
+    fields_.remarks.push_back("left out, as they have no values at the points: " +
+                              without_points.text());
+  }
+  if (!unknown.text().empty()) {
+    fields_.remarks.push_back(
+        "copied as they are, as nothing says that their dimensions count places: " +
+        unknown.text());
+  }
+}
+
+bool FieldSlices::depends_on_place(const io::VariableInFile& variable) const {
+  if (layouts_.is_at_places(variable)) return true;
+  return std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
+    return std::ranges::any_of(source.layout.points, [&](std::size_t d) {
+      return source.variable->shape[d] > 1 &&
+             std::ranges::count(variable.dimensions, source.variable->dimensions[d]) != 0;
+    });
+  });
+}
+
+// Fields have the dimension, too, or it has an axis, or it is that of the two bounds of a cell.
+std::string FieldSlices::unknown_dimension(const io::VariableInFile& variable) const {
+  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+    const std::size_t dimension = variable.dimensions[d];
+    const std::string& name = file_.dimensions()[dimension].name;
+    const bool is_of_fields = std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
+      return std::ranges::count(source.variable->dimensions, dimension) != 0;
+    });
+    if (variable.shape[d] > 2 && !is_of_fields && file_.find(name) == nullptr) return name;
+  }
+  return {};
 }
 
 bool FieldSlices::keep_other(const io::VariableInFile& variable) {
@@ -278,6 +316,42 @@ bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   ValueRules(variable).apply(array.values);
   fields_.others.push_back(std::move(array));
   return true;
+}
+
+void FieldSlices::keep_named() {
+  std::vector<std::string> names;
+  for (const FieldArray& axis : fields_.axes) {
+    const io::VariableInFile* const variable = file_.find(axis.name);
+    if (variable == nullptr) continue;
+    for (const char* const role : {"bounds", "climatology"}) {
+      names.push_back(io::netcdf_text(variable->attributes, role));
+    }
+  }
+  for (const SlicedVariable& source : sources_) {
+    std::ranges::move(words_of(io::netcdf_text(source.variable->attributes, "coordinates")),
+                      std::back_inserter(names));
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const io::VariableInFile* const variable = file_.find(names[k]);
+    const bool is_first =
+        std::ranges::find(names, names[k]) - names.begin() == static_cast<std::ptrdiff_t>(k);
+    const bool is_axis = std::ranges::count(fields_.axes, names[k], &FieldArray::name) != 0;
+    if (variable != nullptr && is_first && !is_axis && !depends_on_place(*variable)) {
+      keep_other(*variable);
+    }
+  }
+}
+
+void FieldSlices::name_coordinates() {
+  for (std::size_t a = 0; a < sources_.size(); ++a) {
+    std::string kept;
+    const std::vector<io::NetcdfAttribute>& attributes = sources_[a].variable->attributes;
+    for (const std::string& name : words_of(io::netcdf_text(attributes, "coordinates"))) {
+      if (std::ranges::count(fields_.others, name, &FieldArray::name) == 0) continue;
+      kept += (kept.empty() ? "" : " ") + name;
+    }
+    if (!kept.empty()) fields_.arrays[a].attributes.emplace_back("coordinates", kept);
+  }
 }
 
 void FieldSlices::name_bounds() {
@@ -385,7 +459,7 @@ void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& blo
 // Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
 // as in tables.
 void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
-                         std::size_t first_point) {
+                         std::size_t first_point) const {
   source.rules.apply(values);
   const auto infinite =
       std::ranges::find_if(values, [](double value) { return std::isinf(value); });
@@ -395,7 +469,10 @@ void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
       (*infinite > 0 ? "inf" : "-inf") + " at point " +
       std::to_string((first_point + static_cast<std::size_t>(infinite - values.begin())) %
                      source.num_points) +
-      " is not finite");
+      " is not finite" +
+      (are_all_wanted_ && sources_.size() > 1
+           ? "; --value NAME (names=NAME in Python) takes other variables alone"
+           : ""));
 }
 
 void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {

@@ -58,10 +58,25 @@ class FieldSlices {
   void add_with_layout(const io::VariableInFile& variable, FieldDimensions layout);
   // Adds all fields of the file, with remarks on the variables that are left out.
   void add_all();
+  // A variable that is no field at the points. It may not be kept if it is at other places.
+  struct ApartVariable {
+    const io::VariableInFile* variable;
+    bool may_be_kept;
+  };
+  // Adds to `others` what does not depend on place, with remarks on the rest.
+  void keep_others(std::span<const ApartVariable> apart);
+  // True if the variable has a dimension of the points, or of any other places.
+  [[nodiscard]] bool depends_on_place(const io::VariableInFile& variable) const;
+  // Returns a dimension of the variable of which nothing says what it counts, or an empty text.
+  [[nodiscard]] std::string unknown_dimension(const io::VariableInFile& variable) const;
   // Adds a variable that has no points to `others`; returns false if it is left out.
   bool keep_other(const io::VariableInFile& variable);
+  // Adds to `others` the bounds of axes, and what the fields name as coordinates without places.
+  void keep_named();
   // Names the bounds of axes that are among `others`.
   void name_bounds();
+  // Names the coordinates of fields that are among `others`, such as a height.
+  void name_coordinates();
   // Adds to `axes` the coordinates along the leading dimensions of a variable.
   void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                 std::vector<FieldArray>& axes);
@@ -72,14 +87,15 @@ class FieldSlices {
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
   // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.
-  static void unpack(const SlicedVariable& source, std::span<double> values,
-                     std::size_t first_point = 0);
+  void unpack(const SlicedVariable& source, std::span<double> values,
+              std::size_t first_point = 0) const;
   // Reads a block into block_, unless it is there.
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;
   FieldExtras extras_;
   std::size_t max_per_block_;
+  bool are_all_wanted_;  // no names were given
   FieldDimensionFinder layouts_;
   FieldSet fields_;
   std::vector<SlicedVariable> sources_;  // by array

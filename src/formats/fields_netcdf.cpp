@@ -34,6 +34,16 @@ std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
   return attributes;
 }
 
+// Adds longitudes and latitudes to the coordinates that an array has already, such as a height.
+void add_places(std::vector<io::NetcdfAttribute>& attributes) {
+  const auto known = std::ranges::find(attributes, "coordinates", &io::NetcdfAttribute::name);
+  if (known == attributes.end()) {
+    attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
+  } else {
+    known->text.insert(0, "lon lat ");
+  }
+}
+
 // Writes the points of a side, as a longitude-latitude grid or as a list.
 class PointsOut {
  public:
@@ -195,9 +205,7 @@ class NetcdfSink : public FieldSink {
       if (fields.is_fill_marked) {
         attributes.push_back({"_FillValue", type_of(array), {}, {fields.fill}});
       }
-      if (points_.needs_coordinates()) {
-        attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
-      }
+      if (points_.needs_coordinates()) add_places(attributes);
       out_.add_variable({names[a], type_of(array), std::move(dimensions), attributes});
       sizes_.push_back({array.num_fields() * fields.num_points, array.is_single});
     }

@@ -51,6 +51,11 @@ std::vector<VariableHeader> headers_from(ByteSource& source) {
 void test_variables(const std::vector<VariableHeader>& headers) {
   const std::vector<bool> is_part = parts_of_grids(headers);
   require(is_part.size() == headers.size(), "each variable has an answer");
+  const std::vector<bool> depends_on_place = are_at_places(headers);
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    require(!depends_on_place[i] || !headers[i].dimensions.empty(),
+            "a number has no dimension of places");
+  }
   for (std::size_t i = 0; i < headers.size(); ++i) {
     const std::vector<CoordinatePair> pairs = coordinates_of(headers, i);
     const auto is_listed = [](const CoordinatePair& pair) { return pair.is_listed; };
@@ -60,6 +65,7 @@ void test_variables(const std::vector<VariableHeader>& headers) {
     require(std::ranges::none_of(pairs, is_listed) || std::ranges::all_of(pairs, is_listed) ||
                 std::ranges::all_of(pairs, has_it),
             "the attribute coordinates has the last word");
+    (void)is_attribute_of_places(headers[i].name);
     (void)is_planar(headers[i].texts);
   }
 }

@@ -143,6 +143,13 @@ void add_conventions(nb::module_& module) {
       [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
       nb::arg("headers"));
   module.def(
+      "are_at_places",
+      [](const std::vector<HeaderIn>& in) { return are_at_places(headers_of(in)); },
+      nb::arg("headers"));
+  module.def(
+      "is_attribute_of_places",
+      [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));
+  module.def(
       "is_planar",
       [](const std::vector<std::pair<std::string, std::string>>& texts) {
         return is_planar(texts);

@@ -484,6 +484,39 @@ TEST(conventions, variables_of_grids_are_no_fields) {
   EXPECT_EQ(parts_of_grids(headers), std::vector<bool>(5));
 }
 
+TEST(conventions, variables_depend_on_place_by_their_dimensions) {
+  const std::vector<VariableHeader> headers = {
+      header("mesh", {},
+             {{"cf_role", "mesh_topology"},
+              {"node_coordinates", "px py"},
+              {"edge_node_connectivity", "ends"},
+              {"face_node_connectivity", "faces"},
+              {"face_dimension", "f"}}),
+      header("px", {"p"}),
+      header("py", {"p"}),
+      header("ends", {"s", "two"}),
+      header("faces", {"most", "f"}),
+      header("of_nodes", {"time", "p"}),
+      header("of_edges", {"s"}),
+      header("of_faces", {"f"}),
+      header("said", {"q"}, {{"mesh", "mesh"}, {"location", "edge"}}),
+      header("time_bnds", {"time", "two"}),
+      header("hyai", {"ilev"}),
+      header("crs", {})};
+  EXPECT_EQ(are_at_places(headers), (std::vector<bool>{false, true, true, true, true, true, true,
+                                                       true, true, false, false, false}));
+  // Longitudes of a track have a time, which is no dimension of places; staggered axes are.
+  const std::vector<VariableHeader> others = {
+      header("lon", {"time"}),     header("lat", {"time"}),
+      header("series", {"time"}),  header("u", {"xi_u"}),
+      header("v", {"eta_v"}),      header("w", {"west_east_stag"}),
+      header("nv", {"nVertices"}), header("second", {"ncells_2"}),
+      header("q", {"yq"}),         header("yy", {"yy"}, {{"axis", "Y"}}),
+      header("z", {"yy"}),         header("lev", {"lev"})};
+  EXPECT_EQ(are_at_places(others), (std::vector<bool>{false, false, false, true, true, true, true,
+                                                      true, true, true, true, false}));
+}
+
 TEST(conventions, planes_are_named_by_an_attribute) {
   EXPECT_TRUE(is_planar(Texts{{"on_a_sphere", "NO"}}));
   EXPECT_TRUE(is_planar(Texts{{"title", "no"}, {"on_a_sphere", " no  "}}));
