@@ -67,8 +67,10 @@ class CfGrids {
       const bool may_be_made = std::ranges::any_of(pairs_, [&](const CoordinatePair& pair) {
         return headers_[pair.lon].dimensions.size() > 1;
       });
-      throw BadValue(std::string("its longitudes and latitudes have no bounds, so no cells") +
-                     (may_be_made ? "; corners = made makes them from the centers" : ""));
+      throw BadValue(
+          std::string("its longitudes and latitudes have no bounds, so no cells") +
+          (may_be_made ? "; --corners made (corners='made' in Python) makes them from the centers"
+                       : "; rondel regrid --source NAME says on which named grid they are"));
     }
     if (found != pairs_.begin()) require_same_places(pairs_.front(), *found);
     tell_of_others(*found);

@@ -26,6 +26,10 @@ namespace {
 // Places of one file are the same up to rounding of single precision.
 constexpr double max_apart_deg = 1e-4;
 
+constexpr const char* needs_common_nodes =
+    "the method native needs a mesh whose cells have common nodes, as UGRID, MPAS, ICON, ESMF and "
+    "Exodus have them; ";
+
 // Returns the name of the mesh that a name means: the topology of UGRID, or nothing for the only
 // mesh of a file of another convention.
 std::string mesh_of(const io::NetcdfReader& file, const std::string& name) {
@@ -114,13 +118,14 @@ NativeCells read_native_cells(const FileName& file, std::span<const LonLat> plac
     }
     const io::NetcdfReader reader(bytes);
     const std::string mesh_name = mesh_of(reader, io::full_name(reader.variables(), part.second));
+    if (!formats::has_mesh(formats::headers_of(reader))) {
+      throw io::BadValue(needs_common_nodes +
+                         std::string("this file has none, and linear takes any places"));
+    }
     formats::MeshContent mesh = formats::read_by_convention(reader, mesh_name);
     for (const std::string_view convention : {"CF", "SCRIP", "OASIS"}) {
       if (mesh.convention == convention) {
-        throw io::BadValue(
-            "the method native needs a mesh whose cells have common nodes, as UGRID, "
-            "MPAS, ICON, ESMF and Exodus have them; this is a grid of " +
-            mesh.convention);
+        throw io::BadValue(needs_common_nodes + ("this is a grid of " + mesh.convention));
       }
     }
     if (are_places(mesh.nodes, places)) return faces_of(std::move(mesh), places);

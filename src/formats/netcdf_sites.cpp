@@ -80,6 +80,26 @@ std::vector<LonLat> middles_for(const FileName& file, const std::string& variabl
                      [&] { return formats::middles_of_edges(io::NetcdfReader(bytes), variable); });
 }
 
+// Returns the centers of mass of the faces on which a variable is whose file has no places of faces,
+// with what was left out.
+NetcdfSites centers_for(const FileName& file, const std::string& variable) {
+  NetcdfSites sites;
+  if (variable.empty()) return sites;
+  io::FileBytes bytes(file, true);
+  const CellSet cells = CellSet::of(io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    const io::VariableInFile& values = reader.require(variable);
+    const bool is_on_faces = io::netcdf_text(values.attributes, "location") == "face" &&
+                             !io::netcdf_text(values.attributes, "mesh").empty();
+    return is_on_faces ? formats::cells_in(reader, bytes.name(), variable) : CellTable();
+  }));
+  if (cells.num_cells() == 0 || !cells.facts().given_centers().empty()) return sites;
+  sites.table.positions = cells.places();
+  sites.mask = cells.facts().mask;
+  sites.remarks = cells.facts().remarks;
+  return sites;
+}
+
 // Returns an array with one value at each site as a column; missing values are empty cells.
 Column column_of(const FieldArray& array) {
   Column column;
@@ -143,6 +163,7 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
     sites = std::move(*centers);
   } else {
     sites.table.positions = middles_for(file, named.name);
+    if (sites.table.positions.empty()) sites = centers_for(file, named.name);
   }
   const std::size_t num_centers = sites.table.positions.size();
   // The fields are needed if they give the sites or the columns, or if the name picks one of
