@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "formats/regrid_plan.h"
+#include "formats/weight_formats.h"
+
 namespace rondel::formats {
 namespace {
 

@@ -15,9 +15,6 @@
 
 namespace rondel::formats {
 
-// Places that are compared with those of the fields' file; more are known by their number alone.
-inline constexpr std::size_t max_compared = std::size_t{1} << 24U;
-
 // Returns the variables that are wanted: those that are named, or the one that `in` names (FILE.nc:NAME).
 // None stand for all at the places of the side.
 std::vector<std::string> wanted_variables(const FileName& in,

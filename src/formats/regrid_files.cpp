@@ -171,39 +171,12 @@ class RegridJob {
                                                   : FieldMethod::conservative;
   }
 
-  // Returns the bytes of conservative weights, which were measured and rounded up. Cells between
-  // parallels are never made.
-  [[nodiscard]] formats::RegridCost cost_of_cells(bool is_second) const {
-    const bool are_boxes = source_.has_parallels() && target_.has_parallels();
-    const auto of_side = [&](const RegridSide& side) -> std::uint64_t {
-      if (are_boxes) return is_second ? 500 : 140;
-      if (!side.has_parallels()) return is_second ? 1200 : 550;
-      return is_second ? 500 : 230;
-    };
-    const auto beside = [](const RegridSide& side) -> std::uint64_t {
-      if (side.has_parallels()) return 0;
-      return side.num_stored() > 0 ? 300 : 12;  // a set of cells, and an index by latitude
-    };
-    // Places of fields are compared when their file is opened.
-    const std::uint64_t of_compared = source_.axes() != nullptr ? 40 : 110;
-    const bool are_compared = source_.num_places() <= formats::max_compared;
-    const std::uint64_t of_place = target_.axes() == nullptr ? sizeof(LonLat) : 0;
-    return {.of_source = of_side(source_),
-            .of_target = of_side(target_),
-            .of_source_beside = beside(source_),
-            .of_target_beside = beside(target_) + of_place,
-            .of_cell_in_tile = bytes_in_tile(),
-            .of_source_opened = are_compared ? of_compared : 0};
-  }
-
-  // Returns the bytes of a cell in a tile, the mean of both sides. Sources between parallels have
-  // nothing but their pieces in other cells.
-  [[nodiscard]] std::uint64_t bytes_in_tile() const {
-    constexpr std::uint64_t of_cell = 400;
-    constexpr std::uint64_t of_pieces = 70;
-    if (!source_.has_parallels() || target_.has_parallels()) return of_cell;
-    const std::uint64_t cells = std::max<std::uint64_t>(report_.sources + report_.targets, 1);
-    return (of_pieces * report_.sources + of_cell * report_.targets) / cells + 1;
+  // Returns what the cost of cells depends on.
+  [[nodiscard]] static formats::RegridCells facts_of(const RegridSide& side) {
+    return {.cells = side.num_places(),
+            .have_parallels = side.has_parallels(),
+            .have_axes = side.axes() != nullptr,
+            .are_stored = side.num_stored() > 0};
   }
 
   // True if a tile needs consecutive sources. Extrapolation needs all of them.
@@ -233,7 +206,7 @@ class RegridJob {
       task.has_windows = has_windows();
       task.largest_target = target_.largest_share();
       task.rows = target_.has_parallels() ? target_.axes()->lat_deg.size() : 1;
-      task.cost = cost_of_cells(is_second);
+      task.cost = formats::cost_of_cells(facts_of(source_), facts_of(target_), is_second);
     } else {
       task.has_tiles = true;
       task.is_in_order = true;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "rondel/error.h"
+#include "rondel/types.h"
 
 namespace rondel::formats {
 namespace {
@@ -111,6 +112,38 @@ RegridPlan plan_to_carry(const RegridTask& task) {
 }
 
 }  // namespace
+
+RegridCost cost_of_cells(const RegridCells& source, const RegridCells& target, bool is_second) {
+  const bool are_boxes = source.have_parallels && target.have_parallels;
+  const auto of_side = [&](const RegridCells& side) -> std::uint64_t {
+    if (are_boxes) return is_second ? 500 : 140;
+    if (!side.have_parallels) return is_second ? 1200 : 550;
+    return is_second ? 500 : 230;
+  };
+  const auto beside = [](const RegridCells& side) -> std::uint64_t {
+    if (side.have_parallels) return 0;
+    return side.are_stored ? 300 : 12;  // a set of cells, and an index by latitude
+  };
+  // Places of fields are compared when their file is opened.
+  const std::uint64_t of_compared = source.have_axes ? 40 : 110;
+  const bool are_compared = source.cells <= max_compared;
+  const std::uint64_t of_place = target.have_axes ? 0 : sizeof(LonLat);
+  // The bytes of a cell in a tile are the mean of both sides. Sources between parallels have nothing
+  // but their pieces in other cells.
+  constexpr std::uint64_t of_cell = 400;
+  constexpr std::uint64_t of_pieces = 70;
+  const std::uint64_t cells = std::max<std::uint64_t>(source.cells + target.cells, 1);
+  const std::uint64_t in_tile =
+      !source.have_parallels || target.have_parallels
+          ? of_cell
+          : (of_pieces * source.cells + of_cell * target.cells) / cells + 1;
+  return {.of_source = of_side(source),
+          .of_target = of_side(target),
+          .of_source_beside = beside(source),
+          .of_target_beside = beside(target) + of_place,
+          .of_cell_in_tile = in_tile,
+          .of_source_opened = are_compared ? of_compared : 0};
+}
 
 RegridPlan plan_of(const RegridTask& task) {
   const RegridPlan plan = plan_to_carry(task);

@@ -27,6 +27,20 @@ struct RegridCost {
   std::uint64_t of_source_opened = 0;  // while the file of the fields is opened, before all else
 };
 
+// Places that are compared with those of the fields' file; more are known by their number alone.
+inline constexpr std::size_t max_compared = std::size_t{1} << 24U;
+
+// What the cost of the cells of a side depends on.
+struct RegridCells {
+  std::uint64_t cells = 0;
+  bool have_parallels = false;  // they are between meridians and parallels, and never made
+  bool have_axes = false;
+  bool are_stored = false;  // no formula has them
+};
+
+// Returns the bytes of conservative weights, which were measured and rounded up.
+RegridCost cost_of_cells(const RegridCells& source, const RegridCells& target, bool is_second);
+
 struct RegridTask {
   RegridCost cost;
   std::uint64_t sources = 0;
