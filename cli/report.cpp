@@ -79,6 +79,10 @@ void tell(const std::string& file, const std::vector<std::string>& remarks) {
   }
 }
 
+void tell(const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) std::fprintf(stderr, "rondel: %s\n", remark.c_str());
+}
+
 std::string text_of_seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", seconds);

@@ -30,6 +30,8 @@ inline constexpr const char* no_points = "there are no points";
 /// Writes a reader's remarks on a file to standard error, one a line: "rondel: mesh.nc: 3 of 162
 /// cells are ...".
 void tell(const std::string& file, const std::vector<std::string>& remarks);
+/// Writes remarks that begin with the names of their files: "rondel: mesh.nc: 3 of 162 ...".
+void tell(const std::vector<std::string>& remarks);
 
 /// Returns the JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated`
 /// is the number of features of the input that have no geometry, `without_value` that of vertices

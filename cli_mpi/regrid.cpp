@@ -118,7 +118,7 @@ void regrid(Communicator& ranks, const RegridArguments& arguments, const Executi
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   if (ranks.rank() != 0) return;
   for (const std::string& remark : report.remarks) {
-    std::fprintf(stderr, "rondel-mpi: %s: %s\n", arguments.in.c_str(), remark.c_str());
+    std::fprintf(stderr, "rondel-mpi: %s\n", remark.c_str());
   }
   const auto number = [](std::uint64_t value) { return std::to_string(value); };
   if (arguments.is_json) {

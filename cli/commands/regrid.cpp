@@ -60,7 +60,7 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
     done_work = regrid_file(common.source(), {options.target, {}}, common.target(), regrid,
                             job.execution());
   });
-  tell(common.input, done_work.remarks);
+  tell(done_work.remarks);
   const nlohmann::ordered_json json = {{"sources", done_work.sources},
                                        {"targets", done_work.targets},
                                        {"fields", done_work.fields},
@@ -71,7 +71,9 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
                                        {"seconds", {{"total", job.seconds().total}}},
                                        {"peak_memory_bytes", peak_memory_bytes()}};
   const std::string extrapolated =
-      regrid.extrapolation ? "; extrapolated: " + std::to_string(done_work.extrapolated) : "";
+      regrid.extrapolation ? "; extrapolated: " + std::to_string(done_work.extrapolated) +
+                                 (done_work.resumed > 0 ? " by this run" : "")
+                           : "";
   const std::string resumed =
       done_work.resumed == 0
           ? std::string()

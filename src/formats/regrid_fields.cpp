@@ -42,7 +42,8 @@ std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std
 }
 
 FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
-                           const RegridSide& target, const std::string& history) {
+                           const RegridSide& source, const RegridSide& target,
+                           const std::string& history) {
   FieldSet fields;
   fields.num_points = target.num_places();
   fields.arrays = std::move(arrays);
@@ -51,18 +52,30 @@ FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
   fields.attributes = in.attributes;
   fields.dimension = "cell";
   target.add_mapping(fields);
+  const auto tell = [&](const RegridSide& side, const char* name) {
+    if (side.are_corners_made()) fields.attributes.emplace_back(name, made_corners_text);
+  };
+  tell(source, source_corners_name);
+  tell(target, target_corners_name);
   add_history(history, fields);
   return fields;
 }
 
-std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& target,
-                                    const FieldSet& fields) {
-  std::vector<std::string> all;
-  for (const auto& remarks : {source.remarks(), target.remarks(), fields.remarks}) {
-    for (const std::string& remark : remarks) {
-      if (std::ranges::count(all, remark) == 0) all.push_back(remark);
-    }
+void add_remarks(const std::string& file, const std::vector<std::string>& remarks,
+                 std::vector<std::string>& all) {
+  for (const std::string& remark : remarks) {
+    const std::string text = file + ": " + remark;
+    if (std::ranges::count(all, text) == 0) all.push_back(text);
   }
+}
+
+std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& target,
+                                    const std::string& file, const FieldSet& fields) {
+  std::vector<std::string> all;
+  for (const RegridSide* const side : {&source, &target}) {
+    add_remarks(file_and_variable({side->name(), {}}).first.path, side->remarks(), all);
+  }
+  add_remarks(file, fields.remarks, all);
   return all;
 }
 

@@ -24,13 +24,18 @@ std::vector<std::string> wanted_variables(const FileName& in,
 std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
                                        const RegridSide& side);
 
-// Returns arrays at the targets, with what the input has beside its fields, and a line in front of
-// the attribute `history` unless it is empty.
+// Returns arrays at the targets, with what the input has beside its fields, the attributes that tell of
+// corners that were made, and a line in front of the attribute `history` unless it is empty.
 FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
-                           const RegridSide& target, const std::string& history);
+                           const RegridSide& source, const RegridSide& target,
+                           const std::string& history);
 
-// Returns the remarks of both sides and of the fields, each once.
+// Adds remarks about a file, each with its name and once.
+void add_remarks(const std::string& file, const std::vector<std::string>& remarks,
+                 std::vector<std::string>& all);
+
+// Returns the remarks of both sides and of the fields, which are those of `file`.
 std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& target,
-                                    const FieldSet& fields);
+                                    const std::string& file, const FieldSet& fields);
 
 }  // namespace rondel::formats

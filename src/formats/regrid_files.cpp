@@ -24,7 +24,6 @@
 #include "formats/regrid_processes.h"
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
-#include "formats/weight_formats.h"
 #include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -89,11 +88,10 @@ class RegridJob {
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     const FieldSet& in = fields_->fields();
-    FieldSet written =
-        formats::fields_at_targets(in, std::vector(in.arrays), target_, options_.history);
+    const FieldSet written =
+        formats::fields_at_targets(in, std::vector(in.arrays), source_, target_, options_.history);
     make_plan();
     const bool is_netcdf = is_netcdf_file(out_);
-    tell_of_corners(written);
     const WeightSide side = target_.description(is_netcdf);
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
@@ -138,7 +136,7 @@ class RegridJob {
       throw FileError(std::string(error.what()) +
                       "; means over cells need values of cells, and other methods take any places");
     }
-    report_.remarks = formats::remarks_of(source_, target_, fields_->fields());
+    report_.remarks = formats::remarks_of(source_, target_, fields_name_, fields_->fields());
   }
 
   // Sums what all processes have extrapolated.
@@ -154,13 +152,6 @@ class RegridJob {
       report_.extrapolated += of_rank;
     }
     ranks_.number_of_first(0);
-  }
-
-  void tell_of_corners(FieldSet& written) const {
-    const std::string text(formats::made_corners_text);
-    const auto tell = [&](const char* name) { written.attributes.emplace_back(name, text); };
-    if (source_.are_corners_made()) tell(formats::source_corners_name);
-    if (target_.are_corners_made()) tell(formats::target_corners_name);
   }
 
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {
@@ -225,12 +216,11 @@ class RegridJob {
       plan_.fields_at_once = std::min(plan_.fields_at_once, fields_to_lose);
     }
     if (task.tile > 0 && !plan_.has_tiles) {
-      report_.remarks.emplace_back(
-          is_second
-              ? "the number of cells of a tile has no effect: weights of order 2 are computed as a "
-                "whole"
-              : "the number of cells of a tile has no effect: cells overlap, or neither side "
-                "covers the sphere or is between parallels");
+      const std::string why = is_second ? "weights of order 2 are computed as a whole"
+                                        : "cells overlap, or neither side covers the sphere or is "
+                                          "between parallels";
+      formats::add_remarks(fields_name_, {"the number of cells of a tile has no effect: " + why},
+                           report_.remarks);
     }
   }
 

@@ -141,7 +141,8 @@ class ZonalJob {
                 execution),
         target_(target, options.cells, true, execution),
         fields_(open_fields(in, wanted_variables(in, options.names), source_)) {
-    report_.remarks = remarks_of(source_, target_, fields_->fields());
+    report_.remarks =
+        remarks_of(source_, target_, file_and_variable(in).first.path, fields_->fields());
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     RemapOptions rules;
@@ -157,7 +158,8 @@ class ZonalJob {
         arrays.push_back(array_of_statistic(array, statistic));
       }
     }
-    const FieldSet written = fields_at_targets(in, std::move(arrays), target_, options_.history);
+    const FieldSet written =
+        fields_at_targets(in, std::move(arrays), source_, target_, options_.history);
     const WeightSide side = target_.description(is_netcdf_file(out));
     RegridOutput output(out, written, side, options_.netcdf);
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {

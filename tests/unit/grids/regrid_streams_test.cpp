@@ -172,8 +172,8 @@ TEST(regrid_streams, weights_without_tiles_need_their_memory) {
   EXPECT_EQ(report.tiles, 0U);
   ASSERT_EQ(report.remarks.size(), 1U);
   EXPECT_EQ(report.remarks[0],
-            "the number of cells of a tile has no effect: weights of order 2 are computed as a "
-            "whole");
+            in + ": the number of cells of a tile has no effect: weights of order 2 are computed "
+                 "as a whole");
 }
 
 TEST(regrid_streams, a_resumed_run_has_the_bytes_of_one_that_was_not_cut) {
