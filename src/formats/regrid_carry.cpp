@@ -62,6 +62,7 @@ class TileCarrier::SourceValues {
     if (job.has_windows) return;
     whole_.resize(count * job.sources);
     job.file.read(job.array, first, whole_);
+    take_values_that_are_there(job.coincident, job.sources, whole_);
   }
   // Returns the values of all fields at all sources, unless they are read when they are asked for.
   [[nodiscard]] std::span<const double> whole() const { return whole_; }

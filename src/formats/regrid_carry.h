@@ -35,6 +35,7 @@ struct ArrayToCarry {
   // sources, so tiles must not have windows.
   using Complete = std::function<void(std::span<const double> values, std::span<double> carried)>;
   Complete complete = {};
+  std::span<const Duplicate> coincident = {};  // PlaceTiles::coincident(), without windows
 };
 
 // True if so much of a target is covered that it has a value.

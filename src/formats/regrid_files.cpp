@@ -277,9 +277,9 @@ class RegridJob {
     if (!options_.source && !names_.empty()) mesh.path += ":" + names_.front();
     auto made =
         std::make_unique<formats::PlaceTiles>(source_, target_, method, mesh, per_tile, execution_);
-    for (const std::string& remark : made->remarks()) {
-      if (std::ranges::count(report_.remarks, remark) == 0) report_.remarks.push_back(remark);
-    }
+    formats::add_remarks(file_and_variable(mesh_file_).first.path, made->remarks(),
+                         report_.remarks);
+    coincident_ = made->coincident();
     return made;
   }
 
@@ -290,6 +290,7 @@ class RegridJob {
       carry_slices(array, num_fields, method, output);
       return;
     }
+    const formats::RegridTiles& weights = tiles(method);
     const formats::ArrayToCarry job{.file = *fields_,
                                     .array = array,
                                     .num_fields = num_fields,
@@ -299,8 +300,9 @@ class RegridJob {
                                     .is_largest_share = method == FieldMethod::largest_share,
                                     .max_missing = options_.max_missing,
                                     .keeps_sums = keeps_sums(),
-                                    .complete = completing()};
-    formats::TileCarrier(tiles(method), plan_, job, output, ranks_, execution_).run();
+                                    .complete = completing(),
+                                    .coincident = coincident_};
+    formats::TileCarrier(weights, plan_, job, output, ranks_, execution_).run();
   }
 
   // Returns what extrapolates whole fields; nothing if that is not asked for.
@@ -367,7 +369,8 @@ class RegridJob {
     formats::deal_units(
         ranks_, 0, num_slices,
         [&](std::size_t slice) {
-          carried = carried_slice(read(slice), method);
+          std::vector<double> values = read(slice);
+          carried = carried_slice(values, method);
           system::announce(execution_, "regrid", end_of(slice), num_fields);
           const auto bytes = std::as_bytes(std::span<const double>(carried));
           return RegridRanks::Message(bytes.begin(), bytes.end());
@@ -379,8 +382,12 @@ class RegridJob {
         });
   }
 
-  std::vector<double> carried_slice(const std::vector<double>& values, FieldMethod method) {
+  // Missing values are replaced by others at the same place.
+  std::vector<double> carried_slice(std::vector<double>& values, FieldMethod method) {
     const Weights& weights = weights_of(method);
+    if (!coincident_.empty()) {
+      formats::take_values_that_are_there(coincident_, report_.sources, values);
+    }
     const std::size_t count = report_.sources == 0 ? 0 : values.size() / report_.sources;
     std::vector<double> carried(count * report_.targets);
     const ApplyOptions rules{
@@ -465,6 +472,7 @@ class RegridJob {
   std::optional<Remap> second_;  // of order 2, if its values are limited
   formats::RegridPlan plan_;
   std::unique_ptr<formats::RegridTiles> tiles_;
+  std::vector<Duplicate> coincident_;  // sources that share a place
   std::optional<Extrapolator> filler_;
   RegridFileReport report_;
 };

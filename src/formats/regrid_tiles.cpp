@@ -26,9 +26,12 @@ PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, Field
       targets_(target.places()) {
   if (method == FieldMethod::native) {
     native_ = read_native_cells(mesh, source.places());
+    remarks_ = native_.remarks;
   } else if (method != FieldMethod::bilinear) {
     triangulate(execution);
-  } else if (source.axes() == nullptr) {
+  } else if (source.axes() != nullptr) {
+    find_repeated_columns();
+  } else {
     throw FileError(source.name() +
                     ": the method bilinear needs a grid along axes of longitude and latitude; "
                     "linear takes any places");
@@ -77,7 +80,52 @@ void PlaceTiles::triangulate(const Execution& execution) {
     numbers_.push_back(static_cast<Index>(i));
     sites.push_back(unit_vector(places[i]));
   }
-  interpolator_.emplace(delaunay(sites, {}, execution));
+  Triangulation triangulation = delaunay(sites, {}, execution);
+  std::size_t num_told = 0;
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    const Duplicate pair{numbers_[site], numbers_[representative]};
+    coincident_.push_back(pair);
+    if (!is_usual(places[pair.site], places[pair.representative])) ++num_told;
+  }
+  interpolator_.emplace(std::move(triangulation));
+  if (num_told == 0) return;
+  remarks_.push_back(std::to_string(num_told) + " of " + std::to_string(places.size()) +
+                     " places are those of others before them; at each place the first value that "
+                     "is there counts");
+}
+
+// A grid along axes has as many points at a pole as anywhere, and may go around the globe.
+bool PlaceTiles::is_usual(const LonLat& a, const LonLat& b) const {
+  if (source_.axes() == nullptr) return false;
+  return std::abs(a.lat_deg) == 90 || std::abs(a.lon_deg - b.lon_deg) > 180;
+}
+
+void PlaceTiles::find_repeated_columns() {
+  constexpr double apart_deg = 1e-4;  // as bilinear_weights() has it
+  const LonLatAxes& axes = *source_.axes();
+  const std::vector<double>& lons = axes.lon_deg;
+  std::vector<std::pair<double, Index>> columns;  // by longitude within a turn
+  std::vector<Index> first;
+  for (std::size_t c = 0; c < lons.size(); ++c) {
+    const double turns = std::floor((lons[c] + apart_deg) / 360);
+    columns.emplace_back(lons[c] - 360 * turns, static_cast<Index>(c));
+    first.push_back(static_cast<Index>(c));
+  }
+  std::ranges::sort(columns);
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const auto [east, column] = columns[k];
+    const auto [before, other] = columns[k - 1];
+    const bool is_turn_later = std::abs(lons[column] - lons[other]) > 180;
+    if (east - before > apart_deg || !is_turn_later) continue;
+    first[column] = first[other] = std::min({first[other], column, other});
+  }
+  const std::size_t num_columns = lons.size();
+  for (std::size_t row = 0; row < axes.lat_deg.size(); ++row) {
+    const auto begin = static_cast<Index>(row * num_columns);
+    for (Index c = 0; c < static_cast<Index>(num_columns); ++c) {
+      if (first[c] != c) coincident_.push_back({begin + c, begin + first[c]});
+    }
+  }
 }
 
 std::size_t PlaceTiles::num_tiles() const {
@@ -117,6 +165,18 @@ Weights PlaceTiles::weights_at(std::span<const LonLat> places, const Execution& 
   for (Index& column : weights.columns) column = numbers_[column];
   weights.num_columns = source_.num_places();
   return weights;
+}
+
+void take_values_that_are_there(std::span<const Duplicate> coincident, std::size_t sources,
+                                std::span<double> values) {
+  for (; !values.empty(); values = values.subspan(sources)) {
+    for (const auto& [site, representative] : coincident) {
+      if (std::isnan(values[representative])) values[representative] = values[site];
+    }
+    for (const auto& [site, representative] : coincident) {
+      if (std::isnan(values[site])) values[site] = values[representative];
+    }
+  }
 }
 
 }  // namespace rondel::formats

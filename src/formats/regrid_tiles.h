@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,10 +70,17 @@ class PlaceTiles : public RegridTiles {
   [[nodiscard]] std::size_t num_tiles() const override;
   [[nodiscard]] std::size_t num_targets(std::size_t tile) const override;
   [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const override;
-  [[nodiscard]] const std::vector<std::string>& remarks() const { return native_.remarks; }
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  // Returns the sources that share the place of another one, which counts in their stead, in
+  // ascending order.
+  [[nodiscard]] const std::vector<Duplicate>& coincident() const { return coincident_; }
 
  private:
   void triangulate(const Execution& execution);
+  // True if nobody wonders that a grid has two points in one place.
+  [[nodiscard]] bool is_usual(const LonLat& a, const LonLat& b) const;
+  // Finds the columns of a grid that repeat others a turn later.
+  void find_repeated_columns();
   [[nodiscard]] Weights weights_at(std::span<const LonLat> places,
                                    const Execution& execution) const;
 
@@ -84,6 +92,13 @@ class PlaceTiles : public RegridTiles {
   std::vector<Index> numbers_;  // the source of each site of the triangulation
   std::optional<Interpolator> interpolator_;
   NativeCells native_;
+  std::vector<Duplicate> coincident_;
+  std::vector<std::string> remarks_;
 };
+
+// Gives each source without a value the first value at its place, field by field: a missing value
+// never hides one that is there. `values` are those of whole fields at all sources.
+void take_values_that_are_there(std::span<const Duplicate> coincident, std::size_t sources,
+                                std::span<double> values);
 
 }  // namespace rondel::formats

@@ -198,6 +198,141 @@ class Regrid(unittest.TestCase):
             self.assertEqual(tiles["extrapolated"], whole["extrapolated"])
             self.assertEqual((self.folder / "tiles.nc").read_bytes(), (self.folder / "whole.nc").read_bytes())
 
+    def lines_of(self, *arguments, **options):
+        """What is written to standard error, line by line, without the tool's name."""
+        return [line.removeprefix("rondel: ") for line in self.regrid(*arguments, **options).stderr.splitlines()]
+
+    def write_elsewhere(self, names, **dimensions):
+        """Adds variables along other dimensions to a file of cells: {name: (dimensions, attributes)}."""
+        with netCDF4.Dataset(self.folder / "elsewhere.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for dimension, size in {"lat": 18, "lon": 36, "time": 2, **dimensions}.items():
+                file.createDimension(dimension, size)
+            for axis, values, units in (("lat", np.arange(-85.0, 90, 10), "north"), ("lon", np.arange(5.0, 360, 10), "east")):
+                variable = file.createVariable(axis, "f8", (axis,))
+                variable.units = f"degrees_{units}"
+                variable[:] = values
+            file.createVariable("t", "f8", ("time", "lat", "lon"))[:] = 1.0
+            for name, (own, attributes) in names.items():
+                variable = file.createVariable(name, "f8", own)
+                variable.setncatts(attributes)
+                variable[:] = 7.0
+
+    def test_what_is_at_other_places_is_left_out_and_told(self):
+        away = {
+            "zm": (("time", "lat"), {}),
+            "of_edges": (("nEdges",), {}),
+            "of_vertices": (("time", "nVertices"), {}),
+            "u": (("eta_u", "xi_u"), {}),
+            "w": (("south_north_stag",), {}),
+            "said": (("parts",), {"mesh": "m", "location": "edge"}),
+        }
+        kept = {"series": (("time",), {}), "time_bnds": (("time", "bnds"), {}), "height": ((), {"units": "m"}), "bands": (("band",), {})}
+        sizes = {"nEdges": 7, "nVertices": 5, "eta_u": 4, "xi_u": 3, "south_north_stag": 6, "parts": 9, "bnds": 2, "band": 8}
+        self.write_elsewhere({**away, **kept}, **sizes)
+        said = self.lines_of("elsewhere.nc", "grid:30", "-o", "out.nc")
+        self.assertEqual(
+            said,
+            [
+                "elsewhere.nc: left out, as they have no values at the points: zm, of_edges, of_vertices, u, w and 1 more",
+                "elsewhere.nc: copied as they are, as nothing says that their dimensions count places: bands (band)",
+            ],
+        )
+        with netCDF4.Dataset(self.folder / "out.nc") as out:
+            self.assertEqual(set(out.variables), {"t", "lat", "lon", *kept})
+
+    def test_edges_of_ugrid_without_places_are_left_out(self):
+        """A square of four nodes; one face, with a value on it, and values on its edges."""
+        with netCDF4.Dataset(self.folder / "mesh.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for dimension, size in (("p", 4), ("s", 4), ("f", 1), ("two", 2), ("most", 4)):
+                file.createDimension(dimension, size)
+            mesh = file.createVariable("mesh", "i4", ())
+            mesh.setncatts({"cf_role": "mesh_topology", "topology_dimension": np.int32(2), "node_coordinates": "px py"})
+            mesh.setncatts({"face_node_connectivity": "faces", "edge_node_connectivity": "ends"})
+            for name, units, values in (("px", "degrees_east", (0, 40, 40, 0)), ("py", "degrees_north", (0, 0, 40, 40))):
+                variable = file.createVariable(name, "f8", ("p",))
+                variable.units = units
+                variable[:] = values
+            file.createVariable("faces", "i4", ("f", "most"))[:] = [[0, 1, 2, 3]]
+            file.createVariable("ends", "i4", ("s", "two"))[:] = [[0, 1], [1, 2], [2, 3], [3, 0]]
+            for name, place, dimension in (("of_face", "face", "f"), ("of_edges", "edge", "s"), ("of_nodes", "node", "p")):
+                variable = file.createVariable(name, "f8", (dimension,))
+                variable.setncatts({"mesh": "mesh", "location": place})
+                variable[:] = 5.0
+        said = self.lines_of("mesh.nc", "grid:10", "-o", "out.nc")
+        self.assertEqual(len(said), 1)
+        self.assertIn("of_edges", said[0])
+        self.assertIn("of_nodes", said[0])
+        with netCDF4.Dataset(self.folder / "out.nc") as out:
+            self.assertEqual(set(out.variables), {"lat", "lon", "of_face"})
+            self.assertEqual(out["of_face"][:].count(), 16)
+        # The face has no place of its own: it is at its center of mass.
+        for method in ("nearest", "linear"):
+            self.regrid("mesh.nc:of_face", "grid:20", "--method", method, "-o", "out.nc")
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                self.assertEqual(out["of_face"][:].count() > 0, method == "nearest")
+
+    def test_scalars_stay_coordinates(self):
+        self.write_elsewhere({"height": ((), {"units": "m"})})
+        with netCDF4.Dataset(self.folder / "elsewhere.nc", "a") as file:
+            file["t"].coordinates = "height"
+        for target, wanted in (("grid:30", "height"), ("healpix:1", "lon lat height")):
+            for options in ((), ("--value", "t"), ("--statistics", "mean")):
+                self.regrid("elsewhere.nc", target, "-o", "out.nc", *options)
+                with netCDF4.Dataset(self.folder / "out.nc") as out:
+                    name = "t_mean" if "--statistics" in options else "t"
+                    self.assertEqual(out[name].coordinates, wanted)
+                    self.assertEqual(float(out["height"][...]), 7)
+
+    def test_grids_are_known_by_their_file(self):
+        self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
+        for grid in ("O8", "N32", "C4", "R2B1", "F4"):
+            self.regrid("in.nc", grid, "-o", "made.nc")
+            self.regrid("made.nc", "grid:30", "-o", "known.nc")
+            self.regrid("made.nc", "grid:30", "-o", "said.nc", "--source", grid)
+            with netCDF4.Dataset(self.folder / "known.nc") as known, netCDF4.Dataset(self.folder / "said.nc") as said:
+                np.testing.assert_array_equal(known["t"][:], said["t"][:])
+                self.assertNotIn("rondel_grid", known.ncattrs())
+
+    def test_a_missing_value_hides_none_at_its_place(self):
+        """Each place of a curvilinear grid twice: first without a value, then with one."""
+        lon, lat = np.meshgrid(np.arange(0.0, 40, 5), np.arange(-20.0, 21, 5))
+        values = np.stack([lon + lat, np.where(lon > 20, np.nan, lon + lat)])
+        with netCDF4.Dataset(self.folder / "twice.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for dimension, size in (("time", 2), ("y", 9), ("x", 16)):
+                file.createDimension(dimension, size)
+            for name, units, places in (("lon", "degrees_east", lon), ("lat", "degrees_north", lat)):
+                variable = file.createVariable(name, "f8", ("y", "x"))
+                variable.units = units
+                variable[:] = np.concatenate([places, places], axis=1)
+            field = file.createVariable("t", "f8", ("time", "y", "x"), fill_value=-9)
+            field.coordinates = "lon lat"
+            field[:] = np.ma.masked_invalid(np.concatenate([np.full_like(values, np.nan), values], axis=2))
+        for method in ("nearest", "linear", "sibson"):
+            for options in ((), ("--tile", "20")):
+                said = self.lines_of("twice.nc", "twice.nc", "--method", method, "-o", "out.nc", *options)
+                text = "twice.nc: 72 of 144 places are those of others before them; at each place the first value that is there counts"
+                self.assertIn(text, said)
+                with netCDF4.Dataset(self.folder / "out.nc") as out:
+                    found = out["t"][:].filled(np.nan)[..., :8]
+                np.testing.assert_array_equal(np.isnan(found), np.isnan(values), method)
+                np.testing.assert_allclose(found, values, atol=1e-9)
+
+    def test_repeated_columns_hide_nothing(self):
+        lon, lat = np.arange(0.0, 361, 30), np.arange(-60.0, 61, 30)
+        values = np.where(lon == 0, np.nan, np.where(lon == 360, 0, lon)) + lat[:, None]
+        for order in (slice(None), slice(None, None, -1)):
+            with netCDF4.Dataset(self.folder / "cyclic.nc", "w", format="NETCDF3_CLASSIC") as file:
+                for name, units, axis in (("lat", "degrees_north", lat), ("lon", "degrees_east", lon[order])):
+                    file.createDimension(name, len(axis))
+                    variable = file.createVariable(name, "f8", (name,))
+                    variable.units = units
+                    variable[:] = axis
+                file.createVariable("t", "f8", ("lat", "lon"), fill_value=-9)[:] = np.ma.masked_invalid(values[:, order])
+            for method in ("bilinear", "nearest", "linear"):
+                self.regrid("cyclic.nc", "grid:12x6", "--method", method, "-o", "out.nc")
+                with netCDF4.Dataset(self.folder / "out.nc") as out:
+                    self.assertEqual(np.ma.count_masked(out["t"][1:5]), 0, method)
+
     def test_nothing_is_left_of_what_fails(self):
         self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
         data = (self.folder / "in.nc").read_bytes()
