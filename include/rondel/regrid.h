@@ -16,6 +16,7 @@
 #include "rondel/cell_rings.h"
 #include "rondel/export.h"
 #include "rondel/interpolate.h"
+#include "rondel/triangulation.h"
 #include "rondel/types.h"
 #include "rondel/weights.h"
 
@@ -72,6 +73,11 @@ RONDEL_API double rounding_of(const LonLatAxes& axes);
 ///         unit_vectors() does; and if there are 2^31 places or more.
 RONDEL_API Weights bilinear_weights(const LonLatAxes& grid, std::span<const LonLat> targets,
                                     double rounding_deg = double_rounding_deg);
+
+/// Returns the places of a grid that are also in a column a turn before or behind, with the lowest index
+/// in that place, in ascending order: those that take no part by rule 2, or stand for others. Empty
+/// for axes that are not finite.
+RONDEL_API std::vector<Duplicate> repeated_places(const LonLatAxes& grid);
 
 /// Gives each source to its nearest target, which has the sum of what it receives: ESMF's "nearest
 /// destination to source". A row is a target, a column is a source; each source has one entry, of

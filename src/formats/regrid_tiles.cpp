@@ -30,7 +30,7 @@ PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, Field
   } else if (method != FieldMethod::bilinear) {
     triangulate(execution);
   } else if (source.axes() != nullptr) {
-    find_repeated_columns();
+    coincident_ = repeated_places(*source.axes());
   } else {
     throw FileError(source.name() +
                     ": the method bilinear needs a grid along axes of longitude and latitude; "
@@ -98,34 +98,6 @@ void PlaceTiles::triangulate(const Execution& execution) {
 bool PlaceTiles::is_usual(const LonLat& a, const LonLat& b) const {
   if (source_.axes() == nullptr) return false;
   return std::abs(a.lat_deg) == 90 || std::abs(a.lon_deg - b.lon_deg) > 180;
-}
-
-void PlaceTiles::find_repeated_columns() {
-  constexpr double apart_deg = 1e-4;  // as bilinear_weights() has it
-  const LonLatAxes& axes = *source_.axes();
-  const std::vector<double>& lons = axes.lon_deg;
-  std::vector<std::pair<double, Index>> columns;  // by longitude within a turn
-  std::vector<Index> first;
-  for (std::size_t c = 0; c < lons.size(); ++c) {
-    const double turns = std::floor((lons[c] + apart_deg) / 360);
-    columns.emplace_back(lons[c] - 360 * turns, static_cast<Index>(c));
-    first.push_back(static_cast<Index>(c));
-  }
-  std::ranges::sort(columns);
-  for (std::size_t k = 1; k < columns.size(); ++k) {
-    const auto [east, column] = columns[k];
-    const auto [before, other] = columns[k - 1];
-    const bool is_turn_later = std::abs(lons[column] - lons[other]) > 180;
-    if (east - before > apart_deg || !is_turn_later) continue;
-    first[column] = first[other] = std::min({first[other], column, other});
-  }
-  const std::size_t num_columns = lons.size();
-  for (std::size_t row = 0; row < axes.lat_deg.size(); ++row) {
-    const auto begin = static_cast<Index>(row * num_columns);
-    for (Index c = 0; c < static_cast<Index>(num_columns); ++c) {
-      if (first[c] != c) coincident_.push_back({begin + c, begin + first[c]});
-    }
-  }
 }
 
 std::size_t PlaceTiles::num_tiles() const {

@@ -79,8 +79,6 @@ class PlaceTiles : public RegridTiles {
   void triangulate(const Execution& execution);
   // True if nobody wonders that a grid has two points in one place.
   [[nodiscard]] bool is_usual(const LonLat& a, const LonLat& b) const;
-  // Finds the columns of a grid that repeat others a turn later.
-  void find_repeated_columns();
   [[nodiscard]] Weights weights_at(std::span<const LonLat> places,
                                    const Execution& execution) const;
 

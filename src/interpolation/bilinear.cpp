@@ -292,4 +292,29 @@ Weights bilinear_weights(const LonLatAxes& grid, std::span<const LonLat> targets
   return weights;
 }
 
+std::vector<Duplicate> repeated_places(const LonLatAxes& grid) {
+  const std::vector<double>& lons = grid.lon_deg;
+  if (!std::ranges::all_of(lons, [](double lon) { return std::isfinite(lon); })) return {};
+  std::vector<std::pair<double, Index>> columns;  // by longitude within a turn
+  std::vector<Index> first(lons.size());
+  std::iota(first.begin(), first.end(), Index{0});
+  for (const Index c : first) columns.emplace_back(within_turn(lons[c] + repeated_deg), c);
+  std::ranges::sort(columns);
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const auto [east, column] = columns[k];
+    const auto [before, other] = columns[k - 1];
+    const bool is_turn_later = std::abs(lons[column] - lons[other]) > turn_deg / 2;
+    if (east - before > repeated_deg || !is_turn_later) continue;
+    first[column] = first[other] = std::min({first[other], column, other});
+  }
+  std::vector<Duplicate> repeated;
+  for (std::size_t row = 0; row < grid.lat_deg.size(); ++row) {
+    const auto begin = static_cast<Index>(row * lons.size());
+    for (Index c = 0; c < static_cast<Index>(lons.size()); ++c) {
+      if (first[c] != c) repeated.push_back({begin + c, begin + first[c]});
+    }
+  }
+  return repeated;
+}
+
 }  // namespace rondel

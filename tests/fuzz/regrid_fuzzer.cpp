@@ -92,6 +92,10 @@ void test_bilinear(ByteSource& source) {
   LonLatAxes grid = {.lon_deg = next_axis(source, lon, 30), .lat_deg = {}};
   grid.lat_deg = next_axis(source, source.small() * 0.5, 8);
   const std::vector<LonLat> targets = next_targets(source, grid);
+  for (const auto& [site, first] : repeated_places(grid)) {
+    require(first < site && site < grid.lon_deg.size() * grid.lat_deg.size(),
+            "a place stands for those behind it");
+  }
   (void)axes_of_grid(targets, std::vector<std::uint64_t>{source.below(3), source.below(3)});
   Weights weights;
   try {

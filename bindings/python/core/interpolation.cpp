@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <optional>
@@ -118,6 +120,19 @@ void add_weights(nb::module_& module) {
            nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"));
   module.def("bilinear_weights", &bilinear_of_axes, nb::arg("lon").noconvert(),
              nb::arg("lat").noconvert(), nb::arg("targets").noconvert(), nb::arg("are_single"));
+  module.def(
+      "repeated_places",
+      [](const NumbersIn& lon, const NumbersIn& lat) {
+        const auto lons = rows_of<double>(lon);
+        const auto lats = rows_of<double>(lat);
+        std::vector<std::pair<Index, Index>> pairs;
+        for (const auto& [site, representative] : repeated_places(
+                 {.lon_deg = {lons.begin(), lons.end()}, .lat_deg = {lats.begin(), lats.end()}})) {
+          pairs.emplace_back(site, representative);
+        }
+        return pairs;
+      },
+      nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
 }
 
 ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
