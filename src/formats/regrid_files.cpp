@@ -65,6 +65,52 @@ std::string text_of(const std::optional<ExtrapolationOptions>& options) {
          std::to_string(options->levels);
 }
 
+// Throws InvalidInput for a number out of range, and for an option that differs from its default and
+// would change nothing.
+void require_effects(const RegridFileOptions& options, const FileName& out) {
+  if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
+    throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
+                       ", not in [0, 1]");
+  }
+  if (options.netcdf.deflate < 0 || options.netcdf.deflate > 9) {
+    throw InvalidInput("deflate is " + std::to_string(options.netcdf.deflate) +
+                       ", not from 0 to 9");
+  }
+  const auto require = [](bool has_effect, const char* what) {
+    if (!has_effect) throw InvalidInput(what);
+  };
+  const bool is_compressed = options.netcdf.kind == NetcdfKind::by_name
+                                 ? format_of(out) == "nc4"
+                                 : options.netcdf.kind == NetcdfKind::netcdf4;
+  require(is_compressed || options.netcdf.deflate == NetcdfOptions().deflate,
+          "deflate has no effect on files other than netCDF-4, whose names end in .nc4");
+  const bool has_norm = options.norm != RemapNorm::fracarea;
+  const bool is_of_cells = !options.method || is_conservative(*options.method);
+  require(is_of_cells || !has_norm, "norm has no effect with a method between places");
+  require(is_of_cells || options.overlap == CellOverlap::error,
+          "overlap has no effect with a method between places");
+  require(is_of_cells || options.cells.corners == MissingCorners::error,
+          "corners have no effect with a method between places");
+  require(options.method != FieldMethod::largest_share || !has_norm,
+          "norm has no effect with the method largest_share");
+  require(options.method == FieldMethod::conservative_2nd || !options.is_limited,
+          "the limiter has no effect without the method conservative_2nd");
+  const bool has_statistics = !options.statistics.empty();
+  require(!has_statistics || !has_norm, "norm has no effect with statistics");
+  require(!has_statistics || options.cells_per_tile == 0, "tiles have no effect with statistics");
+  require(has_statistics || options.statistic_weights == ZonalWeights::area,
+          "weigh_by has no effect without statistics");
+  if (!options.extrapolation) return;
+  const ExtrapolationOptions usual;
+  const ExtrapolationOptions& own = *options.extrapolation;
+  require(own.method == Extrapolation::idw || own.neighbors == usual.neighbors,
+          "the number of sources has no effect without the extrapolation idw");
+  require(own.method == Extrapolation::idw || own.exponent == usual.exponent,
+          "the exponent has no effect without the extrapolation idw");
+  require(own.method == Extrapolation::creep || own.levels == usual.levels,
+          "levels have no effect without the extrapolation creep");
+}
+
 class RegridJob {
  public:
   RegridJob(const FileName& in, const FileName& target, FileName out,
@@ -496,10 +542,7 @@ RegridFileReport regrid_by_ranks(const FileName& in, const FileName& target, con
                                  const RegridFileOptions& options, const RegridRanks& ranks,
                                  const Execution& execution) {
   const system::Call call(execution);
-  if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
-    throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
-                       ", not in [0, 1]");
-  }
+  require_effects(options, out);
   if (!options.statistics.empty()) {
     if (options.resume || ranks.size > 1) {
       throw InvalidInput("statistics are computed by one process, in one run that is not resumed");

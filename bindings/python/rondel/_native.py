@@ -26,6 +26,20 @@ def esmf_name(method: str) -> str:
     return names.get(method, method)
 
 
+def require_limits(
+    method: str | None, argument: str, limits: dict[str, tuple[str, Any, Any]]
+) -> None:
+    """Refuses limits that differ from their default and have no effect: each has the method that it
+    is for (ESMF's name; "" for any), its value and its default.
+    """
+    for name, (wanted, value, usual) in limits.items():
+        is_meant = method is not None and (not wanted or esmf_name(method) == wanted)
+        if value == usual or is_meant:
+            continue
+        has = f"{argument}={wanted!r}" if wanted else argument
+        raise ValueError(f"{name} has no effect without {has}")
+
+
 def native_weights(
     lon: ArrayLike,
     lat: ArrayLike,

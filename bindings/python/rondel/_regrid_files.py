@@ -13,7 +13,7 @@ from . import _core
 from ._arrays import as_threads
 from ._geo import Path
 from ._geometries import Corners, Edges, Invalid, Sides
-from ._native import Extrapolation
+from ._native import Extrapolation, require_limits
 from ._remap import CellOverlap
 from ._types import Progress
 
@@ -47,11 +47,11 @@ class RegridReport:
     tiles : int
         The number of tiles in which weights were computed, or 0 if all were in memory.
     remarks : tuple of str
-        What was left out, and why.
+        What was left out or copied as it is, and why; each begins with the name of its file.
     resumed : int
         The number of values that an earlier run had computed.
     extrapolated : int
-        The number of values of targets that were extrapolated.
+        The number of values of targets that this run extrapolated.
 
     """
 
@@ -190,6 +190,16 @@ def regrid_file(
     365
 
     """
+    require_limits(
+        extrapolate,
+        "extrapolate",
+        {
+            "extrapolate_distance": ("", extrapolate_distance, None),
+            "extrapolate_sources": ("inverse_dist", extrapolate_sources, 8),
+            "extrapolate_exponent": ("inverse_dist", extrapolate_exponent, 2),
+            "extrapolate_levels": ("creep_fill", extrapolate_levels, 0),
+        },
+    )
     made = _core.regrid_file(
         os.fspath(path),
         os.fspath(target),
