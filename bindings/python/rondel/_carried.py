@@ -10,10 +10,18 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import xarray
 
+from . import _core
 from ._blocks import OutputChunks, in_blocks
-from ._coordinates import describes_places, lies_elsewhere, parts_of_grids
+from ._coordinates import (
+    at_places,
+    describes_places,
+    lies_elsewhere,
+    mappings,
+    parts_of_grids,
+)
 from ._errors import warn_caller
 from ._places import Places
+from ._types import IntArray
 from ._values import OF_VALUES, missing_marker, unpacked
 from ._weights import Weights
 
@@ -21,6 +29,7 @@ from ._weights import Weights
 How: TypeAlias = Literal["sum", "largest_share", "by_kind"]
 
 _AWAY = "as their longitudes and latitudes are not those of the source"
+_ELSEWHERE = "as they are at other places than the source"
 
 
 def carried(
@@ -35,9 +44,11 @@ def carried(
     keep_attrs: bool = True,
     how: How = "sum",
     output_chunks: OutputChunks = None,
+    coincident: IntArray | None = None,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
-    contributes to, while those that need a missing value have NaN. With the
+    contributes to, while those that need a missing value have NaN. `coincident` has pairs of
+    sources in one place, which have the first value that is there. With the
     `how` "by_kind" arrays of flags get the value of the largest part. Arrays of Dask stay lazy, in
     blocks of the targets as `output_chunks` says.
     """
@@ -53,6 +64,7 @@ def carried(
             skipna=skipna,
             max_missing=max_missing,
             how="largest_share" if is_largest else "sum",
+            coincident=coincident,
         )
         if not hasattr(values, "__dask_graph__"):
             found = apply(values, weights)
@@ -89,13 +101,23 @@ def carried(
             },
         )
         # These are of the numbers in a file, and may be of packed ones.
-        found.attrs = {name: text for name, text in found.attrs.items() if name not in OF_VALUES}
-        return found.assign_coords(wanted.coordinates)
+        found.attrs = {
+            name: text
+            for name, text in found.attrs.items()
+            if name not in OF_VALUES and not _core.is_attribute_of_places(str(name))
+        }
+        found = found.drop_vars(mappings(found)).assign_coords(wanted.coordinates)
+        if not mapping:
+            return found
+        found.encoding["grid_mapping"] = mapping_name
+        return found.assign_coords({mapping_name: ((), np.int32(0), mapping)})
 
+    mapping, _ = wanted.mapping
+    mapping_name = _free_name(data, "crs")
     _tell_of_coordinates(data, source)
     _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
-        return moved(data)
+        return _without_bounds(moved(data), wanted)
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
     if lost:
         raise ValueError(
@@ -109,13 +131,24 @@ def carried(
         for name, array in fields.items()
         if _is_field(array, source) and not source.is_away(data, name)
     }
-    rest = data.drop_vars([name for name in own_names if name in data.variables])
+    lost_names = {*own_names, *map(str, mappings(data))}
+    rest = data.drop_vars([name for name in lost_names if name in data.variables])
     rest = rest.drop_dims(source.dims)
     whole = _without_other_places(rest, data, wanted)
     whole = whole.assign(taken).assign_coords(wanted.coordinates)
-    if not keep_attrs:
+    if keep_attrs:
+        whole.attrs = {
+            name: text
+            for name, text in whole.attrs.items()
+            if not _core.is_attribute_of_places(str(name))
+        }
+    else:
         whole = whole.drop_attrs(deep=False)
-    return whole[[name for name in data.data_vars if name in whole.data_vars]]
+    whole = whole[[name for name in data.data_vars if name in whole.data_vars]]
+    bounds = wanted.bounds()
+    if not bounds or any(name in whole.variables for name in bounds):
+        return _without_bounds(whole, wanted)
+    return whole.assign_coords(bounds)
 
 
 def _applied_rows(
@@ -125,6 +158,7 @@ def _applied_rows(
     num_dims: int,
     marker: Any,
     unmapped: float,
+    coincident: IntArray | None,
     **rules: Any,
 ) -> Any:
     """The values at the targets of some rows, in one axis, of fields whose last axes, so many, are
@@ -134,10 +168,27 @@ def _applied_rows(
     if marker is not None:
         values = marker(values)
     leading = values.shape[: values.ndim - num_dims]
-    found = weights.apply(values.reshape(*leading, weights.shape[1]), **rules)
+    flat = values.reshape(*leading, weights.shape[1])
+    if coincident is not None and flat.dtype.kind == "f":
+        flat = _with_values_that_are_there(flat, coincident)
+    found = weights.apply(flat, **rules)
     if not np.isnan(unmapped):
         found[..., np.diff(weights.indptr) == 0] = unmapped
     return found.astype(dtype, copy=False)
+
+
+def _with_values_that_are_there(values: Any, coincident: IntArray) -> Any:
+    """The values, where a place that is given several times has the first one that is not missing.
+    Rows of `coincident` are a site and the one before it in its place, in increasing order.
+    """
+    if not np.isnan(values[..., np.unique(coincident)]).any():
+        return values
+    values = values.copy()
+    for taking, giving in (coincident.T[::-1], coincident.T):
+        for site, other in zip(taking, giving, strict=True):
+            own = values[..., site]
+            values[..., site] = np.where(np.isnan(own), values[..., other], own)
+    return values
 
 
 def _has_flags(array: xarray.DataArray) -> bool:
@@ -220,18 +271,22 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
         if dim in rest.sizes and not _is_same_dimension(rest, dim, size, wanted.index(dim))
     ]
     away = [str(name) for name in rest.data_vars if lies_elsewhere(data, str(name))]
+    placed = at_places(data)
+    elsewhere = [str(name) for name in rest.data_vars if str(name) in placed and name not in away]
+    known = {*away, *elsewhere}
     taken = [
         str(name)
         for name, array in rest.data_vars.items()
-        if set(others) & set(array.dims) and str(name) not in away
+        if set(others) & set(array.dims) and str(name) not in known
     ]
     for names, why in (
         (away, _AWAY),
+        (elsewhere, _ELSEWHERE),
         (taken, f"as the targets have another dimension {' or '.join(map(str, others))}"),
     ):
         if names:
             warn_caller(f"left out, {why}: {', '.join(names)}")
-    return rest.drop_vars([*away, *taken]).drop_dims(others)
+    return rest.drop_vars([*away, *elsewhere, *taken]).drop_dims(others)
 
 
 def _is_same_dimension(rest: xarray.Dataset, dim: Any, size: int, index: Any) -> bool:
@@ -239,6 +294,26 @@ def _is_same_dimension(rest: xarray.Dataset, dim: Any, size: int, index: Any) ->
     if rest.sizes[dim] != size:
         return False
     return dim not in rest.indexes or (index is not None and rest.indexes[dim].equals(index))
+
+
+def _free_name(data: Any, name: str) -> str:
+    """A name that no variable has which is carried on; mappings of the source are not."""
+    known = data.variables if isinstance(data, xarray.Dataset) else data.coords
+    taken = {str(other) for other in known} - {str(other) for other in mappings(data)}
+    while name in taken:
+        name += "_"
+    return name
+
+
+def _without_bounds(made: Any, wanted: Places) -> Any:
+    """The same if no coordinate of the target names bounds, which are not there."""
+    coordinates = {}
+    for name in wanted.coordinates:
+        item = made[name].variable.copy(deep=False)
+        item.attrs = {key: text for key, text in item.attrs.items() if key != "bounds"}
+        item.encoding = {key: text for key, text in item.encoding.items() if key != "bounds"}
+        coordinates[name] = item
+    return made.assign_coords(coordinates)
 
 
 def _kind(array: Any) -> Any:

@@ -137,6 +137,11 @@ class Coordinates:
         return {name for name in (*self._bounds, *named.values()) if name is not None}
 
     @property
+    def own_bounds(self) -> list[str]:
+        """The variables that are bounds of these coordinates."""
+        return [name for name in self._bounds if name is not None]
+
+    @property
     def corner_names(self) -> list[str]:
         """The quoted names of the bounds."""
         return [repr(name) for name in self._bounds if name is not None]
@@ -168,11 +173,44 @@ class Coordinates:
         return made
 
 
+def grid_of(data: Any) -> str | None:
+    """The name of the grid whose points a Dataset or DataArray says it has, as files that Rondel
+    or tools for HEALPix wrote do (`CellSet.named`).
+    """
+    lengths = [*data.sizes.values()]
+    known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
+    for attrs in (data.attrs, *({**item.encoding, **item.attrs} for item in known.values())):
+        texts = [(str(key), text) for key, text in attrs.items() if isinstance(text, str)]
+        numbers = [
+            (str(key), float(number))
+            for key, number in attrs.items()
+            if isinstance(number, (int, float, np.number)) and not isinstance(number, bool)
+        ]
+        name, shape = _core.grid_named_by(texts, numbers)
+        is_whole = np.prod(shape) in lengths or all(length in lengths for length in shape)
+        if name and is_whole:
+            return str(name)
+    return None
+
+
+def mappings(data: Any) -> list[Hashable]:
+    """The variables that are mappings of grids."""
+    known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
+    return [name for name, item in known.items() if "grid_mapping_name" in item.attrs]
+
+
 def parts_of_grids(data: Any) -> set[str]:
     """The variables that describe a mesh or grid, as the numbers of neighbors: no fields."""
     headers = _headers(data)
     parts = _core.parts_of_grids(headers)
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
+
+
+def at_places(data: xarray.Dataset) -> set[str]:
+    """The variables whose values depend on place, on the nodes of a mesh or an axis x as well."""
+    headers = _headers(data)
+    depends = _core.are_at_places(headers)
+    return {header[0] for header, is_there in zip(headers, depends, strict=True) if is_there}
 
 
 def describes_places(data: Any, names: list[str]) -> set[str]:

@@ -17,6 +17,7 @@ from ._coordinates import (
     MARKS,
     Coordinates,
     Repeats,
+    grid_of,
     is_away,
     pairs_of_values,
     with_dimensions,
@@ -24,7 +25,7 @@ from ._coordinates import (
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
 from ._geometries import Corners, in_degrees
-from ._types import BoolArray, FloatArray
+from ._types import BoolArray, FloatArray, IntArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MAX_APART, are_near, side_of
 from ._weights import Weights
@@ -51,6 +52,9 @@ class Places:
             data = CellSet.named(data)
         given = data
         self._corners = corners
+        self._named_cells: CellSet | None = None  # those of the grid that the data name
+        # Places that have been triangulated, each with the one before it in the same place.
+        self.coincident: IntArray = np.zeros((0, 2), np.int64)
         self._cells = data if isinstance(data, CellSet) else None
         if self._cells is not None:
             data = _centers(self._cells)
@@ -75,6 +79,11 @@ class Places:
         if data is not given:
             lon, lat, repeats = "lon", "lat", "keep"
         data = unpacked(data)
+        self._grid = ""
+        if self._cells is not None:
+            self._grid = self._cells._cells.facts.name
+        elif data is given and lon is None and lat is None:
+            data = self._with_grid(data)
         self._data = data
         self._found = Coordinates(data, lon, lat, repeats)
         lons, lats = self._found.lon, self._found.lat
@@ -84,6 +93,12 @@ class Places:
         self.dims = south.dims
         self.shape = south.shape
         self.lon, self.lat = west.values, south.values
+        if of_grid := self.mapping[1]:
+            self.coordinates = {
+                name: item.copy(deep=False) for name, item in self.coordinates.items()
+            }
+            for item in self.coordinates.values():
+                item.attrs = {**item.attrs, **of_grid}
         for name, values in zip(self.coordinates, (self.lat, self.lon), strict=True):
             if values.dtype.kind not in "biuf":
                 raise TypeError(f"{name!r} must be numbers, not {in_words(values)}")
@@ -101,6 +116,44 @@ class Places:
             count = int(np.count_nonzero(~mask))
             warn_caller(f"{count} of {mask.size} cells are masked by {name!r}")
             self._used = mask if self._located is None else mask & self._located
+
+    def _with_grid(self, data: Any) -> Any:
+        """The data, or the centers of a named grid that they have without coordinates."""
+        name = grid_of(data)
+        if name is None:
+            return data
+        cells = CellSet.named(name)
+        try:
+            found = Coordinates(data, None, None)
+        except ValueError:
+            self._cells, self._grid = cells, name
+            return _centers(cells)
+        south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+        pairs = np.stack([west.values, south.values], axis=-1).reshape(-1, 2)
+        # Points that were put into another order are no longer those of the grid.
+        centers = cells._degrees()
+        if len(pairs) == len(centers) and are_near(pairs.astype(np.float64), centers).all():
+            self._grid, self._named_cells = name, cells
+        return data
+
+    @property
+    def mapping(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """What data at these places say of their grid: the attributes of a grid mapping, and
+        those of the longitudes and latitudes.
+        """
+        texts, numbers = _core.grid_mapping(self._grid)
+        _, shape = _core.grid_named_by(texts, numbers)
+        if not texts or np.prod(shape) != self.lon.size:
+            return {}, {}
+        whole = {key: int(number) for key, number in numbers}
+        is_mapping = texts[0][0] == "grid_mapping_name"
+        return ({**dict(texts), **whole}, {}) if is_mapping else ({}, dict(texts))
+
+    def bounds(self) -> dict[Hashable, Any]:
+        """The variables that have the bounds of the coordinates."""
+        if self._cells is not None:
+            return {}
+        return {name: self._data[name].variable for name in self._found.own_bounds}
 
     def require_same(self, data: Any) -> None:
         """Refuses data that have coordinates of the same names with other values."""
@@ -163,6 +216,10 @@ class Places:
         is_array = isinstance(data, xarray.DataArray)
         if is_array and len(self.shape) > 1 and data.shape[-len(self.shape) :] == self.shape:
             return data, self
+        if not is_array and len(self.shape) == 2:
+            data = self._with_own_dimensions(data)
+            if set(self.dims) <= set(data.dims):
+                return data, self
         names = list(data.sizes)
         lengths = list(data.sizes.values())
         found = [names[k] for k in _core.dimensions_of_cells(list(map(str, names)), lengths, n)]
@@ -176,6 +233,22 @@ class Places:
         flat = self._cells._with(shape=(), centers=self.pairs())
         places = Places(flat)
         return with_dimensions(data, {found[0]: places.dims[0]}), places
+
+    def _with_own_dimensions(self, data: xarray.Dataset) -> xarray.Dataset:
+        """A Dataset with the names of these dimensions, if its own places are these."""
+        try:
+            found = Coordinates(data, None, None)
+        except ValueError:
+            return data
+        south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+        if south.shape != self.shape:
+            return data
+        if not self._are_here(west.values, south.values):
+            raise ValueError(
+                f"the data are at {found.lon_name} and {found.lat_name}, which are not the places "
+                "of the source"
+            )
+        return with_dimensions(data, dict(zip(south.dims, self.dims, strict=True)))
 
     def _are_here(self, lon: Any, lat: Any) -> bool:
         there = np.stack([lon, lat], axis=-1).reshape(-1, 2)
@@ -239,7 +312,20 @@ class Places:
         """The places that take part, and their numbers among all."""
         numbers = np.arange(self.lon.size) if mask is None else np.flatnonzero(mask)
         lon, lat = self.lon.reshape(-1)[numbers], self.lat.reshape(-1)[numbers]
-        return delaunay_lonlat(lon, lat, threads=threads), numbers
+        tri = delaunay_lonlat(lon, lat, threads=threads)
+        self.coincident = numbers[tri.duplicates].reshape(-1, 2)
+        return tri, numbers
+
+    def num_repeated(self) -> int:
+        """How many places are those of others before them, but for those at the poles of a grid
+        along axes, and its columns that are repeated a turn later.
+        """
+        pairs = self.coincident
+        if not self.are_axes:
+            return len(pairs)
+        lon, lat = self.lon.reshape(-1)[pairs], self.lat.reshape(-1)[pairs[:, 0]]
+        is_usual = (np.abs(lat) == 90) | (np.abs(lon[:, 0] - lon[:, 1]) > 180)
+        return int(np.count_nonzero(~is_usual))
 
     def weights_to(self, target: Places, method: Any, **options: Any) -> Weights:
         """Weights of the places that take part; targets that are nowhere have no entries."""
@@ -257,7 +343,8 @@ class Places:
     def have_cells(self) -> bool:
         """Whether there are cells around the places: bounds, axes, or a set of cells."""
         have_bounds = self._found.have_bounds or self._corners == "made"
-        return self.are_axes or self._cells is not None or have_bounds
+        is_known = self._cells is not None or self._named_cells is not None
+        return self.are_axes or is_known or have_bounds
 
     def cells(self, threads: int | None) -> CellSet:
         """The cells around the places, by their bounds or, of a grid, half way between them."""
@@ -267,6 +354,8 @@ class Places:
             warn_caller(remark)
         lon, lat = self._found.bounds()
         mask = self.mask()
+        if self._named_cells is not None and not self._found.have_bounds:
+            return self._described(self._named_cells, mask)
         if self.are_axes:
             names = self._found.lon_name, self._found.lat_name
             lines = [
@@ -419,6 +508,9 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 
 def _centers(cells: CellSet) -> xarray.Dataset:
     """The places of the cells: those of the file or the axes, or else the centers of mass."""
+    lons, lats = cells._cells.facts.axes
+    if len(lons):
+        return _marked({"lat": ("lat", np.array(lats)), "lon": ("lon", np.array(lons))})
     is_grid = len(cells.shape) == 2  # the faces of a cubed sphere have no axes in common
     dims = ("y", "x") if is_grid else ("cell",)
     degrees = cells._degrees().reshape(*(cells.shape if is_grid else (-1,)), 2)

@@ -58,8 +58,9 @@ def regrid(
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
     max_missing : float, optional
-        The share of a target's weights for which values may be missing, from 0 to 1; by default
-        0.5.
+        The share of a target that may lack values, from 0 to 1; by default 0.5: with conservative
+        methods that no source covers, and with all methods whose sources have none. It is that of
+        `regrid_file`.
     output_chunks : int, tuple, dict or str, optional
         The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
         `Regridder` takes them; by default 'auto'.
@@ -107,6 +108,7 @@ def regrid(
         extrap_method=extrap_method,
         extrap_distance=extrap_distance,
         corners=corners,
+        max_uncovered=max_missing if is_of_cells or method == "largest_share" else 1.0,
         threads=threads,
         progress=progress,
     )

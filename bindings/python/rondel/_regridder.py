@@ -12,13 +12,14 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, as_threads, point_set_hash
 from ._blocks import OutputChunks
+from ._errors import warn_caller
 from ._geo import Path
 from ._geometries import Corners, Invalid, require_rules
-from ._native import EXTRAPOLATIONS, Extrapolation, extrapolated
+from ._native import EXTRAPOLATIONS, Extrapolation, extrapolated, require_limits
 from ._remap import CellOverlap, Remap, remap
 from ._repr import Described, count
 from ._reuse import reused, said_method
-from ._types import Progress
+from ._types import BoolArray, FloatArray, Progress
 from ._weight_files import netcdf_name
 from ._weights import Weights
 
@@ -91,6 +92,9 @@ class Regridder(Described):
         With conservative methods, what to do where longitudes and latitudes of two dimensions have
         no bounds: 'error' (default), or 'made', which makes corners half way between the centers,
         extrapolated at the border, and warns of it.
+    max_uncovered : float, optional
+        With conservative methods, the share of a target that may lie outside of the source, from 0
+        to 1; targets with less in it are unmapped. By default 1, as in xESMF.
     unmapped_to_nan : bool, optional
         Whether targets to which no source contributes are NaN (default True) or 0. As in xESMF, a
         target that needs a missing value is NaN in any case, and so are all targets without a value
@@ -172,6 +176,7 @@ class Regridder(Described):
         extrap_num_levels: int = 0,
         extrap_distance: float | None = None,
         corners: Corners = "error",
+        max_uncovered: float = 1.0,
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
         overlap: CellOverlap = "error",
@@ -194,6 +199,28 @@ class Regridder(Described):
                 f"extrap_method must be None, 'nearest_s2d', 'inverse_dist' or 'creep_fill', not "
                 f"{extrap_method!r}"
             )
+        require_limits(
+            extrap_method,
+            "extrap_method",
+            {
+                "extrap_distance": ("", extrap_distance, None),
+                "extrap_num_src_pnts": ("inverse_dist", extrap_num_src_pnts, 8),
+                "extrap_dist_exponent": ("inverse_dist", extrap_dist_exponent, 2),
+                "extrap_num_levels": ("creep_fill", extrap_num_levels, 0),
+            },
+        )
+        if not 0 <= max_uncovered <= 1:
+            raise ValueError(f"max_uncovered must be from 0 to 1, not {max_uncovered}")
+        if max_uncovered < 1 and (method not in _CONSERVATIVE or weights is not None):
+            raise ValueError(
+                "max_uncovered has no effect on given weights"
+                if method in _CONSERVATIVE
+                else f"max_uncovered has no effect with the method {method!r}"
+            )
+        of_cells = {"overlap": overlap, "invalid": invalid, "corners": corners}
+        for name, rule in of_cells.items():
+            if method not in _CONSERVATIVE and rule != "error":
+                raise ValueError(f"{name} has no effect with the method {method!r}")
         for name in needless:
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
@@ -217,7 +244,13 @@ class Regridder(Described):
         if weights is None:
             found = _made(self._source, self._target, method, overlap, invalid, threads, progress)
             made = found.weights if isinstance(found, Remap) else found
-            if extrap_method is None and isinstance(found, Remap):
+            is_whole = True
+            if isinstance(found, Remap) and max_uncovered < 1:
+                covered = _are_covered(found.target_fractions, max_uncovered)
+                is_whole = bool(covered.all())
+                if not is_whole:
+                    made = made._with_rows(covered)
+            if extrap_method is None and isinstance(found, Remap) and is_whole:
                 self._remap = found
         else:
             made = reused(weights, method, extrap_method, self._source, self._target, threads)
@@ -229,6 +262,12 @@ class Regridder(Described):
                 "levels": extrap_num_levels,
             }
             made = _filled(made, self._source, self._target, extrap_method, limits, threads)
+        self._coincident = self._source.coincident
+        if number := self._source.num_repeated():
+            warn_caller(
+                f"{number} of {self._source.lon.size} places are those of others before them; at "
+                "each place the first value that is there counts"
+            )
         if weights is None:
             hashes = [point_set_hash(side.points()) for side in (self._source, self._target)]
             made._weights.know_places(*hashes)
@@ -307,6 +346,8 @@ class Regridder(Described):
         from ._coordinates import with_dimensions
         from ._values import unpacked
 
+        if how not in ("sum", "largest_share", "by_kind"):
+            raise ValueError(f"how must be 'sum', 'largest_share' or 'by_kind', not {how!r}")
         options: Any = {
             "skipna": skipna,
             "max_missing": na_thres,
@@ -314,6 +355,7 @@ class Regridder(Described):
             "keep_attrs": keep_attrs,
             "how": how,
             "output_chunks": output_chunks,
+            "coincident": self._coincident,
         }
         source = self._source
         if isinstance(data, xarray.Dataset):
@@ -442,6 +484,13 @@ def _made(
     return made if mask is None else made._with_rows(mask)
 
 
+def _are_covered(fractions: FloatArray, max_uncovered: float) -> BoolArray:
+    """Which targets have enough of the source, as `regrid_file` decides it."""
+    rounding = 1e-9
+    covered: BoolArray = (fractions > 0) & (fractions >= 1 - max_uncovered - rounding)
+    return covered
+
+
 def _nearest(source: Places, target: Places) -> Weights:
     """For each target the nearest source that takes part; no row if none does."""
     tri, numbers = source.triangulated(source.mask())
@@ -469,6 +518,7 @@ def _bilinear(source: Places, target: Places) -> Weights:
     given = (*source.axes, *target.degrees())
     are_single = any(each.dtype.kind == "f" and each.dtype.itemsize < 8 for each in given)
     lon, lat = as_floats(given[0], "lon"), as_floats(given[1], "lat")
+    source.coincident = np.reshape(_core.repeated_places(lon, lat), (-1, 2)).astype(np.int64)
     return Weights._of(_core.bilinear_weights(lon, lat, target.pairs(), are_single))
 
 

@@ -185,6 +185,11 @@ class _Zones:
         self.dims = (_ZONE, _STATISTIC)
         self.shape = (number, len(names))
         self.coordinates: dict[str, Any] = {}
+        self.mapping: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
+
+    def bounds(self) -> dict[Hashable, Any]:
+        """There are no bounds."""
+        return {}
 
     def index(self, dim: Hashable) -> None:
         """There are no labels."""

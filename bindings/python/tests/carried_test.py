@@ -250,3 +250,20 @@ def test_rotated_coordinates_are_no_places():
         data.rondel.interpolate(TARGET)
     with pytest.raises(ValueError, match="rotated pole or a projection"):
         data.rondel.interpolate(TARGET, lon="lon", lat="lat")
+
+
+@WAYS
+def test_what_is_on_other_parts_of_a_mesh_is_told(carry):
+    data = dataset(
+        of_edges=(("time", "nEdges"), np.zeros((2, 7))),
+        u=(("eta_u", "xi_u"), np.zeros((3, 4))),
+        said=("parts", np.zeros(9), {"mesh": "m", "location": "edge"}),
+        series=("time", [1.0, 2]),
+        time_bnds=(("time", "bnds"), np.zeros((2, 2))),
+    )
+    with pytest.warns(UserWarning, match="left out") as told:
+        found = carry(data)
+    assert [str(warning.message) for warning in told] == [
+        "left out, as they are at other places than the source: of_edges, u, said"
+    ]
+    assert list(found.data_vars) == ["t", "series", "time_bnds"]

@@ -18,7 +18,7 @@ METHODS = ("conservative", "conservative_2nd", "nearest", "linear", "sibson", "b
 CHUNKS = (
     ({"time": 1}, None),
     ({"time": 2, "level": 1, "lat": 9, "lon": 50}, 7),
-    ({"time": (3, 2), "lat": 1}, {"y": (3, 4, 11), "x": 5}),
+    ({"time": (3, 2), "lat": 1}, {"lat": (3, 4, 11), "lon": 5}),
     ({}, (18, 1)),
 )
 
@@ -60,7 +60,7 @@ def test_values_do_not_depend_on_chunks(method):
 def test_blocks_are_those_that_are_wanted():
     lazy = dataset().warm.chunk({"time": 2, "lat": 10})
     regridder = rondel.Regridder(lazy, "grid:20x18", "conservative_normed")
-    found = regridder(lazy, output_chunks={"y": (3, 4, 11)})
+    found = regridder(lazy, output_chunks={"lat": (3, 4, 11)})
     assert found.chunks == ((2, 2, 1), (2,), (3, 4, 11), (20,))
     assert regridder(lazy).chunks == ((2, 2, 1), (2,), (18,), (20,))
     with dask.config.set({"array.chunk-size": "4 KiB"}):
@@ -86,7 +86,7 @@ def test_a_block_needs_its_own_part_of_the_work():
     data = data.copy(data=data.data.map_blocks(noted, dtype=data.dtype, meta=data.data._meta))
     found = rondel.regrid(data, "grid:20x18", output_chunks=6)
     assert computed == []
-    block = found.isel(time=3, y=slice(0, 6), x=slice(6, 12)).values
+    block = found.isel(time=3, lat=slice(0, 6), lon=slice(6, 12)).values
     assert computed == [(3, 0, 0, 0)]
     np.testing.assert_array_equal(
         block, rondel.regrid(dataset().warm, "grid:20x18")[3, :, :6, 6:12]

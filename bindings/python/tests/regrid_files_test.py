@@ -200,3 +200,157 @@ def test_categories_are_counted_as_sums_say():
     assert not np.isnan(strict[0]).any()
     with pytest.raises(ValueError, match="how must be"):
         remap.weights.apply(kinds, how="mode")
+
+
+@pytest.mark.parametrize(
+    "name", ["grid:30", "healpix:2", "healpix:2:ring", "F4", "O4", "C3", "R2B1"]
+)
+@pytest.mark.parametrize("kind", ["dataset", "array", "file", "written"])
+def test_results_are_regridded_again(made, tmp_path, name, kind):
+    path, data = made
+    if kind == "file":
+        rondel.regrid_file(path, name, tmp_path / "middle.nc")
+        middle = xarray.open_dataset(tmp_path / "middle.nc")
+    else:
+        middle = rondel.regrid(data if kind != "array" else data.warm, name)
+        if kind == "written":
+            middle.to_netcdf(tmp_path / "middle.nc")
+            middle = xarray.open_dataset(tmp_path / "middle.nc")
+            rondel.regrid_file(tmp_path / "middle.nc", "grid:45", tmp_path / "tool.nc")
+    found = rondel.regrid(middle, "grid:45")
+    cells = rondel.CellSet.named(name)
+    weights = rondel.remap(cells, "grid:45", norm="fracarea").weights
+    values = middle if kind == "array" else middle.warm
+    wanted = weights.apply(values.values.reshape(2, -1)).reshape(2, 4, 8)
+    np.testing.assert_allclose(found if kind == "array" else found.warm, wanted, rtol=1e-13)
+    if kind == "written":
+        with xarray.open_dataset(tmp_path / "tool.nc") as tool:
+            np.testing.assert_allclose(tool.warm, wanted, rtol=1e-13)
+    if kind == "file":
+        middle.close()
+
+
+def test_results_carry_what_files_do(made, tmp_path):
+    path, data = made
+    for name in ("grid:30", "healpix:1", "F4"):
+        rondel.regrid_file(path, name, tmp_path / "out.nc")
+        found = rondel.regrid(data, name)
+        with xarray.open_dataset(tmp_path / "out.nc") as out:
+            assert found.warm.dims == out.warm.dims
+            for axis in ("lat", "lon"):
+                np.testing.assert_array_equal(found[axis], out[axis])
+                assert found[axis].attrs["units"] == out[axis].attrs["units"]
+                assert found[axis].attrs["standard_name"] == out[axis].attrs["standard_name"]
+            mappings = [dict(d.crs.attrs) for d in (found, out) if "crs" in d]
+            assert len(mappings) == (2 if name == "healpix:1" else 0)
+            assert all(mapping == mappings[0] for mapping in mappings)
+    # The mapping of the source is not that of the target.
+    again = rondel.regrid(rondel.regrid(data, "healpix:1"), "O4")
+    assert "crs" not in again.variables
+    assert again.lat.attrs["rondel_grid"] == "O4"
+    onward = rondel.regrid(again, "grid:45")
+    assert not any("rondel_grid" in item.attrs for item in (onward, *onward.variables.values()))
+
+
+def test_bounds_of_targets_are_carried(made):
+    _, data = made
+    lat, lon = [-60.0, 10.0, 75.0], [20.0, 150.0, 290.0]
+    target = xarray.Dataset(
+        {
+            "lat_bnds": (("lat", "bnds"), [[-90.0, -30.0], [-30.0, 50.0], [50.0, 90.0]]),
+            "lon_bnds": (("lon", "bnds"), [[-40.0, 90.0], [90.0, 220.0], [220.0, 320.0]]),
+        },
+        {
+            "lat": ("lat", lat, {"units": "degrees_north", "bounds": "lat_bnds"}),
+            "lon": ("lon", lon, {"units": "degrees_east", "bounds": "lon_bnds"}),
+        },
+    )
+    found = rondel.regrid(data, target)
+    np.testing.assert_array_equal(found.lat_bnds, target.lat_bnds)
+    again = rondel.regrid(found, "grid:45")
+    weights = rondel.Regridder(target, "grid:45", "conservative_normed").weights
+    wanted = weights.apply(found.warm.values.reshape(2, -1)).reshape(2, 4, 8)
+    np.testing.assert_allclose(again.warm, wanted, rtol=1e-14)
+    # An array has no room for bounds, and names none.
+    alone = rondel.regrid(data.warm, target)
+    assert "bounds" not in alone.lat.attrs
+
+
+def test_points_in_another_order_are_not_those_of_the_grid(made):
+    _, data = made
+    middle = rondel.regrid(data, "F4")
+    turned = middle.isel(lat=slice(None, None, -1))
+    np.testing.assert_allclose(
+        rondel.regrid(turned, "grid:45").warm.mean(),
+        rondel.regrid(middle, "grid:45").warm.mean(),
+        rtol=1e-3,
+    )
+    shuffled = rondel.regrid(data, "O4").isel(cell=slice(None, None, -1))
+    with pytest.raises(ValueError, match="there are no corners of cells"):
+        rondel.regrid(shuffled, "grid:45")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"deflate": 99}, "deflate is 99, not from 0 to 9"),
+        ({"deflate": 5}, "deflate has no effect on files other than netCDF-4"),
+        ({"method": "linear", "norm": "destarea"}, "norm has no effect with a method between"),
+        ({"method": "linear", "overlap": "each"}, "overlap has no effect with a method between"),
+        ({"method": "nearest", "corners": "made"}, "corners have no effect with a method between"),
+        ({"method": "largest_share", "norm": "destarea"}, "norm has no effect with the method la"),
+        ({"statistics": "mean", "tile": 100}, "tiles have no effect with statistics"),
+        ({"statistics": "mean", "norm": "destarea"}, "norm has no effect with statistics"),
+        ({"weigh_by": "fraction"}, "weigh_by has no effect without statistics"),
+        ({"extrapolate_levels": 2}, "extrapolate_levels has no effect without extrapolate='creep"),
+        (
+            {"extrapolate": "idw", "extrapolate_levels": 2},
+            "extrapolate_levels has no effect without extrapolate='creep_fill'",
+        ),
+        (
+            {"extrapolate": "nearest", "extrapolate_sources": 3},
+            "extrapolate_sources has no effect without extrapolate='inverse_dist'",
+        ),
+        ({"extrapolate_distance": 5.0}, "extrapolate_distance has no effect without extrapolate$"),
+    ],
+)
+def test_options_without_effect_are_refused(made, tmp_path, options, message):
+    with pytest.raises(ValueError, match=message):
+        rondel.regrid_file(made[0], "grid:30", tmp_path / "out.nc", **options)
+    assert not (tmp_path / "out.nc").exists()
+
+
+def test_options_of_regridders_without_effect_are_refused(made):
+    _, data = made
+    with pytest.raises(ValueError, match="extrap_distance has no effect without extrap_method"):
+        rondel.regrid(data, "grid:30", extrap_distance=10)
+    with pytest.raises(ValueError, match="corners has no effect with the method 'linear'"):
+        rondel.regrid(data, "grid:30", "linear", corners="made")
+    with pytest.raises(ValueError, match="overlap has no effect with the method 'nearest_s2d'"):
+        rondel.Regridder(data, "grid:30", "nearest_s2d", overlap="each")
+    with pytest.raises(ValueError, match="extrap_num_levels has no effect without extrap_method="):
+        rondel.Regridder(data, "grid:30", "linear", extrap_method="idw", extrap_num_levels=1)
+    with pytest.raises(ValueError, match="max_uncovered has no effect with the method 'linear'"):
+        rondel.Regridder(data, "grid:30", "linear", max_uncovered=0.5)
+    regridder = rondel.Regridder(data, "grid:30", "conservative")
+    with pytest.raises(ValueError, match="how must be 'sum', 'largest_share' or 'by_kind', not 'f"):
+        regridder(data.warm, how="foo")
+
+
+def test_targets_lack_what_no_source_covers(tmp_path):
+    lon, lat = np.arange(5.0, 40, 10), np.arange(-15.0, 20, 10)
+    data = xarray.Dataset(
+        {"one": (("lat", "lon"), np.full((4, 4), 7.0))},
+        {
+            "lat": ("lat", lat, {"units": "degrees_north"}),
+            "lon": ("lon", lon, {"units": "degrees_east"}),
+        },
+    )
+    data.to_netcdf(tmp_path / "in.nc")
+    for most in (0.0, 0.4, 0.5, 0.8, 1.0):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc", max_missing=most)
+        found = rondel.regrid(data, "grid:30", max_missing=most)
+        with xarray.open_dataset(tmp_path / "out.nc") as out:
+            np.testing.assert_allclose(found.one, out.one, rtol=1e-15)
+    partly = rondel.Regridder(data, "grid:30", "conservative_normed")(data.one)
+    assert np.isfinite(partly).sum() == 4

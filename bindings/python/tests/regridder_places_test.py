@@ -295,5 +295,43 @@ def test_coordinates_in_radians_are_those_in_degrees(tmp_path):
             found = regridder(given)
             found = found.t if hasattr(found, "data_vars") else found
             np.testing.assert_array_equal(found.values, right)
-        with pytest.raises(ValueError, match=r"places of the source|not that of the source"):
-            regridder(labeled(1, units))
+        for given in (labeled(1, units), labeled(1, units).to_dataset()):
+            with pytest.raises(ValueError, match=r"places of the source|not that of the source"):
+                regridder(given)
+
+
+@pytest.mark.parametrize("method", ["nearest_s2d", "linear", "sibson"])
+@pytest.mark.parametrize("is_lazy", [False, True])
+def test_a_missing_value_hides_none_at_its_place(method, is_lazy):
+    lon, lat = np.meshgrid(np.arange(0.0, 40, 5), np.arange(-20.0, 21, 5))
+    places = {
+        name: (("y", "x"), np.concatenate([own, own], axis=1), {"units": units})
+        for name, own, units in (("lon", lon, "degrees_east"), ("lat", lat, "degrees_north"))
+    }
+    fields = np.stack([lon + lat, np.where(lon > 20, np.nan, lon + lat)])
+    twice = np.concatenate([np.full_like(fields, np.nan), fields], axis=2)
+    data = xarray.DataArray(twice, places, ("time", "y", "x"))
+    before = twice.copy()
+    with pytest.warns(UserWarning, match="72 of 144 places are those of others before"):
+        regridder = rondel.Regridder(data, data, method)
+    if is_lazy:
+        pytest.importorskip("dask")
+        data = data.chunk({"time": 1})
+    found = np.asarray(regridder(data))[..., :8]
+    np.testing.assert_array_equal(np.isnan(found), np.isnan(fields))
+    np.testing.assert_allclose(found, fields, atol=1e-9)
+    np.testing.assert_array_equal(twice, before)
+
+
+@pytest.mark.parametrize("method", ["bilinear", "nearest_s2d", "linear"])
+@pytest.mark.parametrize("step", [1, -1])
+def test_repeated_columns_hide_nothing(method, step):
+    lon, lat = np.arange(0.0, 361, 30)[::step], np.arange(-60.0, 61, 30)
+    values = np.where(lon == 0, np.nan, lon % 360) + lat[:, None]
+    data = xarray.DataArray(values, {"lat": lat, "lon": lon}, ("lat", "lon"))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = rondel.Regridder(data, TARGET, method)(data)
+    assert np.isfinite(found).all()
+    whole = data.copy(data=lon % 360 + lat[:, None])
+    np.testing.assert_array_equal(found, rondel.Regridder(whole, TARGET, method)(whole))
