@@ -64,7 +64,9 @@ FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
 void add_remarks(const std::string& file, const std::vector<std::string>& remarks,
                  std::vector<std::string>& all) {
   for (const std::string& remark : remarks) {
-    const std::string text = file + ": " + remark;
+    std::string text = file;
+    text += ": ";
+    text += remark;
     if (std::ranges::count(all, text) == 0) all.push_back(text);
   }
 }

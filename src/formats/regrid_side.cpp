@@ -173,6 +173,16 @@ std::vector<LonLat> RegridSide::places() const {
 }
 
 const CellSet& RegridSide::cells(const Execution& execution) {
+  try {
+    make_cells(execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(name_ + ": " + error.what());
+  }
+  return *cells_;
+}
+
+// The sides of grids may be too wide for great circles.
+void RegridSide::make_cells(const Execution& execution) {
   if (!cells_ && named_) cells_ = named_->cells(execution);
   if (!cells_ && lines_) {
     const CellSet grid = CellSet::lonlat_grid(*lines_, options_.sides, execution);
@@ -181,7 +191,6 @@ const CellSet& RegridSide::cells(const Execution& execution) {
     facts.mask = mask_;
     cells_ = grid.with_facts(std::move(facts));
   }
-  return *cells_;
 }
 
 bool RegridSide::has_tiles(const Execution& execution) const {

@@ -65,6 +65,7 @@ class RegridSide {
  private:
   void read_file(const FileName& file, bool has_cells, const Execution& execution,
                  std::vector<std::string> names);
+  void make_cells(const Execution& execution);
 
   std::string name_;
   CellFileOptions options_;

@@ -317,6 +317,30 @@ class Regrid(unittest.TestCase):
                 np.testing.assert_array_equal(np.isnan(found), np.isnan(values), method)
                 np.testing.assert_allclose(found, values, atol=1e-9)
 
+    def test_what_is_refused_names_the_way_out(self):
+        lon, lat = np.meshgrid(np.arange(0.0, 40, 5), np.arange(-20.0, 21, 5))
+        with netCDF4.Dataset(self.folder / "curved.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for dimension, size in (("y", 9), ("x", 8)):
+                file.createDimension(dimension, size)
+            for name, units, places in (("lon", "degrees_east", lon + lat / 10), ("lat", "degrees_north", lat)):
+                variable = file.createVariable(name, "f8", ("y", "x"))
+                variable.units = units
+                variable[:] = places
+            for name in ("t", "s"):
+                variable = file.createVariable(name, "f8", ("y", "x"))
+                variable.coordinates = "lon lat"
+                variable[:] = lon
+            file["s"][2, 2] = np.inf
+        for arguments, wanted in (
+            (("grid:5",), "--corners made"),
+            (("grid:5", "--method", "native"), "linear takes any places"),
+            (("grid:5", "--method", "linear"), 'variable "s": value inf at point 18 is not finite; --value NAME'),
+            (("grid:2x7", "--corners", "made", "--sides", "great-circles"), "grid:2x7: cell 0 is 180 degrees wide"),
+        ):
+            said = self.lines_of("curved.nc", *arguments, "-o", "out.nc", status=1)
+            self.assertIn(wanted, said[-1])
+            self.assertFalse((self.folder / "out.nc").exists())
+
     def test_repeated_columns_hide_nothing(self):
         lon, lat = np.arange(0.0, 361, 30), np.arange(-60.0, 61, 30)
         values = np.where(lon == 0, np.nan, np.where(lon == 360, 0, lon)) + lat[:, None]
