@@ -170,7 +170,7 @@ std::string grid_named_by(const GridMapping& attributes) {
     }
     return -1.0;
   };
-  if (const std::string name = text_of(grid_attribute); NamedGrid::is_name(name)) return name;
+  if (std::string name = text_of(grid_attribute); NamedGrid::is_name(name)) return name;
   if (text_of("grid_mapping_name") != "healpix") return {};
   double level = number_of("refinement_level");
   for (unsigned k = 0; level < 0 && k <= max_healpix_order; ++k) {
