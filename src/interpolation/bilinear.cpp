@@ -298,6 +298,7 @@ std::vector<Duplicate> repeated_places(const LonLatAxes& grid) {
   std::vector<std::pair<double, Index>> columns;  // by longitude within a turn
   std::vector<Index> first(lons.size());
   std::iota(first.begin(), first.end(), Index{0});
+  columns.reserve(lons.size());
   for (const Index c : first) columns.emplace_back(within_turn(lons[c] + repeated_deg), c);
   std::ranges::sort(columns);
   for (std::size_t k = 1; k < columns.size(); ++k) {
