@@ -1,0 +1,3 @@
+# A sum of products against K times the sum of the sizes of three products; E and G are what the two may be off by.
+K = @factor power_1_right@;
+{ E in [0, @most 53 power_2_left@] /\ G in [0, @most 53 power_1_right@] -> K * (1 - G) - E >= 0 }
