@@ -151,7 +151,7 @@ Proof.
   assert (HE : 0 <= gamma u (count 1 1 (part_1 angle_1_left)) <= most u (count 1 1 (part_1 angle_1_left)))
     by ranges.
   assert (HG : 0 <= gamma u (count 1 1 angle_0_right) <= most u (count 1 1 angle_0_right)) by ranges.
-  inversion HV as [| | | | | | | t1 t2 x y z Hx Hy Hz |]; subst. rewrite gamma_one in Hz.
+  destruct (operands_of_minus _ _ _ _ _ _ _ HV) as [x [y [Hx [Hy Hz]]]]. rewrite gamma_one in Hz.
   assert (Xb : exact env (part_1 angle_1_left) = square b) by (unfold b, sb, sp; lay_open; ring).
   assert (Xa : exact env (part_2 angle_1_left) = square a) by (unfold a, sa, sp; lay_open; ring).
   assert (Pb := square_positive b). assert (Pa := square_positive a).
@@ -210,7 +210,7 @@ Proof.
   set (part := part_2 within_angle_1_left).
   assert (HE : 0 <= gamma u (count 1 1 part) <= most u (count 1 1 part)) by ranges.
   assert (HG : 0 <= gamma u (count 1 1 within_angle_0_right) <= most u (count 1 1 within_angle_0_right)) by ranges.
-  inversion HV as [| | | | | | | t1 t2 x y z Hx Hy Hz |]; subst. rewrite gamma_one in Hz.
+  destruct (operands_of_minus _ _ _ _ _ _ _ HV) as [x [y [Hx [Hy Hz]]]]. rewrite gamma_one in Hz.
   assert (Xa : exact env part = square a) by (unfold part, a, sa, sp; lay_open; ring).
   assert (Pa := square_positive a).
   destruct (squared_distance_error env part y Hy) as [Ey Ry]; [unfold part; sizes | lra |].
@@ -280,7 +280,7 @@ Proof.
   set (part := part_1 within_angle_behind_1_left).
   assert (HE : 0 <= gamma u (count 1 1 part) <= most u (count 1 1 part)) by ranges.
   assert (HG : 0 <= gamma u (count 1 1 within_angle_behind_0_right) <= most u (count 1 1 within_angle_behind_0_right)) by ranges.
-  inversion HV as [| | | | | | | t1 t2 x y z Hx Hy Hz |]; subst. rewrite gamma_one in Hz.
+  destruct (operands_of_minus _ _ _ _ _ _ _ HV) as [x [y [Hx [Hy Hz]]]]. rewrite gamma_one in Hz.
   assert (Xa : exact env part = square a) by (unfold part, a, sa, sp; lay_open; ring).
   assert (Pa := square_positive a).
   destruct (squared_distance_error env part x Hx) as [Ey Ry]; [unfold part; sizes | lra |].

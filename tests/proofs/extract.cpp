@@ -61,12 +61,21 @@ std::string constant(double value) {
 // written down as terms of its own.
 std::vector<int> cuts;
 
+// Products with powers of two, each by a shift of its own, which a definition takes as an argument.
+std::vector<int> scaled;
+
 std::string term(int place) {
   const Operation& operation = operations[static_cast<std::size_t>(place)];
   if (operation.name == "Constant") return constant(operation.value);
   const auto cut = std::ranges::find(cuts, place);
   if (cut != cuts.end()) return "(Given " + std::to_string(100 + (cut - cuts.begin())) + ")";
   if (operation.name == "Given") return "(Given " + std::to_string(operation.operands[0]) + ")";
+  if (operation.name == "Scaled") {
+    const auto found = std::ranges::find(scaled, place);
+    const auto number = found - scaled.begin();
+    if (found == scaled.end()) scaled.push_back(place);
+    return "(Scaled " + term(operation.operands[0]) + " (shift " + std::to_string(number) + "%nat))";
+  }
   std::string text = "(" + operation.name;
   for (const int operand : operation.operands) text += " " + term(operand);
   return text + ")";
@@ -80,6 +89,7 @@ void write(const std::string& name, Filter filter) {
   filter();
   std::cout << "\n(* " << name << ": " << num_given << " numbers are given. *)\n";
   cuts.clear();
+  scaled.clear();
   for (std::size_t i = 0; i < operations.size(); ++i) {
     const Operation& operation = operations[i];
     if (operation.name != "Root" && operation.name != "Quotient") continue;
@@ -93,8 +103,12 @@ void write(const std::string& name, Filter filter) {
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     const auto& [left, right, is_greater] = comparisons[i];
     const std::string place = name + "_" + std::to_string(i);
-    std::cout << "Definition " << place << "_left : term := " << term(left) << ".\n"
-              << "Definition " << place << "_right : term := " << term(right) << ".\n"
+    const std::string of_left = term(left);
+    const std::string of_right = term(right);
+    const char* argument = scaled.empty() ? "" : " (shift : nat -> Z)";
+    std::cout << "Definition " << place << "_left" << argument << " : term := " << of_left << ".\n"
+              << "Definition " << place << "_right" << argument << " : term := " << of_right
+              << ".\n"
               << "(* " << operations[static_cast<std::size_t>(left)].value
               << (is_greater ? " > " : " <= ") << operations[static_cast<std::size_t>(right)].value
               << " *)\n";
@@ -128,6 +142,30 @@ void write_all() {
     const Point c = given_point(0.1, 0.3, 0.7);
     const Point o = given_point(0.05, 0.02, 0.01);
     predicates::orientation_extended(a, b, c, o);
+  });
+  write("orientation_wide", [] {
+    const Point a = given_point(0.9, 0.1, 0.2);
+    const Point b = given_point(0.2, 0.8, 0.1);
+    const Point c = given_point(0.1, 0.3, 0.7);
+    const Point o = given_point(0.05, 0.02, 0.01);
+    predicates::wide_filter(a, b, c, o);
+  });
+  // The template with which pairs of doubles are multiplied; what is given are exact pairs.
+  write_constant("angle_double_double_bound",
+                 predicates::angle_double_double_bound * predicates::angle_double_double_bound);
+  write("double_double_distances", [] {
+    const Vector b = given_vector(0.9, 0.1, 0.2);
+    const Vector a = given_vector(0.2, 0.8, 0.1);
+    (void)(dot(b, b) - dot(a, a) > 0);
+  });
+  write_constant("circle_double_double_bound", predicates::circle_double_double_bound);
+  write_constant("plane_double_double_bound",
+                 predicates::plane_double_double_bound * predicates::plane_double_double_bound);
+  write("double_double_determinant", [] {
+    const Vector b = given_vector(0.9, 0.1, 0.2);
+    const Vector c = given_vector(0.2, 0.8, 0.1);
+    const Vector d = given_vector(0.1, 0.3, 0.7);
+    (void)(-det(b, c, d) > 0);
   });
   write("direction_orientation", [] {
     const Vector a = given_vector(0.9, 0.1, 0.2);
@@ -238,6 +276,10 @@ void write_all() {
     const Point p = given_point(0.9, 0.1, 0.2);
     const Point o = given_point(0.05, 0.02, 0.01);
     predicates::direction(p, o);
+  });
+  write("norm", [] {
+    const Vector v = given_vector(0.9, 0.1, 0.2);
+    (void)(dot(v, v) > 0);
   });
   write("plane_line", [] {
     const predicates::Pair a = given_pair(0.1, 0.2);

@@ -46,6 +46,8 @@ def count(term, of_sum=1, of_product=1):
     name, *operands = term
     if name in ("Given", "Constant"):
         return 0
+    if name == "Scaled":
+        return count(operands[0], of_sum, of_product)
     counts = [count(operand, of_sum, of_product) for operand in operands]
     if name in ("Plus", "Minus"):
         return max(counts) + of_sum
@@ -56,7 +58,7 @@ def count(term, of_sum=1, of_product=1):
 
 def read_formulas(path):
     text = path.read_text(encoding="utf-8")
-    return {name: parsed(body) for name, body in re.findall(r"Definition (\w+) : term := (.*)\.\n", text)}
+    return {name: parsed(body) for name, body in re.findall(r"Definition (\w+)(?: \(shift : nat -> Z\))? : term := (.*)\.\n", text)}
 
 
 def factor(term):

@@ -14,6 +14,7 @@ Inductive term : Set :=
 | Constant (m e : Z)  (* m 2^e *)
 | Opposite (a : term)
 | Absolute (a : term)
+| Scaled (a : term) (e : Z)  (* a 2^e *)
 | Largest (a b : term)
 | Least (a b : term)
 | Plus (a b : term)
@@ -28,6 +29,7 @@ Fixpoint exact (env : nat -> R) (t : term) : R :=
   | Constant m e => constant m e
   | Opposite a => - exact env a
   | Absolute a => Rabs (exact env a)
+  | Scaled a e => exact env a * bpow radix2 e
   | Largest a b => Rmax (exact env a) (exact env b)
   | Least a b => Rmin (exact env a) (exact env b)
   | Plus a b => exact env a + exact env b
@@ -45,6 +47,7 @@ Fixpoint size (env : nat -> R) (t : term) : R :=
   | Constant m e => Rabs (constant m e)
   | Opposite a => size env a
   | Absolute a => size env a
+  | Scaled a e => size env a * bpow radix2 e
   | Largest a b | Least a b => Rmax (size env a) (size env b)
   | Plus a b =>
       if andb (is_exact a) (is_exact b) then Rabs (exact env a + exact env b)
@@ -59,7 +62,7 @@ Fixpoint size (env : nat -> R) (t : term) : R :=
 Fixpoint count (s p : nat) (t : term) : nat :=
   match t with
   | Given _ | Constant _ _ => 0
-  | Opposite a | Absolute a => count s p a
+  | Opposite a | Absolute a | Scaled a _ => count s p a
   | Largest a b | Least a b => Nat.max (count s p a) (count s p b)
   | Plus a b | Minus a b => Nat.max (count s p a) (count s p b) + s
   | Times a b => count s p a + count s p b + p
@@ -73,6 +76,8 @@ Inductive computes (unit : R) (s p : nat) (env : nat -> R) : term -> R -> Prop :
 | computes_constant m e : computes unit s p env (Constant m e) (constant m e)
 | computes_opposite a x : computes unit s p env a x -> computes unit s p env (Opposite a) (- x)
 | computes_absolute a x : computes unit s p env a x -> computes unit s p env (Absolute a) (Rabs x)
+| computes_scaled a e x :
+    computes unit s p env a x -> computes unit s p env (Scaled a e) (x * bpow radix2 e)
 | computes_largest a b x y :
     computes unit s p env a x -> computes unit s p env b y ->
     computes unit s p env (Largest a b) (Rmax x y)
@@ -88,6 +93,12 @@ Inductive computes (unit : R) (s p : nat) (env : nat -> R) : term -> R -> Prop :
 | computes_times a b x y z :
     computes unit s p env a x -> computes unit s p env b y ->
     Rabs (z - x * y) <= gamma unit p * Rabs (x * y) -> computes unit s p env (Times a b) z.
+
+Lemma operands_of_minus unit s p env a b z :
+  computes unit s p env (Minus a b) z ->
+  exists x y, computes unit s p env a x /\ computes unit s p env b y /\
+    Rabs (z - (x - y)) <= gamma unit s * Rabs (x - y).
+Proof. inversion 1; subst; eauto. Qed.
 
 Section Errors.
 Variable unit : R.
@@ -124,7 +135,8 @@ Proof.
   induction t; simpl; try apply Rabs_pos; try assumption; try lra;
     try (eapply Rle_trans; [| apply Rmax_l]; assumption);
     try (destruct (is_exact t1), (is_exact t2); simpl; try apply Rabs_pos; lra).
-  apply Rmult_le_pos; assumption.
+  - apply Rmult_le_pos; [assumption | apply bpow_ge_0].
+  - apply Rmult_le_pos; assumption.
 Qed.
 
 Lemma Rabs_of_largest x y sx sy : Rabs x <= sx -> Rabs y <= sy -> Rabs (Rmax x y) <= Rmax sx sy.
@@ -155,6 +167,8 @@ Qed.
 Lemma exact_below_size env t : Rabs (exact env t) <= size env t.
 Proof.
   induction t; simpl; try apply Rle_refl; try (rewrite ?Rabs_Ropp, ?Rabs_Rabsolu; assumption).
+  - rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by apply bpow_ge_0.
+    apply Rmult_le_compat_r; [apply bpow_ge_0 | assumption].
   - apply Rabs_of_largest; assumption.
   - rewrite Rmin_Rmax_opposite, Rabs_Ropp. apply Rabs_of_largest; rewrite Rabs_Ropp; assumption.
   - destruct (is_exact t1 && is_exact t2)%bool; [apply Rle_refl |].
@@ -240,6 +254,9 @@ Proof.
   - replace (constant m e - constant m e) with 0 by ring. rewrite Rabs_R0. unfold gamma; simpl. lra.
   - replace (- x - - exact env a) with (- (x - exact env a)) by ring. rewrite Rabs_Ropp. assumption.
   - eapply Rle_trans; [apply Rabs_triang_inv2 | assumption].
+  - replace (x * bpow radix2 e - exact env a * bpow radix2 e) with ((x - exact env a) * bpow radix2 e) by ring.
+    rewrite Rabs_mult, (Rabs_pos_eq (bpow radix2 e)) by apply bpow_ge_0. rewrite <- Rmult_assoc.
+    apply Rmult_le_compat_r; [apply bpow_ge_0 | assumption].
   - apply error_of_largest; auto using size_positive.
   - rewrite !Rmin_Rmax_opposite. replace (- Rmax (- x) (- y) - - Rmax (- exact env a) (- exact env b))
       with (- (Rmax (- x) (- y) - Rmax (- exact env a) (- exact env b))) by ring.
@@ -312,6 +329,7 @@ Fixpoint floats (env : nat -> R) (t : term) : R :=
   | Constant m e => constant m e
   | Opposite a => - floats env a
   | Absolute a => Rabs (floats env a)
+  | Scaled a e => rounded (floats env a * bpow radix2 e)
   | Largest a b => Rmax (floats env a) (floats env b)
   | Least a b => Rmin (floats env a) (floats env b)
   | Plus a b => rounded (floats env a + floats env b)
@@ -319,11 +337,14 @@ Fixpoint floats (env : nat -> R) (t : term) : R :=
   | Times a b => rounded (floats env a * floats env b)
   end.
 
-(* No product underflows. *)
+(* No product underflows, and no product with a power of two loses a digit. *)
 Fixpoint has_normal_products (env : nat -> R) (t : term) : Prop :=
   match t with
   | Given _ | Constant _ _ => True
   | Opposite a | Absolute a => has_normal_products env a
+  | Scaled a e =>
+      has_normal_products env a /\
+      rounded (floats env a * bpow radix2 e) = floats env a * bpow radix2 e
   | Largest a b | Least a b | Plus a b | Minus a b =>
       has_normal_products env a /\ has_normal_products env b
   | Times a b =>
@@ -335,7 +356,7 @@ Fixpoint has_double_constants (t : term) : Prop :=
   match t with
   | Given _ => True
   | Constant m e => is_double (constant m e)
-  | Opposite a | Absolute a => has_double_constants a
+  | Opposite a | Absolute a | Scaled a _ => has_double_constants a
   | Largest a b | Least a b | Plus a b | Minus a b | Times a b =>
       has_double_constants a /\ has_double_constants b
   end.
@@ -361,6 +382,7 @@ Proof.
   - apply computes_constant.
   - apply computes_opposite; auto.
   - apply computes_absolute; auto.
+  - destruct N as [? ->]. apply computes_scaled; auto.
   - destruct C, N. apply computes_largest; auto.
   - destruct C, N. apply computes_least; auto.
   - destruct C, N. eapply computes_plus; eauto. rewrite gamma_one.
@@ -378,6 +400,7 @@ Inductive contracted (env : nat -> R) : term -> R -> Prop :=
 | contracted_constant m e : contracted env (Constant m e) (constant m e)
 | contracted_opposite a x : contracted env a x -> contracted env (Opposite a) (- x)
 | contracted_absolute a x : contracted env a x -> contracted env (Absolute a) (Rabs x)
+| contracted_scaled a e x : contracted env a x -> contracted env (Scaled a e) (x * bpow radix2 e)
 | contracted_largest a b x y :
     contracted env a x -> contracted env b y -> contracted env (Largest a b) (Rmax x y)
 | contracted_least a b x y :
@@ -401,6 +424,7 @@ Proof.
   - apply computes_constant.
   - apply computes_opposite; auto.
   - apply computes_absolute; auto.
+  - apply computes_scaled; auto.
   - apply computes_largest; auto.
   - apply computes_least; auto.
   - eapply computes_plus; eauto. rewrite gamma_one.

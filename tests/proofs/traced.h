@@ -13,6 +13,7 @@
 #include <compare>
 #include <concepts>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -51,7 +52,10 @@ inline int add_operation(std::string name, std::vector<int> operands, double val
   return static_cast<int>(operations.size()) - 1;
 }
 
-// Constants of the code are computed by the compiler, and have no place until they are used.
+// Constants of the code are computed by the compiler, and have no place until they are used. A power of two
+// that is made of its bits has a place of its own kind: a product with it is not rounded.
+inline constexpr int power_of_two = -2;
+
 struct Number {
   double value = 0;
   int place = -1;
@@ -84,6 +88,8 @@ constexpr Number operator-(const Number& a, const Number& b) {
   return combined("Minus", a, b, a.value - b.value);
 }
 constexpr Number operator*(const Number& a, const Number& b) {
+  if (a.place == power_of_two && b.place >= 0) return combined("Scaled", b, a.value * b.value);
+  if (b.place == power_of_two && a.place >= 0) return combined("Scaled", a, a.value * b.value);
   return combined("Times", a, b, a.value * b.value);
 }
 constexpr Number operator/(const Number& a, const Number& b) {
@@ -92,6 +98,8 @@ constexpr Number operator/(const Number& a, const Number& b) {
 constexpr Number operator-(const Number& a) { return combined("Opposite", a, -a.value); }
 constexpr Number& operator+=(Number& a, const Number& b) { return a = a + b; }
 constexpr Number& operator*=(Number& a, const Number& b) { return a = a * b; }
+
+inline Number last_taken_apart;
 
 constexpr bool compared(const Number& a, const Number& b, bool is_greater) {
   if (!std::is_constant_evaluated() && (a.place >= 0 || b.place >= 0))
@@ -140,8 +148,18 @@ struct numeric_limits<rondel::proofs::Number> : numeric_limits<double> {
 };
 template <class To, class From>
 requires same_as<From, rondel::proofs::Number>
-constexpr To bit_cast(const From& a) noexcept { return bit_cast<To>(a.value); }
+constexpr To bit_cast(const From& a) noexcept {
+  if (!is_constant_evaluated() && a.place >= 0) rondel::proofs::last_taken_apart = a;
+  return bit_cast<To>(a.value);
+}
 template <class To, class From>
 requires same_as<To, rondel::proofs::Number>
-constexpr To bit_cast(const From& a) noexcept { return {bit_cast<double>(a), -1}; }
+constexpr To bit_cast(const From& a) noexcept {
+  // A number with the digits of the last one that was taken apart is that one, scaled.
+  const auto digits = bit_cast<uint64_t>(a) << 12U;
+  if (digits == 0) return {bit_cast<double>(a), rondel::proofs::power_of_two};
+  const rondel::proofs::Number& last = rondel::proofs::last_taken_apart;
+  if (bit_cast<uint64_t>(last.value) << 12U != digits) abort();
+  return rondel::proofs::combined("Scaled", last, bit_cast<double>(a));
+}
 }  // namespace std
