@@ -74,7 +74,8 @@ std::string term(int place) {
     const auto found = std::ranges::find(scaled, place);
     const auto number = found - scaled.begin();
     if (found == scaled.end()) scaled.push_back(place);
-    return "(Scaled " + term(operation.operands[0]) + " (shift " + std::to_string(number) + "%nat))";
+    return "(Scaled " + term(operation.operands[0]) + " (shift " + std::to_string(number) +
+           "%nat))";
   }
   std::string text = "(" + operation.name;
   for (const int operand : operation.operands) text += " " + term(operand);
