@@ -8,8 +8,9 @@
 import pathlib
 import re
 import sys
-import tomllib
 import unittest
+
+import tomllib
 
 ROOT = pathlib.Path(sys.argv.pop(1))
 PROOFS = ROOT / "tests" / "proofs"

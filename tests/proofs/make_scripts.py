@@ -58,7 +58,8 @@ def count(term, of_sum=1, of_product=1):
 
 def read_formulas(path):
     text = path.read_text(encoding="utf-8")
-    return {name: parsed(body) for name, body in re.findall(r"Definition (\w+)(?: \(shift : nat -> Z\))? : term := (.*)\.\n", text)}
+    definition = r"Definition (\w+)(?: \(shift : nat -> Z\))? : term := (.*)\.\n"
+    return {name: parsed(body) for name, body in re.findall(definition, text)}
 
 
 def factor(term):
