@@ -25,47 +25,39 @@ IntegerVector operator*(const Integer& s, const IntegerVector& v) {
   return {s * v.x, s * v.y, s * v.z};
 }
 
-int num_bits(const Integer& value) {
-  return value == 0 ? 0 : static_cast<int>(msb(abs(value))) + 1;
-}
+int num_bits(const Integer& value) { return static_cast<int>(value.num_bits()); }
 
 int num_bits(const IntegerVector& v) {
   return std::max({num_bits(v.x), num_bits(v.y), num_bits(v.z)});
 }
 
-// value * 2^bits, rounded towards zero. (Boost 1.74 loses the sign of some negative numbers that it
-// shifts to the right.)
+// value * 2^bits, rounded towards zero.
 Integer shifted(const Integer& value, int bits) {
-  if (bits >= 0) return value << bits;
-  const Integer magnitude = abs(value) >> -bits;
-  return value < 0 ? Integer(-magnitude) : magnitude;
+  return bits >= 0 ? value << static_cast<unsigned>(bits) : value >> static_cast<unsigned>(-bits);
 }
 
 // value * 2^exponent, rounded to nearest. A sticky bit below the 62 leading ones makes the
 // single conversion round correctly.
 double to_double(const Integer& value, int exponent) {
-  Integer magnitude = abs(value);
-  const int excess = num_bits(magnitude) - wanted_bits;
+  const int excess = num_bits(value) - wanted_bits;
+  std::uint64_t magnitude = shifted(value, -std::max(excess, 0)).low_word();
   if (excess > 0) {
-    const bool is_inexact = static_cast<int>(lsb(magnitude)) < excess;
-    magnitude >>= excess;
-    if (is_inexact) magnitude |= 1U;
+    if (static_cast<int>(value.trailing_zeros()) < excess) magnitude |= 1U;
     exponent += excess;
   }
-  const double rounded =
-      std::ldexp(static_cast<double>(static_cast<std::uint64_t>(magnitude)), exponent);
+  const double rounded = std::ldexp(static_cast<double>(magnitude), exponent);
   return value < 0 ? -rounded : rounded;
 }
 
 // The unit vector of a non-zero integer vector. Its leading 128 bits give the direction to
 // 2^-126, the root and the quotients keep that.
 Vec rounded_unit(const IntegerVector& v) {
-  constexpr int bits = 128;
-  const int shift = bits - num_bits(v);
+  constexpr unsigned bits = 128;
+  const int shift = static_cast<int>(bits) - num_bits(v);
   const IntegerVector w = {shifted(v.x, shift), shifted(v.y, shift), shifted(v.z, shift)};
   const Integer length = floor_sqrt(dot(w, w));
   const auto quotient = [&](const Integer& x) {
-    return to_double(Integer((x << bits) / length), -bits);
+    return to_double((x << bits) / length, -static_cast<int>(bits));
   };
   return {quotient(w.x), quotient(w.y), quotient(w.z)};
 }
@@ -99,7 +91,7 @@ IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
   require_different_rays(b, c);
   require_different_rays(c, a);
   const int error_bits = std::max({num_bits(bc), num_bits(ca), num_bits(ab)}) + 4;
-  for (int k = 64;; k *= 2) {
+  for (unsigned k = 64;; k *= 2) {
     const auto scaled_root = [k](const IntegerVector& p) {
       return floor_sqrt(dot(p, p) << (2 * k));
     };
@@ -163,7 +155,7 @@ ExactDifference exact_projected_difference(const Point& a, const Point& b, const
   const auto p = exact::scaled_rays({a, b}, center);
   require_different_rays(p[0], p[1]);
   const int error_bits = std::max(num_bits(p[0]), num_bits(p[1])) + 3;
-  for (int k = 64;; k *= 2) {
+  for (unsigned k = 64;; k *= 2) {
     const Integer length_a = floor_sqrt(dot(p[0], p[0]) << (2 * k));
     const Integer length_b = floor_sqrt(dot(p[1], p[1]) << (2 * k));
     const IntegerVector d = length_a * p[1] - length_b * p[0];
@@ -172,14 +164,14 @@ ExactDifference exact_projected_difference(const Point& a, const Point& b, const
     const Integer product = length_a * length_b;
     const int shift = 128 + num_bits(product) - num_bits(d);
     const Integer quotient = shifted(floor_sqrt(dot(d, d)), shift) / product;
-    return {rounded_unit(d), to_double(quotient, k - shift)};
+    return {rounded_unit(d), to_double(quotient, static_cast<int>(k) - shift)};
   }
 }
 
 // With the integer rays a, b, c and p the weight of a is to the others as det(p, b, c) |a|.
 std::array<double, 3> exact_weights(const std::array<Point, 3>& corners, const Point& p,
                                     const Point& center) {
-  constexpr int root_bits = 128;
+  constexpr unsigned root_bits = 128;
   const auto r = exact::scaled_rays({corners[0], corners[1], corners[2], p}, center);
   std::array<Integer, 3> weights = {det(r[3], r[1], r[2]), det(r[3], r[2], r[0]),
                                     det(r[3], r[0], r[1])};

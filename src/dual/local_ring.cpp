@@ -19,7 +19,7 @@ namespace {
 // offsets has lost more than four bits and is computed in double-double.
 constexpr double smallest_sine_squared = 0x1p-8;
 // Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
-constexpr double smallest_square = 0x1p-90;
+constexpr double smallest_ring_square = 0x1p-90;
 // Squares of offsets below this may underflow in products.
 constexpr double underflow_square = 0x1p-200;
 // 4u.
@@ -85,7 +85,7 @@ inline RingPoint RingLocalizer::star_point(Index rank, const Spoke& b, const Spo
   const Vec n = cross(b.v, c.v);
   const double n2 = dot(n, n);
   if (n2 < smallest_sine_squared * (b.square * c.square) ||
-      std::min(b.square, c.square) < smallest_square) {
+      std::min(b.square, c.square) < smallest_ring_square) {
     return careful_star_point(rank, b.rank, c.rank, position);
   }
   const double inverse = 1 / std::sqrt(n2);

@@ -31,7 +31,7 @@ Scaled decompose(double value) {
 // value * 2^-lowest, where lowest <= the exponent of value.
 Integer to_integer(const Scaled& value, int lowest) {
   if (value.mantissa == 0) return 0;
-  return Integer(value.mantissa) << (value.exponent - lowest);
+  return Integer(value.mantissa) << static_cast<unsigned>(value.exponent - lowest);
 }
 
 int lowest_exponent(const Point& p) {
@@ -50,7 +50,7 @@ struct Root {
 
 // \pre n < 2^62.
 Root small_root(const Integer& n) {
-  const auto value = static_cast<std::int64_t>(n);
+  const auto value = static_cast<std::int64_t>(n.low_word());
   auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(value)));
   while (root * root > value) --root;
   while ((root + 1) * (root + 1) <= value) ++root;
@@ -66,15 +66,11 @@ Root small_root(const Integer& n) {
 // high >= b^2, hence s >= b and q <= b: the remainder is at most 2 s b, and if it is negative, the
 // root less 1 has one that is not. One division of half the length at each level.
 Root root_of(const Integer& n) {
-  const unsigned size = n == 0 ? 0 : static_cast<unsigned>(msb(n)) + 1;
-  if (size <= 62) return small_root(n);
-  const unsigned k = (size - 1) / 4;
-  const Integer mask = (Integer(1) << k) - 1;
+  if (n.num_bits() <= 62) return small_root(n);
+  const unsigned k = (n.num_bits() - 1) / 4;
   const auto [s, r] = root_of(n >> (2 * k));
-  Integer q;
-  Integer u;
-  divide_qr(Integer((r << k) + ((n >> k) & mask)), Integer(s << 1), q, u);
-  Root root = {(s << k) + q, (u << k) + (n & mask) - q * q};
+  const auto [q, u] = divide((r << k) + low_bits(n >> k, k), s << 1);
+  Root root = {(s << k) + q, (u << k) + low_bits(n, k) - q * q};
   if (root.remainder < 0) {
     root.remainder += 2 * root.floor - 1;
     --root.floor;
@@ -85,8 +81,7 @@ Root root_of(const Integer& n) {
 // The low bits of a square are those of 0, 1, 4, 9, 16, 17, 25, 33, 36, 41, 49 or 57 modulo 64.
 bool is_square(const Integer& n, Integer& root) {
   constexpr std::uint64_t squares_modulo_64 = 0x0202021202030213U;
-  const auto low_bits = static_cast<unsigned>(n & 63U);
-  if ((squares_modulo_64 >> low_bits & 1U) == 0) return false;
+  if ((squares_modulo_64 >> (n.low_word() % 64) & 1U) == 0) return false;
   auto [floor, remainder] = root_of(n);
   root = std::move(floor);
   return remainder == 0;
@@ -99,7 +94,7 @@ bool sign_at_precision(std::span<const Integer> coefficients, std::span<const In
   Integer sum = 0;
   Integer error = 0;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const Integer root = floor_sqrt(Integer(radicands[i] << (2 * bits)));
+    const Integer root = floor_sqrt(radicands[i] << (2 * bits));
     sum += coefficients[i] * root;
     error += abs(coefficients[i]);
   }

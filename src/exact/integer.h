@@ -5,19 +5,16 @@
 // two, so points scaled by a common power of two are integer vectors.
 #pragma once
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <initializer_list>
 #include <span>
 #include <vector>
 
+#include "exact/big_integer.h"
 #include "exact/vector.h"
 #include "rondel/types.h"
 
 namespace rondel::exact {
 
-// Without expression templates, so that the generic vector formulas apply.
-using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
-                                              boost::multiprecision::et_off>;
 using IntegerVector = Vector3<Integer>;
 
 inline Sign sign_of(const Integer& value) { return static_cast<Sign>(value.sign()); }

@@ -51,7 +51,7 @@ CubePosition exact_cube_position(const Point& p, const Point& center) {
   const cube::CubeFace& face = cube::faces[2 * axis + (d[axis] < 0 ? 1 : 0)];
   const auto position = [&](unsigned along, int sign) {
     const Integer steps = ((sign * d[along] + length) << (position_bits - 1)) / length;
-    return std::min(static_cast<std::uint64_t>(steps), cube::last_position);
+    return std::min(steps.low_word(), cube::last_position);
   };
   return {face.rank, position(face.u_axis, face.u_sign), position(face.v_axis, face.v_sign)};
 }

@@ -21,17 +21,18 @@ namespace {
 using system::choose;
 using system::mask;
 
-constexpr std::size_t batch = 128;
+constexpr std::size_t batch_size = 128;
 constexpr std::uint32_t levels = (std::uint32_t{1} << high_levels) - 1;  // one bit each
 
 // Positions on the cube, by their bits for the levels of the high key.
 struct Positions {
-  alignas(64) std::array<std::uint32_t, batch> face;
-  alignas(64) std::array<std::uint32_t, batch> u;
-  alignas(64) std::array<std::uint32_t, batch> v;
-  alignas(64) std::array<std::uint32_t, batch> low_u;  // the same for the low key
-  alignas(64) std::array<std::uint32_t, batch> low_v;
-  alignas(64) std::array<std::uint32_t, batch> is_unsure;  // not 0: rounding may have changed it
+  alignas(64) std::array<std::uint32_t, batch_size> face;
+  alignas(64) std::array<std::uint32_t, batch_size> u;
+  alignas(64) std::array<std::uint32_t, batch_size> v;
+  alignas(64) std::array<std::uint32_t, batch_size> low_u;  // the same for the low key
+  alignas(64) std::array<std::uint32_t, batch_size> low_v;
+  alignas(
+      64) std::array<std::uint32_t, batch_size> is_unsure;  // not 0: rounding may have changed it
 };
 
 // Rounded differences from a center would give sites on one ray different keys.
@@ -255,8 +256,8 @@ void keys_of_exact(std::span<const Point> sites, const Point& center, std::uint6
 void place_keys(std::span<const Point> sites, Model model, const Point& center,
                 std::span<std::uint64_t> keys, std::span<std::uint64_t> low_keys) {
   const KeysOfBatch work = is_rounding_harmless(model, center) ? keys_of_rounded : keys_of_exact;
-  for (std::size_t i = 0; i < sites.size(); i += batch) {
-    work(sites.subspan(i, std::min(batch, sites.size() - i)), center, keys.data() + i,
+  for (std::size_t i = 0; i < sites.size(); i += batch_size) {
+    work(sites.subspan(i, std::min(batch_size, sites.size() - i)), center, keys.data() + i,
          low_keys.empty() ? nullptr : low_keys.data() + i);
   }
 }

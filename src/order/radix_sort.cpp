@@ -16,14 +16,14 @@ constexpr int digit_bits = 11;
 constexpr std::size_t num_digits = std::size_t{1} << digit_bits;
 constexpr int digits = 3;  // sorted at once
 
-using Positions = std::array<std::size_t, num_digits>;
+using DigitPositions = std::array<std::size_t, num_digits>;
 
 std::size_t digit(std::uint64_t key, int shift) { return (key >> shift) & (num_digits - 1); }
 
 // How many keys of the range have each digit, for all digits in one pass.
-std::array<Positions, digits> count_digits(const KeyedIndices& data, std::size_t first,
-                                           std::size_t last, int lowest) {
-  std::array<Positions, digits> counts{};
+std::array<DigitPositions, digits> count_digits(const KeyedIndices& data, std::size_t first,
+                                                std::size_t last, int lowest) {
+  std::array<DigitPositions, digits> counts{};
   for (std::size_t i = first; i < last; ++i) {
     for (int d = 0; d < digits; ++d) {
       ++counts[static_cast<std::size_t>(d)][digit(data.keys[i], lowest + d * digit_bits)];
@@ -34,7 +34,7 @@ std::array<Positions, digits> count_digits(const KeyedIndices& data, std::size_t
 
 // Moves the range to `target`, stable by the digit at `shift`. Uses up the counts.
 void move_by_digit(const KeyedIndices& data, KeyedIndices& target, std::size_t first,
-                   std::size_t last, int shift, Positions& position) {
+                   std::size_t last, int shift, DigitPositions& position) {
   std::size_t sum = first;
   for (std::size_t& p : position) sum += std::exchange(p, sum);
   for (std::size_t i = first; i < last; ++i) {

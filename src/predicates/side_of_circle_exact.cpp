@@ -69,18 +69,18 @@ std::optional<Sign> sign_by_equal_lengths(const FourBalls<N>& rays) {
 }
 
 template <std::size_t N>
-using Coordinates = std::array<Ball<N>, 3>;
+using BallCoordinates = std::array<Ball<N>, 3>;
 
 template <std::size_t N>
-std::optional<Coordinates<N>> unit_vector_along(const BallVector<N>& ray) {
+std::optional<BallCoordinates<N>> unit_vector_along(const BallVector<N>& ray) {
   const auto inverse = exact::inverse_square_root(dot(ray, ray));
   if (!inverse) return std::nullopt;
-  return Coordinates<N>{ray.x * *inverse, ray.y * *inverse, ray.z * *inverse};
+  return BallCoordinates<N>{ray.x * *inverse, ray.y * *inverse, ray.z * *inverse};
 }
 
 // The axis along which both unit vectors reach 1/2 on the same side, which close ones have; or 3.
 template <std::size_t N>
-std::size_t common_axis(const Coordinates<N>& v, const Coordinates<N>& w) {
+std::size_t common_axis(const BallCoordinates<N>& v, const BallCoordinates<N>& w) {
   std::size_t axis = 0;
   while (axis < 3 && (v[axis].size_of_midpoint() < 0 || w[axis].size_of_midpoint() < 0 ||
                       v[axis].sign() != w[axis].sign()))
@@ -90,7 +90,7 @@ std::size_t common_axis(const Coordinates<N>& v, const Coordinates<N>& w) {
 
 // About the distance of two unit vectors.
 template <std::size_t N>
-exact::Magnitude distance_between(const Coordinates<N>& v, const Coordinates<N>& w) {
+exact::Magnitude distance_between(const BallCoordinates<N>& v, const BallCoordinates<N>& w) {
   const std::size_t axis = common_axis(v, w);
   if (axis == 3) return 1;
   return std::max((w[(axis + 1) % 3] - v[(axis + 1) % 3]).size(),
@@ -103,10 +103,10 @@ exact::Magnitude distance_between(const Coordinates<N>& v, const Coordinates<N>&
 //     (w_z - v_z) (w_z + v_z) = -(w_x - v_x) (w_x + v_x) - (w_y - v_y) (w_y + v_y).
 template <std::size_t N>
 struct Edge {
-  Coordinates<N> step;
+  BallCoordinates<N> step;
   Ball<N> scale = Ball<N>(1.0);
 
-  Edge(const Coordinates<N>& v, const Coordinates<N>& w) {
+  Edge(const BallCoordinates<N>& v, const BallCoordinates<N>& w) {
     for (std::size_t i = 0; i < 3; ++i) step[i] = w[i] - v[i];
     const std::size_t z = common_axis(v, w);
     if (z == 3) return;
@@ -120,13 +120,13 @@ struct Edge {
 };
 
 template <std::size_t N>
-Ball<N> dot_product(const Coordinates<N>& v, const Coordinates<N>& w) {
+Ball<N> dot_product(const BallCoordinates<N>& v, const BallCoordinates<N>& w) {
   return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
 }
 
 // For each of b, c and d the nearer end of its edge in the tree of shortest edges that grows from p.
 template <std::size_t N>
-std::array<std::size_t, 3> shortest_tree(const std::array<Coordinates<N>, 4>& units) {
+std::array<std::size_t, 3> shortest_tree(const std::array<BallCoordinates<N>, 4>& units) {
   std::array<std::size_t, 3> parent = {3, 3, 3};
   std::array<exact::Magnitude, 3> distance{};
   std::array<bool, 3> is_done{};
@@ -153,13 +153,13 @@ std::array<std::size_t, 3> shortest_tree(const std::array<Coordinates<N>, 4>& un
 // (c-b)_x, (c-b)_y and |C|^2 - |B|^2 = (c-b).(C+B): no row is then larger than it must be.
 template <std::size_t N>
 std::optional<Sign> sign_by_edges(const FourBalls<N>& rays) {
-  std::array<Coordinates<N>, 4> units;
+  std::array<BallCoordinates<N>, 4> units;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto unit = unit_vector_along(rays[i]);
     if (!unit) return std::nullopt;
     units[i] = *unit;
   }
-  const Coordinates<N>& p = units[3];
+  const BallCoordinates<N>& p = units[3];
   std::size_t last = 0;
   for (std::size_t i = 1; i < 3; ++i) {
     if (p[last].size() < p[i].size()) last = i;
@@ -180,7 +180,7 @@ std::optional<Sign> sign_by_edges(const FourBalls<N>& rays) {
     const std::optional<Sign> sign = edge.scale.sign();
     if (!sign) return std::nullopt;
     factor = *factor * *sign;
-    Coordinates<N> sum;
+    BallCoordinates<N> sum;
     for (std::size_t k = 0; k < 3; ++k) {
       sum[k] = (units[i][k] - p[k]) + (units[parent[i]][k] - p[k]);
     }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(predicates_test
   exact/ball_test.cpp
+  exact/big_integer_test.cpp
   exact/integer_rays_test.cpp
   predicates/distance_test.cpp
   predicates/perturbation_test.cpp
