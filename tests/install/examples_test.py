@@ -16,7 +16,7 @@ import tempfile
 from commands import run
 
 ARGUMENTS = {"quick": [], "buffers": [], "cell_areas": ["data/stations.csv"], "circles": [], "constrained": [], "contours": [], "hull": [], "nearest": [], "ocean_mesh": [], "out_of_core": [], "regions": [], "regrid": [], "remap": [],
-             "set_operations": [], "editing": [], "stop": [], "c_interface": [], "c_polygons": [], "c_geometries": []}
+             "set_operations": [], "editing": [], "embedding": [], "stop": [], "c_interface": [], "c_polygons": [], "c_geometries": []}
 
 
 def build_examples(cmake, build, source, compiler, work):
