@@ -96,6 +96,12 @@ class RONDEL_API DynamicTriangulation {
   /// \throws InvalidInput if there is no such site, as insert() does, and if the lengths differ.
   void move(std::span<const Index> ids, std::span<const Point> to, const Execution& execution = {});
 
+  /// Moves all sites at once: that of ids()[i] to to[i]. The result is that of moving them one by
+  /// one. Where few edges change and the sites surround the center, it takes a third of a build, and
+  /// a build otherwise. The next change of some sites, and the next Locator, take longer for it.
+  /// \throws InvalidInput as insert() does, and if there are not num_sites() points.
+  void move_all(std::span<const Point> to, const Execution& execution = {});
+
   [[nodiscard]] Model model() const noexcept;
   [[nodiscard]] const Sphere& sphere() const noexcept;
 

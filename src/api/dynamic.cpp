@@ -80,6 +80,7 @@ void DynamicTriangulation::Impl::require_room(std::size_t more) const {
 
 void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
                                         std::span<const Index> ids, const Execution& execution) {
+  has_old_index = false;  // what follows makes it anew, or fails
   // The build numbers places itself; ids get the places of the sites that they name.
   dynamic::Build build = dynamic::make_build(triangulation, execution.threads);
   std::vector<Index> place_of_id(places().site_limit(), no_index);
@@ -106,6 +107,22 @@ DynamicTriangulation::Impl& DynamicTriangulation::Impl::current() {
   if (is_in_pieces) {
     rebuild({.threads = 1});  // under a lock, which no thread may hold while it waits for others
     is_in_pieces = false;
+  }
+  return *this;
+}
+
+DynamicTriangulation::Impl& DynamicTriangulation::Impl::indexed() {
+  current();
+  if (!has_old_index) return *this;
+  const std::lock_guard guard(mutex);
+  if (has_old_index) {
+    try {
+      visit([](auto& e) { e.sort_index(); });
+    } catch (...) {
+      is_in_pieces = true;
+      throw;
+    }
+    has_old_index = false;
   }
   return *this;
 }
@@ -226,6 +243,22 @@ void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Poin
   const bool is_rebuilt = is_build_faster(ids.size(), builds_of_move, num_sites());
   impl_->change([&](auto& e) {
     is_rebuilt ? e.move(ids, to, [&] { impl_->rebuild(execution); }) : e.move(ids, to, execution);
+  });
+}
+
+void DynamicTriangulation::move_all(std::span<const Point> to, const Execution& execution) {
+  const system::Call call(execution);
+  if (to.size() != num_sites()) {
+    throw InvalidInput("there are " + std::to_string(to.size()) + " points for " +
+                           std::to_string(num_sites()) + " sites to move",
+                       std::min(num_sites(), to.size()));
+  }
+  api::validate(to, impl_->options);
+  impl_->change_all([&](auto& e) {
+    const std::vector<Index> sites = dynamic::live_sites(e.places());
+    const bool is_mended =
+        e.move_all(sites, to, execution.threads, [&] { impl_->rebuild(execution); });
+    impl_->has_old_index = is_mended;
   });
 }
 

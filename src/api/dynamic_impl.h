@@ -80,10 +80,20 @@ struct DynamicTriangulation::Impl {
   // has failed. Several threads may call it.
   Impl& current();
 
+  // Returns current(), with an index of places that is that of the present points, which searches and
+  // changes of some sites need. Several threads may call it.
+  Impl& indexed();
+
   // Returns change(editor). A change that throws leaves the sites as they were, but places and hull
   // in pieces; current() mends them later.
   template <class Change>
   decltype(auto) change(const Change& change) {
+    indexed();
+    return change_all(change);
+  }
+  // The same for a change that looks up no place.
+  template <class Change>
+  decltype(auto) change_all(const Change& change) {
     current();
     flat.reset();
     ++num_changes;
@@ -113,6 +123,8 @@ struct DynamicTriangulation::Impl {
       editor;
   // True after a change has failed, until current() has made places and hull anew.
   std::atomic<bool> is_in_pieces = false;
+  // True after all sites have moved, until indexed() has sorted the index of their places.
+  std::atomic<bool> has_old_index = false;
   mutable system::Mutex mutex;
   // The result of flat_snapshot(); without a value if it was not asked for since the last change.
   mutable std::optional<Snapshot> flat;

@@ -226,7 +226,7 @@ Locator::Locator(const Triangulation& triangulation)
 Locator::Locator(const DynamicTriangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
   // Below dimension 2 there is no hull to walk through, so a snapshot is searched instead.
-  const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
+  const DynamicTriangulation::Impl& changing = triangulation.impl_->indexed();
   if (!changing.has_hull()) {
     const Snapshot& now = changing.flat_snapshot();
     impl_ = std::make_unique<const Impl>(now.triangulation, now.ids, changing.places().points(),

@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamic/flip_mender.h"
 #include "dynamic/place_hull.h"
 #include "dynamic/places.h"
 #include "dynamic/renumbering.h"
@@ -172,6 +173,30 @@ class Editor {
     undo.succeed();
   }
 
+  // Moves all sites that there are, by flips or by `build`. Returns whether it was by flips: then
+  // sort_index() has to be called before anything but this.
+  template <class Build>
+  bool move_all(std::span<const Index> sites, std::span<const Point> to, unsigned threads,
+                const Build& build) {
+    const std::vector<Point> from(places_.points().begin(), places_.points().end());
+    const auto set_points = [&] {
+      for (std::size_t i = 0; i < sites.size(); ++i) places_.set_point(sites[i], to[i]);
+    };
+    system::OnFailure undo([&] {
+      for (const Index site : sites) places_.set_point(site, from[site]);
+      places_.roll_back(sites, true);
+    });
+    set_points();
+    const bool is_mended = mend(from, threads);
+    if (!is_mended) {
+      set_points();  // some may have gone back
+      build();
+    }
+    undo.succeed();
+    return is_mended;
+  }
+  void sort_index() { places_.sort_index(); }
+
   // Takes the result of a build, instead of inserting each. At first assign_points(); then
   // `mesh` has places for vertices, `hidden` are pairs of a place and a vertex close to it.
   void assign_points(std::span<const Point> points) { places_.assign_points(points); }
@@ -205,6 +230,32 @@ class Editor {
   void restore(std::span<const Index> sites, std::span<const Point> from) noexcept {
     for (std::size_t i = from.size(); i-- > 0;) places_.set_point(sites[i], from[i]);
     places_.roll_back(sites, true);
+  }
+
+  // After all sites have moved from `from`: mends the hull of their places by flips. False if it
+  // cannot, or a build would take less time.
+  [[nodiscard]] bool mend(std::span<const Point> from, unsigned threads) {
+    if (!hull_ || !hull_->kinds().all_solid()) return false;
+    // Hidden sites may meet where nothing is looked up.
+    if (hull_->num_vertices() != places_.num_places() || !places_.keep_residents()) return false;
+    const double square =
+        sites_.move_all(places_.points(), places_.representatives(), hull_->corners(), threads);
+    const auto late = FlipMender<T>(*hull_, places_, sites_, from).run(square, threads);
+    if (!late) return false;
+    for (const LateVertex& vertex : *late) {
+      if (!put_elsewhere(vertex)) return false;
+    }
+    return hull_->num_vertices() == places_.num_places();
+  }
+  [[nodiscard]] bool put_elsewhere(const LateVertex& vertex) {
+    if (!hull_->is_vertex(vertex.place)) return false;
+    const std::span<const Index> link = hull_->collect_star(vertex.place);
+    if (leaves_flat(link)) return false;
+    const Index close = link.front();
+    hull_->remove_vertex(vertex.place);
+    places_.set_point(places_.representatives()[vertex.place], vertex.to);
+    refresh(vertex.place);
+    return hull_->insert_vertex(vertex.place, close);
   }
 
   // Only between changes: it makes all numbers of places and faces invalid.

@@ -66,6 +66,47 @@ class PlaceHull {
   // `close` is a place close to p, or no_index.
   void insert(Index p, Index close) { insert_from(p, start_at(close)); }
 
+  // The same; false, and nothing is done, if p would be hidden or is in the place of a vertex.
+  [[nodiscard]] bool insert_vertex(Index p, Index close) {
+    const auto found = hull_.locate(p, start_at(close));
+    if (found.conflict == no_index) return false;
+    insert_into(p, found.conflict);
+    return true;
+  }
+
+  [[nodiscard]] kernel::ConflictTest<T>& test() { return hull_.test(); }
+
+  // Replaces the edge of a halfedge by the other diagonal of the two faces beside it, which are
+  // returned: edge 1 of both is the new one. Precondition: all faces are solid, and these two will
+  // be; they hide nothing.
+  //
+  //        b               b
+  //       /|\             / \          f = (c, a, b) becomes (c, a, d),
+  //      c | d    ->     c---d         g = (d, b, a) becomes (d, b, c)
+  //       \|/             \ /
+  //        a               a
+  std::array<Index, 2> flip(topology::Halfedge h) {
+    topology::Mesh& mesh = hull_.mesh();
+    const Index f = topology::face_of(h);
+    const unsigned i = topology::edge_of(h);
+    const topology::Face left = mesh[f];
+    const Index g = topology::face_of(left.opposite[i]);
+    const unsigned j = topology::edge_of(left.opposite[i]);
+    const topology::Face right = mesh[g];
+    const Index c = left.vertex[i];
+    const Index d = right.vertex[j];
+    mesh[f].vertex = {c, left.vertex[topology::next_corner[i]], d};
+    mesh[g].vertex = {d, right.vertex[topology::next_corner[j]], c};
+    mesh.link(topology::halfedge(f, 0), right.opposite[topology::next_corner[j]]);
+    mesh.link(topology::halfedge(f, 1), topology::halfedge(g, 1));
+    mesh.link(topology::halfedge(f, 2), left.opposite[topology::previous_corner[i]]);
+    mesh.link(topology::halfedge(g, 0), left.opposite[topology::next_corner[i]]);
+    mesh.link(topology::halfedge(g, 2), right.opposite[topology::previous_corner[j]]);
+    set_corners(f);
+    set_corners(g);
+    return {f, g};
+  }
+
   // Attaches a place that is known to be hidden.
   void attach_hidden(Index p, Index close) { cover(p, start_at(close)); }
 
@@ -169,10 +210,13 @@ class PlaceHull {
       hidden_.attach(p, found.solid, found.entry);
       return;
     }
+    insert_into(p, found.conflict);
+  }
+
+  void insert_into(Index p, Index conflict) {
     std::vector<Index> covered;
-    const auto star = hull_.insert(p, found.conflict, [&](const kernel::ConflictRegion<T>& region) {
-      release(region, covered);
-    });
+    const auto star = hull_.insert(
+        p, conflict, [&](const kernel::ConflictRegion<T>& region) { release(region, covered); });
     for (const Index f : star) set_corners(f);
     if (!covered.empty()) cover_all(std::move(covered));
   }

@@ -150,6 +150,50 @@ void Places::renumber(const Renumbering& places) {
   for (const auto& [place, site] : residents) insert({places.new_place[place], site});
 }
 
+bool Places::keep_residents() {
+  for (const auto& [place, site] : by_name_) {
+    const Point& p = points_[site];
+    const Point& q = points_[names_[place]];
+    if (p == q) continue;
+    if (model_ == Model::weighted || predicates::compare_rays(p, q, center_) != Sign::zero) {
+      return false;
+    }
+  }
+  // Points have changed, and with them the order of those who share a place.
+  by_triple_.clear();
+  for (const Resident& resident : by_name_) by_triple_.insert(resident);
+  Index last = no_index;
+  for (const auto& [place, site] : by_triple_) {
+    if (place != last) representatives_[place] = site;
+    last = place;
+  }
+  return true;
+}
+
+void Places::sort_index() {
+  struct Entry {
+    order::HilbertKey key;
+    Index place;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(num_places());
+  // The old order is nearly the new one.
+  for (const Index place : in_order()) entries.push_back({key(place_point(place)), place});
+  std::ranges::sort(entries, [this](const Entry& a, const Entry& b) {
+    if (a.key != b.key) return a.key < b.key;
+    return predicates::is_lexicographically_less(place_point(a.place), place_point(b.place));
+  });
+  std::vector<order::HilbertKey> keys;
+  std::vector<Index> places;
+  keys.reserve(entries.size());
+  places.reserve(entries.size());
+  for (const Entry& entry : entries) {
+    keys.push_back(entry.key);
+    places.push_back(entry.place);
+  }
+  index_.assign(keys, places);
+}
+
 void Places::assign_points(std::span<const Point> points) {
   points_.assign(points.begin(), points.end());
 }

@@ -109,6 +109,14 @@ class RONDEL_API Places {
 
   void renumber(const Renumbering& places);
 
+  // --- all sites move at once ---
+
+  // After set_point() for all of them: whether duplicates still share their places. Then each place
+  // has the site that speaks for it. The index of places is that of the old points until
+  // sort_index() is called: before it nothing may be looked up, come or go.
+  [[nodiscard]] bool keep_residents();
+  void sort_index();
+
   // The sites 0, 1, 2 ... of an object that has none. assign() follows.
   void assign_points(std::span<const Point> points);
   // Takes the result of a build: of each site the place, of those that are not there no_index.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "exact/unit_vector.h"
+#include "models/moved_sites.h"
 #include "models/sphere_traits.h"
 #include "system/large_arrays.h"
 #include "system/prefetch.h"
@@ -15,7 +16,7 @@
 namespace rondel::models {
 namespace {
 
-static_assert(SphereModel<ProjectedPoints>);
+static_assert(MovingSphereModel<ProjectedPoints>);
 
 using predicates::Vector;
 
@@ -47,6 +48,15 @@ void ProjectedPoints::set(Index a, std::span<const Point> input, std::span<const
   }
   rebind(input, order);
   if (a < low_parts_.size) low_parts_.data[a] = {};
+}
+
+double ProjectedPoints::move_all(std::span<const Point> input, std::span<const Index> order,
+                                 std::span<const Index> in_use, unsigned threads) {
+  rebind(input, order);
+  low_parts_ = {};
+  num_low_parts_ = 0;
+  return replace_all(directions_, input, order, in_use, threads,
+                     [this](const Point& p) { return predicates::direction(p, center_); });
 }
 
 // What `high` lacks of u.

@@ -38,6 +38,8 @@ class ProjectedPoints {
     order_ = order;
   }
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
+  double move_all(std::span<const Point> input, std::span<const Index> order,
+                  std::span<const Index> in_use, unsigned threads);
   void reorder(std::span<const Index> old, std::size_t room) {
     directions_ = system::gather(directions_, old, room);
     low_parts_ = {};

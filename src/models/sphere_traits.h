@@ -52,4 +52,15 @@ concept SphereModel = SphereTraits<T> && std::default_initializable<T> &&
   stored.prefetch(a);
 };
 
+// Stored sites that can all move at once.
+template <class T>
+concept MovingSphereModel = SphereModel<T> &&
+    requires(T& sites, unsigned threads, std::span<const Point> input,
+             std::span<const Index> order) {
+  // Says that all sites may have become other points of these arrays. Returns the largest square of
+  // the length by which from_center() of a site a has changed, of those where in_use[a], the third
+  // argument, is there and not no_index.
+  { sites.move_all(input, order, order, threads) } -> std::same_as<double>;
+};
+
 }  // namespace rondel::models

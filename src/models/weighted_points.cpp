@@ -3,12 +3,13 @@
 
 #include "models/weighted_points.h"
 
+#include "models/moved_sites.h"
 #include "models/sphere_traits.h"
 #include "system/large_arrays.h"
 
 namespace rondel::models {
 
-static_assert(SphereModel<WeightedPoints>);
+static_assert(MovingSphereModel<WeightedPoints>);
 
 void WeightedPoints::assign(std::span<const Point> input, std::span<const Index> order,
                             const Point& center) {
@@ -25,6 +26,12 @@ void WeightedPoints::set(Index a, std::span<const Point> input, std::span<const 
   } else {
     points_.push_back(v);
   }
+}
+
+double WeightedPoints::move_all(std::span<const Point> input, std::span<const Index> order,
+                                std::span<const Index> in_use, unsigned threads) {
+  return replace_all(points_, input, order, in_use, threads,
+                     [](const Point& p) { return exact::to_vector(p); });
 }
 
 }  // namespace rondel::models

@@ -31,6 +31,8 @@ class WeightedPoints {
   void assign(std::span<const Point> input, std::span<const Index> order, const Point& center);
   void rebind(std::span<const Point> /*input*/, std::span<const Index> /*order*/) {}
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
+  double move_all(std::span<const Point> input, std::span<const Index> order,
+                  std::span<const Index> in_use, unsigned threads);
   void reorder(std::span<const Index> old, std::size_t room) {
     points_ = system::gather(points_, old, room);
   }

@@ -120,6 +120,14 @@ inline Sign sure_side_of_circle(const Vector& b, const Vector& c, const Vector& 
   return side_of_circle_filter(b, c, d, p);
 }
 
+// What the first rung of the conflict test is sure of, or zero. It remembers nothing of the sites, so
+// that several threads may ask; what it leaves open, conflict() decides.
+template <PointSource S>
+[[gnu::always_inline]] inline Sign sure_conflict(const S& points, Index b, Index c, Index d,
+                                                 Index p) {
+  return conflict_filter(points, b, c, d, p);
+}
+
 // The side of p with respect to the face, without a perturbation: zero if the four are cocircular
 // (projected) or coplanar (weighted).
 template <PointSource S>

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(dynamic_test
   dynamic/api_test.cpp
+  dynamic/move_all_test.cpp
   dynamic/query_test.cpp
   dynamic/range_test.cpp
   dynamic/script_test.cpp
