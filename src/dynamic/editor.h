@@ -29,6 +29,7 @@
 #include "order/along_the_curve.h"
 #include "query/graph.h"
 #include "system/job.h"
+#include "system/large_arrays.h"
 #include "system/on_failure.h"
 
 namespace rondel::dynamic {
@@ -178,7 +179,9 @@ class Editor {
   template <class Build>
   bool move_all(std::span<const Index> sites, std::span<const Point> to, unsigned threads,
                 const Build& build) {
-    const std::vector<Point> from(places_.points().begin(), places_.points().end());
+    std::vector<Point> from;
+    system::reserve_large(from, places_.points().size());
+    from.assign(places_.points().begin(), places_.points().end());
     const auto set_points = [&] {
       for (std::size_t i = 0; i < sites.size(); ++i) places_.set_point(sites[i], to[i]);
     };

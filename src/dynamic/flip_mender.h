@@ -43,6 +43,7 @@
 #include "predicates/conflict.h"
 #include "predicates/orientation.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
@@ -101,7 +102,15 @@ class FlipMender {
 
   [[nodiscard]] bool is_positive(Index f) const {
     const auto& v = hull_.mesh()[f].vertex;
-    return predicates::orientation(std::as_const(sites_), v[0], v[1], v[2]).sign == Sign::positive;
+    return is_turned_left(v[0], v[1], v[2]);
+  }
+  [[nodiscard]] bool is_turned_left(Index a, Index b, Index c) const {
+    if constexpr (T::model == Model::projected) {
+      const Sign sign = predicates::sure_orientation(sites_.direction(a), sites_.direction(b),
+                                                     sites_.direction(c));
+      if (sign != Sign::zero) return sign == Sign::positive;
+    }
+    return predicates::orientation(std::as_const(sites_), a, b, c).sign == Sign::positive;
   }
 
   // Whether a face of the new points is farther from the center than 2 d, for the square of d.
@@ -114,18 +123,43 @@ class FlipMender {
     return 2 * (longest + 4 * square) < 0.98 * dot(a, a);
   }
 
-  void look_at(Index f, double square, Findings& found) const {
-    const topology::Face& face = hull_.mesh()[f];
-    const auto& v = face.vertex;
-    if (!is_far(face, square)) found.are_far = false;
-    if (!is_positive(f)) found.inverted.push_back(f);
-    for (unsigned i = 0; i < 3; ++i) {
-      const topology::Halfedge other = face.opposite[i];
-      if (topology::halfedge(f, i) > other) continue;  // each edge once
-      const Index p = hull_.mesh()[topology::face_of(other)].vertex[topology::edge_of(other)];
-      const Sign sign = predicates::sure_conflict(std::as_const(sites_), v[0], v[1], v[2], p);
-      if (sign != Sign::negative) found.open.push_back(topology::halfedge(f, i));
+  // Faces that are looked at together: what is read of their neighbors is asked for early, and a
+  // branch that no processor could foretell is none.
+  static constexpr std::size_t faces_at_once = 128;
+
+  // Looks at up to that many faces, from `begin` on.
+  [[gnu::flatten]] void look_at(Index begin, Index end, double square, Findings& found) const {
+    const topology::Mesh& mesh = hull_.mesh();
+    std::array<topology::Halfedge, 3 * faces_at_once> edges;
+    std::array<Index, 3 * faces_at_once> apexes;
+    std::size_t size = 0;
+    for (Index f = begin; f < end; ++f) {
+      if (!mesh.is_alive(f)) continue;
+      const topology::Face& face = mesh[f];
+      if (!is_far(face, square)) found.are_far = false;
+      if (!is_positive(f)) found.inverted.push_back(f);
+      for (unsigned i = 0; i < 3; ++i) {
+        edges[size] = topology::halfedge(f, i);
+        system::prefetch(&mesh[topology::face_of(face.opposite[i])]);
+        size += edges[size] < face.opposite[i] ? 1U : 0U;  // each edge once
+      }
     }
+    for (std::size_t k = 0; k < size; ++k) {
+      const topology::Halfedge other =
+          mesh[topology::face_of(edges[k])].opposite[topology::edge_of(edges[k])];
+      apexes[k] = mesh[topology::face_of(other)].vertex[topology::edge_of(other)];
+      sites_.prefetch(apexes[k]);
+    }
+    std::size_t num_open = 0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const auto& v = mesh[topology::face_of(edges[k])].vertex;
+      const Sign sign =
+          predicates::sure_conflict(std::as_const(sites_), v[0], v[1], v[2], apexes[k]);
+      edges[num_open] = edges[k];
+      num_open += sign != Sign::negative ? 1U : 0U;
+    }
+    found.open.insert(found.open.end(), edges.begin(),
+                      edges.begin() + static_cast<std::ptrdiff_t>(num_open));
   }
 
   // Collects the faces to make positive, and the edges to flip. False if the degree is not known.
@@ -135,8 +169,9 @@ class FlipMender {
     std::vector<Findings> parts(system::num_pieces(size, grain));
     system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
       Findings found;
-      for (auto f = static_cast<Index>(begin); f < end; ++f) {
-        if (hull_.mesh().is_alive(f)) look_at(f, square, found);
+      for (std::size_t first = begin; first < end; first += faces_at_once) {
+        look_at(static_cast<Index>(first), static_cast<Index>(std::min(first + faces_at_once, end)),
+                square, found);
       }
       parts[begin / grain] = std::move(found);
     });
@@ -224,11 +259,15 @@ class FlipMender {
 
   // Flips until all edges of the stack, and those that flips put there, are locally Delaunay. False
   // if one cannot be flipped, or a build would take less time.
-  [[nodiscard]] bool flip_all() {
+  [[nodiscard, gnu::flatten]] bool flip_all() {
     const topology::Mesh& mesh = hull_.mesh();
     while (!stack_.empty()) {
       const topology::Halfedge h = stack_.back();
       stack_.pop_back();
+      constexpr std::size_t ahead = 8;
+      if (stack_.size() > ahead) {
+        system::prefetch(&mesh[topology::face_of(stack_[stack_.size() - ahead])]);
+      }
       const topology::Face& face = mesh[topology::face_of(h)];
       const topology::Halfedge other = face.opposite[topology::edge_of(h)];
       const Index p = mesh[topology::face_of(other)].vertex[topology::edge_of(other)];
@@ -247,9 +286,6 @@ class FlipMender {
   // Whether both faces would be positive: always, if no vertex has to be hidden.
   [[nodiscard]] bool can_flip(const topology::Face& face, unsigned i, Index d) const {
     if constexpr (!T::hides_sites) return true;
-    const auto is_turned_left = [&](Index a, Index b, Index c) {
-      return predicates::orientation(std::as_const(sites_), a, b, c).sign == Sign::positive;
-    };
     const Index c = face.vertex[i];
     return is_turned_left(c, face.vertex[topology::next_corner[i]], d) &&
            is_turned_left(d, face.vertex[topology::previous_corner[i]], c);

@@ -56,7 +56,9 @@ double ProjectedPoints::move_all(std::span<const Point> input, std::span<const I
   low_parts_ = {};
   num_low_parts_ = 0;
   return replace_all(directions_, input, order, in_use, threads,
-                     [this](const Point& p) { return predicates::direction(p, center_); });
+                     [this](std::span<const Point> points, Vector* forms) {
+                       predicates::directions(points, center_, forms);
+                     });
 }
 
 // What `high` lacks of u.

@@ -3,6 +3,9 @@
 
 #include "models/weighted_points.h"
 
+#include <algorithm>
+#include <span>
+
 #include "models/moved_sites.h"
 #include "models/sphere_traits.h"
 #include "system/large_arrays.h"
@@ -31,7 +34,9 @@ void WeightedPoints::set(Index a, std::span<const Point> input, std::span<const 
 double WeightedPoints::move_all(std::span<const Point> input, std::span<const Index> order,
                                 std::span<const Index> in_use, unsigned threads) {
   return replace_all(points_, input, order, in_use, threads,
-                     [](const Point& p) { return exact::to_vector(p); });
+                     [](std::span<const Point> points, predicates::Vector* forms) {
+                       std::ranges::transform(points, forms, exact::to_vector);
+                     });
 }
 
 }  // namespace rondel::models
