@@ -44,6 +44,15 @@ int main() {
   network.remove(rondel::Index{2});
   print("without Sutherland", network);
 
+  // The plates drift: the site with the i-th id goes to the i-th point.
+  std::vector<rondel::Point> drifted;
+  for (const rondel::Index id : network.ids()) {
+    const rondel::Point p = network.site(id);
+    drifted.push_back({p.x - 0.01 * p.y, p.y + 0.01 * p.x, p.z});
+  }
+  network.move_all(drifted);
+  print("after the drift", network);
+
   // An immutable copy for all that needs arrays. Site i of it is ids[i].
   const rondel::Snapshot now = network.snapshot();
   const rondel::Diagram cells = rondel::diagram(now.triangulation);

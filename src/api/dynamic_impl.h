@@ -91,7 +91,7 @@ struct DynamicTriangulation::Impl {
     indexed();
     return change_all(change);
   }
-  // The same for a change that looks up no place.
+  // Does so for a change that looks up no place.
   template <class Change>
   decltype(auto) change_all(const Change& change) {
     current();

@@ -224,8 +224,8 @@ class FlipMender {
     return true;
   }
 
-  // Of the corners that are at new points the one opposite to the longest edge, which it has crossed
-  // most likely.
+  // Returns the corner, of those at new points, that is opposite to the longest edge: it has crossed
+  // that edge most likely.
   [[nodiscard]] Index corner_to_move_back(Index f, const std::vector<bool>& is_back) const {
     const auto& v = hull_.mesh()[f].vertex;
     Index best = no_index;

@@ -66,7 +66,8 @@ class PlaceHull {
   // `close` is a place close to p, or no_index.
   void insert(Index p, Index close) { insert_from(p, start_at(close)); }
 
-  // The same; false, and nothing is done, if p would be hidden or is in the place of a vertex.
+  // Does so unless p would be hidden or is in the place of a vertex: then nothing is done. Returns
+  // whether it was inserted.
   [[nodiscard]] bool insert_vertex(Index p, Index close) {
     const auto found = hull_.locate(p, start_at(close));
     if (found.conflict == no_index) return false;

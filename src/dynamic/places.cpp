@@ -171,15 +171,15 @@ bool Places::keep_residents() {
 }
 
 void Places::sort_index() {
-  struct Entry {
+  struct KeyedPlace {
     order::HilbertKey key;
     Index place;
   };
-  std::vector<Entry> entries;
+  std::vector<KeyedPlace> entries;
   entries.reserve(num_places());
   // The old order is nearly the new one.
   for (const Index place : in_order()) entries.push_back({key(place_point(place)), place});
-  std::ranges::sort(entries, [this](const Entry& a, const Entry& b) {
+  std::ranges::sort(entries, [this](const KeyedPlace& a, const KeyedPlace& b) {
     if (a.key != b.key) return a.key < b.key;
     return predicates::is_lexicographically_less(place_point(a.place), place_point(b.place));
   });
@@ -187,7 +187,7 @@ void Places::sort_index() {
   std::vector<Index> places;
   keys.reserve(entries.size());
   places.reserve(entries.size());
-  for (const Entry& entry : entries) {
+  for (const KeyedPlace& entry : entries) {
     keys.push_back(entry.key);
     places.push_back(entry.place);
   }

@@ -261,12 +261,15 @@ class Caller {
   }
 
   void change_many() {
-    switch (source_.below(3)) {
+    switch (source_.below(4)) {
       case 0:
         static_cast<void>(changing_.insert(points(), execution()));
         break;
       case 1:
         changing_.remove(indices(), execution());
+        break;
+      case 2:
+        changing_.move_all(points(), execution());
         break;
       default:
         changing_.move(indices(), points(), execution());

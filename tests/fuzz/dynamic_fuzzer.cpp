@@ -59,7 +59,7 @@ class Script {
   void run() {
     for (std::size_t n = 1 + source_.below(16); n > 0; --n) add_to_pool();
     for (std::size_t step = 1; step <= max_steps && !source_.is_empty(); ++step) {
-      do_step(source_.byte() % 14);
+      do_step(source_.byte() % 15);
       if (step % steps_between_ == 0) compare();
     }
     compare();
@@ -140,6 +140,9 @@ class Script {
       case 12:
         begin_anew();
         break;
+      case 13:
+        move_all();
+        break;
       default:
         refuse_wrong_calls();
     }
@@ -165,6 +168,22 @@ class Script {
     for (Point& p : to) p = any_site();
     changing_.move(ids, to);
     for (std::size_t i = 0; i < ids.size(); ++i) live_[ids[i]] = to[i];
+  }
+
+  // To anywhere, or by little.
+  void move_all() {
+    std::vector<Point> to;
+    const bool is_near = source_.below(4) != 0;
+    for (const auto& [id, point] : live_) {
+      to.push_back(is_near ? Point{point.x + 0x1p-9 * point.y, point.y, point.z} : any_site());
+    }
+    const auto is_refused = [&](const Point& p) {
+      return !std::isfinite(p.x) || p == options_.sphere.center;
+    };
+    if (std::ranges::any_of(to, is_refused)) return;
+    changing_.move_all(to);
+    std::size_t i = 0;
+    for (auto& [id, point] : live_) point = to[i++];
   }
 
   // From a snapshot, or from its sites.
@@ -193,6 +212,7 @@ class Script {
     refuse(0, [&] { changing_.move(dead, p); });
     refuse(0, [&] { changing_.move(id, bad); });
     refuse(1, [&] { changing_.move(std::vector<Index>{id}, std::vector<Point>{p, p}); });
+    refuse(live_.size(), [&] { changing_.move_all(std::vector<Point>(live_.size() + 1, p)); });
     refuse(0, [&] { static_cast<void>(changing_.neighbors(dead)); });
   }
 

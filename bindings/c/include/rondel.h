@@ -271,6 +271,11 @@ RONDEL_C_API rondel_status rondel_move(rondel_dynamic* dynamic, const uint32_t* 
                                        const double* points, size_t n,
                                        const rondel_execution* execution);
 
+/** Moves all sites at once, the i-th of rondel_dynamic_ids() to point i: by flips where that takes less
+ *  time than a build. n is rondel_dynamic_num_sites(). */
+RONDEL_C_API rondel_status rondel_move_all(rondel_dynamic* dynamic, const double* points, size_t n,
+                                           const rondel_execution* execution);
+
 RONDEL_C_API size_t rondel_dynamic_num_sites(const rondel_dynamic* dynamic);
 /** Writes the ids in use, increasing, shape (dynamic_num_sites,). */
 RONDEL_C_API rondel_status rondel_dynamic_ids(const rondel_dynamic* dynamic, uint32_t* ids);

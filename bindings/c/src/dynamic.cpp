@@ -58,6 +58,14 @@ rondel_status rondel_move(rondel_dynamic* dynamic, const uint32_t* ids, const do
   });
 }
 
+rondel_status rondel_move_all(rondel_dynamic* dynamic, const double* points, size_t n,
+                              const rondel_execution* execution) {
+  return rc::guarded([&] {
+    rc::require(dynamic, "dynamic");
+    dynamic->dynamic->move_all(rc::copied_points(points, n, "points"), rc::execution_of(execution));
+  });
+}
+
 size_t rondel_dynamic_num_sites(const rondel_dynamic* dynamic) {
   return dynamic->dynamic->num_sites();
 }

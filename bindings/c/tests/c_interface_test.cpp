@@ -305,6 +305,14 @@ TEST(c_interface, changes_are_those_of_cpp) {
   const std::vector<std::uint32_t> moved = {5, 6};
   ASSERT_EQ(rondel_move(dynamic, moved.data(), doubles(more), 2, nullptr), RONDEL_OK);
   expected.move(moved, std::span(more).first(2));
+  std::vector<Point> all_moved;
+  for (const std::uint32_t id : expected.ids()) {
+    const Point p = expected.site(id);
+    all_moved.push_back({p.x, p.y, p.z + 0.001 * p.x});
+  }
+  ASSERT_EQ(rondel_move_all(dynamic, doubles(all_moved), all_moved.size(), nullptr), RONDEL_OK);
+  expected.move_all(all_moved);
+  EXPECT_EQ(rondel_move_all(dynamic, doubles(all_moved), 1, nullptr), RONDEL_INVALID_INPUT);
 
   ASSERT_EQ(rondel_dynamic_num_sites(dynamic), expected.num_sites());
   std::vector<std::uint32_t> all(expected.num_sites());

@@ -41,6 +41,7 @@ test("errors name the first bad element", () => {
     [() => new DynamicTriangulation(tetrahedron).remove([1, 7]), 1, /^site 7 does not exist$/],
     [() => new DynamicTriangulation(tetrahedron).remove([1, 2, 1]), 2, /appears twice/],
     [() => new DynamicTriangulation(tetrahedron).remove([0.5]), 0, /^0.5 is no index$/],
+    [() => new DynamicTriangulation(tetrahedron).moveAll([0, 0, 1]), 1, /^there are 1 points for 4 sites/],
     [() => new DynamicTriangulation(tetrahedron).move([0, 1], [0, 0, 1]), 0, /^there are 1 points for 2 sites/],
     [() => new DynamicTriangulation(tetrahedron).insert([0, 0, 1, 0, 0, 0]), 1, /^./],
   ];

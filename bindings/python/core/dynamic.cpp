@@ -89,7 +89,15 @@ void add_changes(nb::class_<SharedDynamic>& type) {
               t.move(rows_of<Index>(ids), points_of(to), e);
             });
           },
-          nb::arg("ids").noconvert(), nb::arg("to").noconvert());
+          nb::arg("ids").noconvert(), nb::arg("to").noconvert())
+      .def(
+          "move_all",
+          [](SharedDynamic& self, const PointsIn& to) {
+            self.change_many(to.shape(0), [&](DynamicTriangulation& t, const Execution& e) {
+              t.move_all(points_of(to), e);
+            });
+          },
+          nb::arg("to").noconvert());
 }
 
 void add_sites(nb::class_<SharedDynamic>& type) {

@@ -232,6 +232,39 @@ class DynamicTriangulation(DynamicSites, Queries):
         to = as_points(np.atleast_2d(as_floats(points, "points")))
         self._state.move(as_indices(np.atleast_1d(ids), "ids"), to)
 
+    def move_all(self, points: ArrayLike) -> None:
+        """Moves all sites at once. They keep their ids.
+
+        The triangulation is the one that a build of the points gives. Where sites move by a small
+        share of their spacing, it is mended by flips of edges, which takes less time.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 3)
+            The new coordinates: row i is for the site `ids[i]`.
+
+        Raises
+        ------
+        InvalidInput
+            If there is not one point for each site, or a point is not valid as in `insert`.
+
+        Notes
+        -----
+        Lawson, "Software for C1 surface interpolation", 1977: flips until each edge is locally
+        Delaunay. Sites that do not surround the center, and hidden sites, lead to a build.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> points = rondel.unit_vectors([0, 90, 180, 270, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> sites = rondel.DynamicTriangulation(points)
+        >>> sites.move_all(points + [0.1, 0, 0])
+        >>> sites.neighbors(0)
+        array([1, 4, 3, 5], dtype=int32)
+
+        """
+        self._state.move_all(as_points(np.atleast_2d(as_floats(points, "points"))))
+
     def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
         """Finds the corners of the face that contains each query point.
 

@@ -53,6 +53,17 @@ def test_ranges():
     assert same_as_built(sites)
 
 
+def test_all_sites_move():
+    points = clouds.uniform(500)
+    sites = rondel.DynamicTriangulation(points)
+    sites.remove(7)
+    for length in (0.001, 0.01, 0.5):
+        points = points + length * (clouds.uniform(500, seed=4) - 0.1)
+        sites.move_all(np.delete(points, 7, axis=0))
+        assert np.array_equal(sites.point(8), points[8])
+        assert same_as_built(sites)
+
+
 def test_a_hint_changes_nothing():
     sites = rondel.DynamicTriangulation(clouds.uniform(50))
     sites.insert(clouds.uniform(1, seed=3)[0], hint=7)
@@ -91,6 +102,8 @@ def test_hidden_sites_come_back():
         lambda s: s.insert([0, 0, 1], hint=99),
         lambda s: s.move(0, [0, 0, 0]),
         lambda s: s.move([0, 1], [[0, 0, 1]]),
+        lambda s: s.move_all([[0, 0, 1]]),
+        lambda s: s.move_all(np.full((8, 3), np.nan)),
         lambda s: s.neighbors(-1),
         lambda s: s.point(2**40),
         lambda s: s.is_vertex(8),

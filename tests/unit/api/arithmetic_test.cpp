@@ -128,6 +128,12 @@ std::string changed(const Subject& s) {
   changing.insert(s.queries[61], 0);
   changing.remove(3);
   changing.move(4, s.queries[62]);
+  std::vector<Point> turned;
+  for (const Index id : changing.ids()) {
+    const Point p = changing.site(id);
+    turned.push_back({p.x + 0.001 * p.y, p.y, p.z});
+  }
+  changing.move_all(turned);
   const Snapshot now = changing.snapshot();
   return bytes_of(now.triangulation) + bytes_of(now.ids) +
          bytes_of(now.triangulation.sites().points());

@@ -55,13 +55,14 @@ import { RondelError } from "../errors.js";
  *   insert(xyz: Numbers): Promise<Uint32Array>,
  *   remove(ids: Indices): Promise<void>,
  *   move(ids: Indices, xyz: Numbers): Promise<void>,
+ *   moveAll(xyz: Numbers): Promise<void>,
  *   ids(): Promise<Uint32Array>,
  *   snapshot(): Promise<RemoteDiagram>,
  * }} RemoteDynamic see DynamicTriangulation
  */
 
 const questions = ["nearest", "kNearest", "within", "locate", "free"];
-const changes = ["insert", "remove", "move", "ids", "snapshot"];
+const changes = ["insert", "remove", "move", "moveAll", "ids", "snapshot"];
 
 /**
  * @typedef {object} Connection to a worker
