@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cfenv>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #if defined(__x86_64__)
@@ -128,12 +130,16 @@ std::string changed(const Subject& s) {
   changing.insert(s.queries[61], 0);
   changing.remove(3);
   changing.move(4, s.queries[62]);
-  std::vector<Point> turned;
-  for (const Index id : changing.ids()) {
-    const Point p = changing.site(id);
-    turned.push_back({p.x + 0.001 * p.y, p.y, p.z});
+  // Two neighbors change places, without any arithmetic here.
+  const std::vector<Index> ids = changing.ids();
+  std::vector<Point> swapped;
+  for (const Index id : ids) swapped.push_back(changing.site(id));
+  const std::vector<Index> neighbors = changing.neighbors(ids[10]);
+  if (!neighbors.empty()) {
+    const auto other = std::ranges::find(ids, neighbors.front()) - ids.begin();
+    std::swap(swapped[10], swapped[static_cast<std::size_t>(other)]);
   }
-  changing.move_all(turned);
+  changing.move_all(swapped);
   const Snapshot now = changing.snapshot();
   return bytes_of(now.triangulation) + bytes_of(now.ids) +
          bytes_of(now.triangulation.sites().points());
