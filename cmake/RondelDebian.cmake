@@ -64,7 +64,7 @@ rondel_debian_package(tool rondel science "Delaunay triangulations and Voronoi d
   "librondel${soversion} ${this}"
   "This package contains the command line tool." cli11 json)
 rondel_debian_package(runtime librondel${soversion} libs "triangulations on the sphere - shared libraries" ""
-  "This package contains the shared libraries of C++." fast_float json boost)
+  "This package contains the shared libraries of C++." fast_float json)
 rondel_debian_package(c_runtime librondel-c1 libs "triangulations on the sphere - shared library of C"
   "librondel${soversion} ${this}"
   "This package contains the shared library for C and what calls C.")

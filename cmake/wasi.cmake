@@ -20,19 +20,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 
 set(features "-fwasm-exceptions -msimd128 -mbulk-memory -mnontrapping-fptoint")
 set(CMAKE_C_FLAGS_INIT "${features}")
-# Boost's headers before 1.80 derive from std::unary_function, which C++17 took away.
-set(CMAKE_CXX_FLAGS_INIT
-    "${features} -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION")
+set(CMAKE_CXX_FLAGS_INIT "${features}")
 
 # A stack that overflows traps, as it begins where memory does, instead of writing over data.
 set(CMAKE_EXE_LINKER_FLAGS_INIT
     "-Wl,-z,stack-size=1048576 -Wl,--stack-first -Wl,--max-memory=4294967296")
-
-# Of the host's headers only Boost's may be seen: a link to them lies in a folder of its own.
-find_path(RONDEL_HOST_BOOST boost/version.hpp PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
-set(Boost_INCLUDE_DIR ${CMAKE_BINARY_DIR}/host-headers)
-file(MAKE_DIRECTORY ${Boost_INCLUDE_DIR})
-file(CREATE_LINK ${RONDEL_HOST_BOOST}/boost ${Boost_INCLUDE_DIR}/boost SYMBOLIC)
-set(Boost_NO_BOOST_CMAKE ON)
 
 set(RONDEL_PARALLEL OFF CACHE BOOL "WebAssembly has no threads here")

@@ -34,5 +34,5 @@ for (const [name, place] of [["rondel", "."], ["polygons", "polygons"]]) {
 }
 
 // Lists the libraries that the module contains besides Rondel.
-const parts = execFileSync(join(source, "scripts", "tools", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);
+const parts = execFileSync(join(source, "scripts", "tools", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc"]);
 writeFileSync(join(folder, "THIRD_PARTY.md"), parts);

@@ -12,10 +12,8 @@ set(CMAKE_AR ${rondel_build}/packages/zig/ar)
 set(CMAKE_RANLIB ${rondel_build}/packages/zig/ranlib)
 set(CMAKE_LIBRARY_ARCHITECTURE ${RONDEL_MACHINE}-linux-gnu)
 set(CMAKE_FIND_ROOT_PATH ${rondel_build}/targets/sysroot/${RONDEL_MACHINE}-manylinux)
-# Boost 1.74 wants what C++17 removed.
 string(JOIN " " CMAKE_CXX_FLAGS_INIT
   -target ${RONDEL_MACHINE}-linux-gnu.2.17
-  -D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION
   -isystem ${CMAKE_FIND_ROOT_PATH}/usr/include
   -isystem ${CMAKE_FIND_ROOT_PATH}/usr/include/${RONDEL_MACHINE}-linux-gnu)
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

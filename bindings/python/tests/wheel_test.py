@@ -94,7 +94,6 @@ def test_what_is_imported_has_all_modules():
 @pytest.mark.parametrize(
     ("package", "debian"),
     [
-        ("Boost", "libboost-dev"),
         ("FastFloat", "libfast-float-dev"),
         ("nlohmann_json", "nlohmann-json3-dev"),
         ("ZLIB", "zlib1g-dev"),
