@@ -5,6 +5,7 @@
 // and their triangulation are what they were before the change; then the change succeeds.
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -54,6 +55,10 @@ const std::vector<Change> changes = {
      [](auto& changing, const auto& others) {
        const std::vector<Index> ids = {5, 6, 5};
        changing.move(ids, std::vector<Point>(others.begin(), others.begin() + 3));
+     }},
+    {"move_all_at_once",
+     [](auto& changing, const auto& others) {
+       changing.move_all(std::span(others).first(num_sites + 1));
      }},
     {"move_all",
      [](auto& changing, const auto& others) {
@@ -132,6 +137,46 @@ TEST_P(AllocationOfChange, leaves_all_as_it_was) {
     SCOPED_TRACE(change.name);
     fail_each_allocation(
         [&](std::size_t n, Shortage shortage) { return attempt(change, n, shortage); });
+  }
+}
+
+// Enough sites for flips, and what comes after them: the index of places is sorted when it is needed.
+TEST(AllocationOfFlips, leaves_all_as_it_was) {
+  const std::vector<Point> sites = generator("uniform").make(300, 3).sites;
+  std::vector<Point> moved = sites;
+  for (Point& p : moved) p = {p.x + 0.01 * p.y, p.y - 0.004 * p.z, p.z + 0.007 * p.x * p.y};
+  const std::vector<Change> steps = {
+      {"by_flips", [](auto& changing, const auto& to) { changing.move_all(to); }},
+      {"insert",
+       [](auto& changing, const auto&) {
+         changing.insert({0.5, 0.25, -1});
+       }},
+  };
+  static_cast<void>(delaunay(sites));
+  for (const Change& step : steps) {
+    SCOPED_TRACE(step.name);
+    fail_each_allocation([&](std::size_t n, Shortage shortage) {
+      DynamicTriangulation changing(sites);
+      if (step.name == "insert") changing.move_all(moved);
+      const State before = state_of(changing);
+      bool is_done = false;
+      FailingAllocation failing(n, shortage);
+      try {
+        step.make(changing, moved);
+        is_done = true;
+      } catch (const std::bad_alloc&) {  // as it should be
+      }
+      const bool has_failed = failing.stop();
+      EXPECT_TRUE(has_failed || is_done) << "threw without a reason";
+      if (!is_done) {
+        EXPECT_EQ(state_of(changing), before);
+        step.make(changing, moved);
+      }
+      const Snapshot now = changing.snapshot();
+      EXPECT_TRUE(std::ranges::equal(now.triangulation.faces(),
+                                     delaunay(now.triangulation.sites()).faces()));
+      return has_failed;
+    });
   }
 }
 
