@@ -151,10 +151,12 @@ TEST(exact_floor_sqrt, is_the_largest_integer_with_no_larger_square) {
   for (int i = 0; i < 2000; ++i) {
     Integer root = 0;
     for (std::size_t word = 1 + random.below(40); word > 0; --word) {
-      root = (root << 64) + (random.below(3) == 0 ? ~std::uint64_t{0} : random.next());
+      const std::uint64_t word_bits = random.below(3) == 0 ? ~std::uint64_t{0} : random.next();
+      root = (root << 32U) + static_cast<std::int64_t>(word_bits >> 32U);
+      root = (root << 32U) + static_cast<std::int64_t>(word_bits & 0xffffffffU);
     }
-    root >>= random.below(64);
-    if (random.below(4) == 0) root = Integer(1) << random.below(2000);
+    root = root >> static_cast<unsigned>(random.below(64));
+    if (random.below(4) == 0) root = Integer(1) << static_cast<unsigned>(random.below(2000));
     for (int step = -2; step <= 2; ++step) {
       if (root > 1) expect_floor(root * root + step);
     }
