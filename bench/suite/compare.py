@@ -89,7 +89,7 @@ def cases_of(kinds, models, sites, threads, seed=()):
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(prog="compare-speed", description=__doc__,
+    parser = argparse.ArgumentParser(prog="scripts/bench --compare", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("before", help="a commit")
     parser.add_argument("after", help="another; exit status 1 if it is slower")
@@ -100,7 +100,7 @@ def parse(words):
     parser.add_argument("--kinds", nargs="+", default=KINDS,
                         help=f"of inputs/kinds.h ({' '.join(KINDS)})")
     parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS)
-    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "compare-speed")
+    parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "compare")
     return parser.parse_args(words)
 
 
