@@ -218,7 +218,7 @@ TEST(regrid_streams, runs_that_go_on_may_divide_their_work_in_other_ways) {
   for (const std::size_t tile : {20000U, 3000U, 50000U, 7777U}) {
     // The memory is too small for a field at the targets, so tiles are written one by one.
     RegridFileOptions options{.memory = std::uint64_t{24} << 20U, .cells_per_tile = tile};
-    if (tile == 3000) options.memory = std::uint64_t{5} << 20U;
+    if (tile == 3000) options.memory = std::uint64_t{3} << 20U;
     options.resume = true;
     EXPECT_TRUE(end_early(in, "grid:0.5", out, options, tile == 3000 ? 130 : 5));
     const std::uint64_t size = std::filesystem::file_size(out + ".partial");
