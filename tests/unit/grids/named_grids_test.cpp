@@ -7,18 +7,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "grids/grid_formula.h"
 #include "rondel/delaunay.h"
 #include "rondel/point_sets.h"
 #include "rondel/predicates.h"
+#include "support/generators.h"
 #include "support/thrown.h"
 
 namespace rondel::test {
@@ -192,6 +197,34 @@ TEST(named_grids, refuse_what_is_none) {
       "NLON by NLAT cells");
   EXPECT_EQ(why("R2B15"), "'R2B15' is no grid: it has too many cells");
   EXPECT_EQ(why("C0"), "'C0' is no grid: the number of cells along a face is from 1 to 20000");
+}
+
+// A thread keeps the way to the triangle that it has found last, of whichever grid.
+TEST(triangle_grid, has_the_same_cells_in_any_order) {
+  const std::vector<std::pair<unsigned, unsigned>> sizes = {{2, 3}, {3, 2}, {2, 2}, {1, 0}, {1, 4}};
+  std::vector<std::unique_ptr<grids::GridFormula>> formulas;
+  std::vector<std::vector<std::vector<Point>>> rings;
+  for (const auto& [root, bisections] : sizes) {
+    formulas.push_back(grids::triangle_grid(root, bisections));
+    rings.emplace_back();
+    for (Index cell = 0; cell < formulas.back()->num_cells(); ++cell) {
+      grids::triangle_grid(1, 1)->append_ring(0, rings.back().emplace_back());
+      rings.back().back().clear();
+      formulas.back()->append_ring(cell, rings.back().back());
+    }
+  }
+  Random random(7);
+  std::vector<Point> ring;
+  for (int k = 0; k < 20000; ++k) {
+    const std::size_t grid = random.below(sizes.size());
+    const auto cell = static_cast<Index>(random.below(formulas[grid]->num_cells()));
+    // The next cells of the same grid share more or less of the way.
+    for (Index next = cell; next < std::min(cell + 3, formulas[grid]->num_cells()); ++next) {
+      ring.clear();
+      formulas[grid]->append_ring(next, ring);
+      ASSERT_EQ(ring, rings[grid][next]) << grid << ' ' << next;
+    }
+  }
 }
 
 }  // namespace
