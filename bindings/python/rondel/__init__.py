@@ -12,6 +12,8 @@ constrained_delaunay, check_constrained
     Triangulations with given edges, and the proof of one.
 convex_hull
     The hull of any points in space.
+area_weights
+    The area of each point's cell, also at the borders of regional domains.
 feature_cells
     The cells of lines and polygons: which of them is nearest.
 remap
@@ -89,6 +91,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from . import mesh as mesh
+from ._area_weights import area_weights
 from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._buffer import buffer
 from ._cell_set import CellSet
@@ -192,6 +195,7 @@ __all__ = [
     "Weights",
     "Where",
     "area",
+    "area_weights",
     "buffer",
     "check_constrained",
     "check_weights",
