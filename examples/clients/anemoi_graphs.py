@@ -17,11 +17,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import rondel
 import torch
 from anemoi.graphs.nodes.attributes import MaskedPlanarAreaWeights, SphericalAreaWeights
 from torch_geometric.data import HeteroData
-
-import rondel
 
 # Nodes are often float32, for which a pole is up to this many degrees beyond 90.
 ROUNDING_DEG = 1e-5

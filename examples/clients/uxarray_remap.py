@@ -28,14 +28,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import rondel
 import uxarray as ux
 import xarray as xr
 from uxarray.errors import DataCenteringError
 from uxarray.remap import accessor, structured, utils
 from uxarray.utils.coords import _preserve_valid_coords
 from xarray.core.utils import UncachedAccessor
-
-import rondel
 
 NATIVE = ("n_node", "n_face")
 BETWEEN_SITES = ("linear", "laplace", "sibson", "hermite", "cubic")
@@ -195,6 +194,15 @@ def remapped(
     return result[name] if is_array else result
 
 
+def bilinear(source: Any, target: Any, remap_to: str, options: Mapping[str, Any] | None) -> Any:
+    """Values at faces interpolated in the cells of the dual mesh, as UXarray's bilinear does."""
+    utils._assert_dimension(remap_to)
+    others = utils._get_remap_dims(utils._to_dataset(source)[0]) - {"n_face"}
+    if others:
+        raise DataCenteringError(f"bilinear remapping needs values at faces, not {sorted(others)}")
+    return remapped(source, target, remap_to, "native", options)
+
+
 class RemapAccessor(accessor.RemapAccessor):
     """The accessor `remap` of UXarray with the backend "rondel" beside its own."""
 
@@ -253,11 +261,7 @@ class RemapAccessor(accessor.RemapAccessor):
         if backend != "rondel":
             return super().bilinear(destination_grid, remap_to, backend, **options)
         require_none(options)
-        utils._assert_dimension(remap_to)
-        others = utils._get_remap_dims(utils._to_dataset(self.ux_obj)[0]) - {"n_face"}
-        if others:
-            raise DataCenteringError(f"bilinear remapping needs values at faces, not {others}")
-        return remapped(self.ux_obj, destination_grid, remap_to, "native", rondel_options)
+        return bilinear(self.ux_obj, destination_grid, remap_to, rondel_options)
 
     def to_rectilinear(
         self,

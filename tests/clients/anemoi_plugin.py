@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A plug-in of pytest that runs anemoi-graphs' own tests on the classes of examples/clients.
 
-    PYTHONPATH=examples/clients:tests/clients pytest -p anemoi_plugin ANEMOI/tests/nodes
+PYTHONPATH=examples/clients:tests/clients pytest -p anemoi_plugin ANEMOI/tests/nodes
 """
 
 import anemoi_graphs
@@ -14,4 +14,4 @@ for theirs, ours in (
     ("MaskedPlanarAreaWeights", anemoi_graphs.MaskedRegionalAreaWeights),
 ):
     setattr(attributes, theirs, ours)
-    setattr(attributes, ours.__name__, ours)  # tests with configurations find classes by their names
+    setattr(attributes, ours.__name__, ours)  # configurations name classes
