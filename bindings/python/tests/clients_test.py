@@ -80,6 +80,13 @@ def test_regional_and_masked_nodes(anemoi):
     np.testing.assert_allclose(halved.compute(graph, "nodes"), 0.5 * inside, rtol=1e-6)
 
 
+def test_the_program_prints_the_weights_of_a_domain(anemoi, capsys):
+    anemoi.main()
+    globe, region = (line.split() for line in capsys.readouterr().out.splitlines())
+    assert globe == ["AreaWeights:", "corner", "1.0000,", "middle", "0.0000"]
+    assert region == ["RegionalAreaWeights:", "corner", "1.0000,", "middle", "0.8923"]
+
+
 def mesh_of(points):
     """A grid of UXarray whose faces are Voronoi cells, and the diagram."""
     import uxarray as ux
