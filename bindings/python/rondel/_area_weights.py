@@ -82,7 +82,8 @@ def area_weights(
     image lies in the cell too. The spacing is the largest distance that the point or one of its
     neighbors has to the second nearest point. Beside such cells half as much is enough. That finds
     borders of any shape and holes, and leaves alone lattices of any aspect ratio, rows near a pole,
-    fine grids inside of coarse ones, and random points but for about one in 10,000.
+    and random points but for about one in 10,000. Where fine and coarse grids meet it may cut some
+    cells: 'sphere' is for all grids that cover the globe.
 
     A cell that is cut is the intersection of the Voronoi cell with its image under half a turn
     about the point; it never overlaps others. Cells of lattices keep the size that they have
