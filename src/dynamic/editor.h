@@ -258,7 +258,7 @@ class Editor {
     hull_->remove_vertex(vertex.place);
     places_.set_point(places_.representatives()[vertex.place], vertex.to);
     refresh(vertex.place);
-    return hull_->insert_vertex(vertex.place, close);
+    return hull_->kinds().all_solid() && hull_->insert_vertex(vertex.place, close);
   }
 
   // Only between changes: it makes all numbers of places and faces invalid.

@@ -23,6 +23,7 @@
 #include "kernel/mutable_hull.h"
 #include "models/sphere_traits.h"
 #include "order/along_the_curve.h"
+#include "predicates/ray_order.h"
 #include "system/prefetch.h"
 #include "topology/mesh.h"
 
@@ -67,8 +68,9 @@ class PlaceHull {
   void insert(Index p, Index close) { insert_from(p, start_at(close)); }
 
   // Does so unless p would be hidden or is in the place of a vertex: then nothing is done. Returns
-  // whether it was inserted.
+  // whether it was inserted. Precondition: all faces are solid.
   [[nodiscard]] bool insert_vertex(Index p, Index close) {
+    if (is_on_ray_of_vertex(p, close)) return false;
     const auto found = hull_.locate(p, start_at(close));
     if (found.conflict == no_index) return false;
     insert_into(p, found.conflict);
@@ -189,6 +191,17 @@ class PlaceHull {
       if (h == corner_of_[close]) break;
     }
     return start;
+  }
+
+  // Whether p would share its place with a vertex although its coordinates are others. No conflict
+  // test is defined for both.
+  [[nodiscard]] bool is_on_ray_of_vertex(Index p, Index close) {
+    if constexpr (T::model != Model::projected) return false;
+    const auto& vertices = mesh()[hull_.face_on_ray(p, start_at(close).solid)].vertex;
+    const T& sites = hull_.sites();
+    return std::ranges::any_of(vertices, [&](Index v) {
+      return predicates::are_on_one_ray(sites.point(p), sites.point(v), sites.center());
+    });
   }
 
   void set_corners(Index f) {

@@ -77,6 +77,10 @@ class MutableHull {
     return Walk<T>(test_, mesh_, kinds_).locate(p, start.solid, start.entry);
   }
 
+  [[nodiscard]] Index face_on_ray(Index p, Index solid) {
+    return Walk<T>(test_, mesh_, kinds_).face_on_ray(p, solid);
+  }
+
   // Replaces the faces in conflict with p, of which `conflict` is one, by the star of p, whose
   // faces are returned. Before they go, release(region) is told them.
   template <class Release>

@@ -91,6 +91,12 @@ class Walk {
     return {no_index, far_side.face, entry_side.beyond == no_index ? entry_side.face : no_index};
   }
 
+  // The face that the ray of p leaves the hull through, or touches at the border of the face.
+  // Precondition: all faces are solid, as `solid` is.
+  [[nodiscard]] Index face_on_ray(Index p, Index solid) const {
+    return walk(p, walk_by_guess<FaceKind::solid>(p, solid), FaceKind::solid).face;
+  }
+
  private:
   struct End {
     Index face;

@@ -106,6 +106,46 @@ TEST(move_all, is_a_build_for_every_kind_of_degenerate_input) {
   }
 }
 
+// Sites on one ray share a place, whatever their coordinates: in the result, or under way alone.
+TEST(move_all, lets_sites_meet_on_a_ray) {
+  for (const Model model : {Model::projected, Model::weighted}) {
+    for (const std::size_t n : {20U, 300U, 2000U}) {
+      for (int round = 0; round < 40; ++round) {
+        Random random(1000 * n + static_cast<std::size_t>(round));
+        std::vector<Point> points(n);
+        for (Point& p : points) p = random.direction();
+        points[1] = {0, 0, 1};
+        DynamicTriangulation moved(points, {.model = model});
+        const auto neighbor = [&](Index i) { return moved.neighbors(i).front(); };
+        const Index first = neighbor(0);
+        const Index pole = neighbor(1);
+        const auto other = static_cast<Index>(random.below(n));
+        const Point before = points[0];
+        switch (round % 5) {
+          case 0:
+            points[0] = 2 * points[first];
+            break;
+          case 1:
+            points[0] = 0.5 * points[other];
+            break;
+          case 2:
+            points[pole] = {0, 0, 1 + 1e-9};
+            break;
+          case 3:
+            points[0] = 2 * points[first];
+            points[first] = 2 * before;
+            break;
+          default:
+            for (int k = 0; k < 10; ++k) points[random.below(n)] = 4 * points[random.below(n)];
+        }
+        moved.move_all(points);
+        ASSERT_NO_FATAL_FAILURE(
+            expect_build(moved, {.model = model}, std::to_string(n) + std::to_string(round)));
+      }
+    }
+  }
+}
+
 // Ties: sites of a grid move to places of the grid, so that four and more are cocircular, and meet.
 TEST(move_all, breaks_ties_as_a_build_does) {
   constexpr int steps = 12;
