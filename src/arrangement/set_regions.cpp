@@ -253,12 +253,17 @@ class CornerSort {
   // Returns where the entries of each bucket begin. Each step of the arithmetic keeps the order.
   std::vector<Index> deal() {
     entries_.resize(given_.size());
-    const auto [least, most] = std::ranges::minmax_element(given_, {}, &Point::x);
-    const double width = given_.empty() ? 0 : most->x - least->x;
+    double least = 0;
+    double width = 0;
+    if (!given_.empty()) {
+      const auto ends = std::ranges::minmax_element(given_, {}, &Point::x);
+      least = ends.min->x;
+      width = ends.max->x - least;
+    }
     constexpr double least_width = 1e-30;
     const double scale = width > least_width ? static_cast<double>(num_buckets_) / width : 0;
     const auto bucket_of = [&](const Point& p) {
-      const auto bucket = static_cast<std::size_t>((p.x - least->x) * scale);
+      const auto bucket = static_cast<std::size_t>((p.x - least) * scale);
       return std::min(bucket, num_buckets_ - 1);
     };
     system::RowPlaces<Index> places(num_buckets_);
