@@ -14,7 +14,7 @@ NAMESPACE = re.compile(r"^namespace rondel(?:::mesh)? \{\n", re.M)
 NAME = [
     re.compile(r"^(?:template\s*<[^>]*>\s*)?(?:struct|class|enum class|enum)\s+(?:RONDEL_API\s+)?(\w+)", re.M),
     re.compile(r"^using\s+(\w+)", re.M),
-    re.compile(r"^(?:inline\s+)?constexpr\s+[\w:<>, ]+?\s(\w+)\s*(?:=|\{)", re.M),
+    re.compile(r"^(?:inline\s+)?constexpr\s+[\w:<>,* ]+?\s(\w+)\s*(?:=|\{)", re.M),
     re.compile(r"(operator\s*\S+?|\w+)\s*\("),
 ]
 COMMANDS = {"throw": "Throws", "throws": "Throws", "pre": "Precondition:", "param": "Parameter", "return": "Returns"}
