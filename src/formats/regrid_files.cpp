@@ -250,9 +250,15 @@ class RegridJob {
       task.cost = formats::PlaceTiles::cost_of(*options_.method);
     }
     if (options_.extrapolation) {
-      constexpr std::uint64_t of_extrapolator = 120;  // a place and its neighbors
-      task.cost.of_source += of_extrapolator;
-      task.cost.of_source_beside += of_extrapolator;
+      // A place and its neighbors on both sides; these were measured and rounded up.
+      const std::uint64_t of_target =
+          options_.extrapolation->method == Extrapolation::creep ? 350 : 40;
+      constexpr std::uint64_t of_source = 120;
+      task.cost.of_source += of_source;
+      task.cost.of_source_beside += of_source;
+      task.cost.of_target += of_target;
+      task.cost.of_target_beside += of_target;
+      task.has_whole_fields = true;
     }
     plan_ = plan_of(task);
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
@@ -354,10 +360,6 @@ class RegridJob {
   // Returns what extrapolates whole fields; nothing if that is not asked for.
   formats::ArrayToCarry::Complete completing() {
     if (!options_.extrapolation) return {};
-    if (plan_.is_streamed) {
-      throw InvalidInput("memory of " + std::to_string(options_.memory) +
-                         " bytes is too small: extrapolation needs whole fields");
-    }
     return [this](std::span<const double> values, std::span<double> carried) {
       extrapolate(values, carried);
     };

@@ -67,7 +67,8 @@ RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) 
   RegridPlan plan;
   plan.has_tiles = true;
   const std::uint64_t of_both = of_sources + of_targets;
-  plan.is_streamed = task.is_in_order && (of_both > room / 2 || of_both + of_least > room);
+  plan.is_streamed = task.is_in_order && !task.has_whole_fields &&
+                     (of_both > room / 2 || of_both + of_least > room);
   const std::uint64_t of_field = of_sources + (plan.is_streamed ? 0 : of_targets);
   if (of_field + of_least > room) {
     refuse_memory(task, std::min(beside + of_field + of_least, needed_by_whole));

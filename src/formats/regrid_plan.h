@@ -45,10 +45,11 @@ struct RegridTask {
   RegridCost cost;
   std::uint64_t sources = 0;
   std::uint64_t targets = 0;
-  std::uint64_t fields = 0;   // of one array
-  bool has_tiles = false;     // whether weights can be computed in tiles
-  bool are_cells = false;     // whether tiles have cells of both sides
-  bool is_in_order = false;   // whether the targets of a tile are consecutive
+  std::uint64_t fields = 0;       // of one array
+  bool has_tiles = false;         // whether weights can be computed in tiles
+  bool are_cells = false;         // whether tiles have cells of both sides
+  bool is_in_order = false;       // whether the targets of a tile are consecutive
+  bool has_whole_fields = false;  // whether they are extrapolated when all tiles are there
   bool has_windows = false;   // whether a tile needs consecutive sources, as far as a row of them
   double largest_target = 0;  // its share of the sphere, if targets may be large
   std::uint64_t rows = 1;     // parallels between targets, if these are in rows

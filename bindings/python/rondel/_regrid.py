@@ -96,6 +96,8 @@ def regrid(
     (48,)
 
     """
+    if not 0 <= max_missing <= 1:
+        raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
     is_of_cells = method in ("conservative", "conservative_2nd")
     regridder = Regridder(
         data,
