@@ -90,7 +90,7 @@ struct RegridFileReport {
   std::size_t fields = 0;
   std::size_t missing = 0;  ///< values of targets that are missing
   std::size_t tiles = 0;    ///< 0 if all weights were in memory
-  /// What was left out or copied as it is, and why; each begins with the name of its file.
+  /// Sentences on what was left out or copied as it is, and why; each begins with the name of its file.
   std::vector<std::string> remarks = {};
   std::uint64_t resumed = 0;      ///< values that an earlier run had computed
   std::size_t extrapolated = {};  ///< values of targets that this run extrapolated
