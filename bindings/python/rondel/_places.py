@@ -34,6 +34,12 @@ from ._weights import Weights
 _COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude")}
 
 
+def _spread(found: Coordinates) -> tuple[xarray.DataArray, xarray.DataArray]:
+    """The latitudes and longitudes of all places, as arrays of one shape."""
+    south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+    return south, west
+
+
 class Places:
     """Places of a Dataset, a DataArray, a CellSet, a mapping or a tuple (lon, lat) of arrays."""
 
@@ -128,7 +134,7 @@ class Places:
         except ValueError:
             self._cells, self._grid = cells, name
             return _centers(cells)
-        south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+        south, west = _spread(found)
         pairs = np.stack([west.values, south.values], axis=-1).reshape(-1, 2)
         # Points that were put into another order are no longer those of the grid.
         centers = cells._degrees()
@@ -181,7 +187,7 @@ class Places:
                 found = Coordinates(data, lon, lat)
             except ValueError:
                 continue  # no longitudes and latitudes
-            south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+            south, west = _spread(found)
             if set(south.dims) != set(self.dims):
                 continue
             south, west = south.transpose(*self.dims), west.transpose(*self.dims)
@@ -240,7 +246,7 @@ class Places:
             found = Coordinates(data, None, None)
         except ValueError:
             return data
-        south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
+        south, west = _spread(found)
         if south.shape != self.shape:
             return data
         if not self._are_here(west.values, south.values):
