@@ -24,6 +24,11 @@ function(rondel_target_settings target)
     target_compile_options(${target} PRIVATE -fsanitize=${RONDEL_SANITIZE}
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${RONDEL_SANITIZE})
+    # A sanitizer's checks take three times as long to compile where they are optimized, and what stands above the core
+    # runs little with them. Fuzzers run for long.
+    if(NOT target STREQUAL rondel AND NOT RONDEL_BUILD_FUZZERS)
+      target_compile_options(${target} PRIVATE -O0)
+    endif()
   endif()
 endfunction()
 

@@ -35,7 +35,7 @@ rondel_add_test(io_parallel_test io/parallel_test.cpp LIBS rondel_geo rondel_tes
 
 # What netCDF-C, which judges it, comes with is in scripts/tools/packages/test.txt.
 add_executable(netcdf_large io/netcdf_large.cpp)
-rondel_test_settings(netcdf_large)
+rondel_target_settings(netcdf_large)
 target_include_directories(netcdf_large PRIVATE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(netcdf_large PRIVATE rondel_geo)
 add_test(NAME netcdf_writer.of_more_than_4_gib_is_read_by_netcdf_c
