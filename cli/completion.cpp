@@ -8,7 +8,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <string_view>
+
+#include "options.h"
 
 namespace rondel::cli {
 namespace {
@@ -20,7 +23,7 @@ std::string first_line(const std::string& text) {
   return line;
 }
 
-CompletedOption option_of(const CLI::Option& option) {
+CompletedOption option_of(CLI::Option& option) {
   CompletedOption result;
   for (const std::string& name : option.get_snames()) result.names.push_back('-' + name);
   for (const std::string& name : option.get_lnames()) result.names.push_back("--" + name);
@@ -29,6 +32,7 @@ CompletedOption option_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   result.is_file = result.has_value && (type.find("FILE") != std::string::npos || type == "DIR" ||
                                         type == "GRID" || type == "TARGET");
+  result.words = words_of(option);
   return result;
 }
 
@@ -71,6 +75,13 @@ std::string pattern_of(const CompletedCommand& command, const Condition& conditi
   return pattern;
 }
 
+// Returns words with spaces between them.
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 // Returns a text in single quotes, as bash and zsh read it.
 std::string in_quotes(std::string_view text) {
   std::string result = "'";
@@ -82,6 +93,20 @@ std::string in_quotes(std::string_view text) {
     }
   }
   return result + '\'';
+}
+
+// Returns the lines of bash for the options of a command whose values are one of some words.
+std::string bash_choices(const CompletedCommand& command) {
+  std::string lines;
+  for (const CompletedOption& option : command.options) {
+    if (option.words.empty()) continue;
+    std::string pattern;
+    for (const std::string& name : option.names) {
+      pattern += (pattern.empty() ? "" : "|") + in_quotes(command.words + '|' + name);
+    }
+    lines += "    " + pattern + ") choices=" + in_quotes(joined(option.words)) + " ;;\n";
+  }
+  return lines;
 }
 
 // Returns a text in single quotes for fish, which reads a backslash there before a quote or a
@@ -105,6 +130,12 @@ std::string escaped_for_zsh(std::string_view text) {
   return result;
 }
 
+// Returns what _arguments says of the value of an option.
+std::string zsh_value(const CompletedOption& option) {
+  if (!option.words.empty()) return ":word:(" + joined(option.words) + ')';
+  return option.is_file ? ":file:_files" : ":value: ";
+}
+
 // Returns the lines of _arguments for the options of a command: '(-o --output)'{-o,--output}'[what]:value:_files'.
 std::string zsh_arguments(const CompletedCommand& command) {
   std::string lines;
@@ -112,7 +143,7 @@ std::string zsh_arguments(const CompletedCommand& command) {
     std::string together;
     for (const std::string& name : option.names) together += (together.empty() ? "" : " ") + name;
     std::string what = '[' + escaped_for_zsh(option.what) + ']';
-    if (option.has_value) what += option.is_file ? ":file:_files" : ":value: ";
+    if (option.has_value) what += zsh_value(option);
     for (const std::string& name : option.names) {
       std::string argument = '(' + together;
       argument.append(")").append(name).append(what);
@@ -128,7 +159,11 @@ std::string zsh_function(const CompletedCommand& command) {
   std::ranges::replace(name, ' ', '_');
   std::string text = name + "() {\n";
   if (command.commands.empty()) {
-    return text + "  _arguments -s" + zsh_arguments(command) + " \\\n        '*:file:_files'\n}\n";
+    text += "  _arguments -s" + zsh_arguments(command);
+    if (!command.arguments.empty()) {
+      text += " \\\n        '1:word:(" + joined(command.arguments) + ")'";
+    }
+    return text + (command.takes_files ? " \\\n        '*:file:_files'\n}\n" : "\n}\n");
   }
   text += "  local context state state_descr line\n  typeset -A opt_args\n  _arguments -C";
   text += zsh_arguments(command);
@@ -151,16 +186,22 @@ std::string fish_condition(const CompletedCommand& command) {
 
 }  // namespace
 
-CompletedCommand completed(const CLI::App& app) {
+CompletedCommand completed(CLI::App& app) {
   CompletedCommand result;
   for (const CLI::App* at = &app; at->get_parent() != nullptr; at = at->get_parent()) {
     result.words = at->get_name() + (result.words.empty() ? "" : " ") + result.words;
   }
   result.what = first_line(app.get_description());
-  for (const CLI::Option* option : app.get_options()) {
-    if (!option->get_positional()) result.options.push_back(option_of(*option));
+  for (CLI::Option* const option : app.get_options()) {
+    if (!option->get_positional()) {
+      result.options.push_back(option_of(*option));
+      continue;
+    }
+    const std::vector<std::string> words = words_of(*option);
+    result.arguments.insert(result.arguments.end(), words.begin(), words.end());
+    result.takes_files = result.takes_files || words.empty();
   }
-  for (const CLI::App* below : app.get_subcommands({})) {
+  for (CLI::App* const below : app.get_subcommands(std::function<bool(CLI::App*)>())) {
     result.commands.push_back(completed(*below));
   }
   return result;
@@ -169,6 +210,7 @@ CompletedCommand completed(const CLI::App& app) {
 std::string bash_completion(const CompletedCommand& tool) {
   std::string followers;
   std::string groups;
+  std::string choices;
   for (const CompletedCommand* command : all_of(tool)) {
     const std::string files =
         pattern_of(*command, [](const auto& option) { return option.is_file; });
@@ -178,6 +220,11 @@ std::string bash_completion(const CompletedCommand& tool) {
                  ")\n      words=" + in_quotes(followers_of(*command)) + '\n';
     if (!files.empty()) followers += "      files=" + in_quotes('|' + files + '|') + '\n';
     if (!values.empty()) followers += "      values=" + in_quotes('|' + values + '|') + '\n';
+    if (!command->arguments.empty()) {
+      followers += "      arguments=" + in_quotes(joined(command->arguments)) + '\n';
+    }
+    if (command->takes_files) followers += "      takes_files=1\n";
+    choices += bash_choices(*command);
     followers += "      ;;\n";
     if (command->commands.empty()) continue;
     for (const CompletedCommand& below : command->commands) {
@@ -187,7 +234,7 @@ std::string bash_completion(const CompletedCommand& tool) {
   return "# Completion of rondel for bash, made by 'rondel completion bash'.\n"
          "_rondel() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-         "  local command= words= files= values= i\n"
+         "  local command= words= files= values= arguments= takes_files= choices= i\n"
          "  for ((i = 1; i < COMP_CWORD; ++i)); do\n"
          "    case \"${command:+$command }${COMP_WORDS[i]}\" in\n"
          "    " +
@@ -199,15 +246,22 @@ std::string bash_completion(const CompletedCommand& tool) {
          "  case \"$command\" in\n" +
          followers +
          "  esac\n"
+         "  case \"$command|$previous\" in\n" +
+         choices +
+         "  esac\n"
          "  COMPREPLY=()\n"
-         "  if [[ $files == *\"|$previous|\"* ]]; then\n"
+         "  if [[ -n $choices ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$choices\" -- \"$current\")\n"
+         "  elif [[ $files == *\"|$previous|\"* ]]; then\n"
          "    compopt -o filenames 2>/dev/null\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
          "  elif [[ $values == *\"|$previous|\"* ]]; then\n"
          "    return\n"
          "  elif [[ $current == -* || $words == [a-z]* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
-         "  else\n"
+         "  elif [[ -n $arguments ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$arguments\" -- \"$current\")\n"
+         "  elif [[ -n $takes_files ]]; then\n"
          "    compopt -o filenames 2>/dev/null\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
          "  fi\n"
@@ -234,6 +288,11 @@ std::string fish_completion(const CompletedCommand& tool) {
       lines +=
           start + " -f -a " + last_word_of(below) + " -d " + in_quotes_of_fish(below.what) + '\n';
     }
+    if (!command->arguments.empty()) {
+      lines += start + " -f -a " + in_quotes_of_fish(joined(command->arguments)) + '\n';
+    } else if (!command->takes_files && command->commands.empty()) {
+      lines += start + " -f\n";
+    }
     for (const CompletedOption& option : command->options) {
       lines += start;
       for (const std::string_view name : option.names) {
@@ -241,6 +300,7 @@ std::string fish_completion(const CompletedCommand& tool) {
         lines += name.substr(name.find_first_not_of('-'));
       }
       if (option.has_value) lines += option.is_file ? " -r -F" : " -x";
+      if (!option.words.empty()) lines += " -a " + in_quotes_of_fish(joined(option.words));
       lines += " -d " + in_quotes_of_fish(option.what) + '\n';
     }
   }

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Scripts that let a shell complete command lines of the tool: names of commands and options, and
-/// files where an argument or the value of an option is one.
+/// Scripts that let a shell complete command lines of the tool: names of commands and options, the
+/// words that an argument or the value of an option may be, and files where it is one.
 ///
 /// in    the commands and options as the parser knows them
 /// out   the text of a script for bash, zsh or fish
@@ -27,6 +27,8 @@ struct CompletedOption {
   bool has_value = false;
   /// The value is the name of a file or a folder.
   bool is_file = false;
+  /// The words of which the value is one, if there are such.
+  std::vector<std::string> words;
 };
 
 /// A command, or the tool itself.
@@ -38,10 +40,14 @@ struct CompletedCommand {
   std::vector<CompletedOption> options;
   /// The commands that it has, each with its line. Then it takes no other argument.
   std::vector<CompletedCommand> commands;
+  /// The words of which its argument is one, if there are such.
+  std::vector<std::string> arguments;
+  /// True if an argument is the name of a file.
+  bool takes_files = false;
 };
 
 /// Returns the commands below an application of the parser, and their options.
-CompletedCommand completed(const CLI::App& app);
+CompletedCommand completed(CLI::App& app);
 
 /// Returns the script for a shell, which reads it by `source`, or finds it in a folder of its own.
 std::string bash_completion(const CompletedCommand& tool);

@@ -16,9 +16,7 @@ void add_extrapolate_options(CLI::App& parser, CommonOptions& common, Extrapolat
           "Targets without a value get one, field by field: of the nearest source with a value\n"
           "(nearest), of several by inverse distance (idw), or the mean of their neighbors with\n"
           "values, level by level (creep)")
-      ->check([](const std::string& text) {
-        return extrapolation_named(text) ? std::string() : "'" + text + "' is not a choice";
-      })
+      ->check(one_of({"nearest", "idw", "creep", "nearest_s2d", "inverse_dist", "creep_fill"}))
       ->type_name("WORD");
   const CLI::Option* const distance =
       parser

@@ -3,6 +3,7 @@
 #include "options.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
@@ -13,11 +14,8 @@ namespace {
 
 constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz";
 
-// Returns what is wrong with a word of --model; empty if nothing is.
-std::string model_error(const std::string& text) {
-  if (from_name<Model>(text)) return {};
-  return "'" + text + "' is not a model (projected, weighted)";
-}
+// The name of a check begins with this if its other words are those that the check lets through.
+constexpr std::string_view mark_of_words = "one of";
 
 // Adds an option that names a column of a table.
 CLI::Option* add_column(CLI::App& command, const char* name, std::string& target,
@@ -135,6 +133,29 @@ void require_angles(const ReadOptions& read, std::span<const SiteTable* const> t
                    " has no angles");
 }
 
+CLI::Validator one_of(const std::vector<std::string>& words, const std::string& otherwise) {
+  std::string name(mark_of_words);
+  for (const std::string& word : words) name += ' ' + word;
+  const auto check = [words, otherwise](const std::string& text) {
+    return std::ranges::count(words, text) != 0 ? std::string() : "'" + text + "' " + otherwise;
+  };
+  return {check, {}, name};
+}
+
+std::vector<std::string> words_of(CLI::Option& option) {
+  std::string name;
+  try {
+    name = option.get_validator(0)->get_name();
+  } catch (const CLI::OptionNotFound&) {
+    return {};  // it has no check at all
+  }
+  if (!name.starts_with(mark_of_words)) return {};
+  std::vector<std::string> words;
+  std::istringstream text(name.substr(mark_of_words.size()));
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
 void require_effect(CommonOptions& options, const CLI::Option* option,
                     std::function<bool()> has_effect, std::string otherwise) {
   options.effects.push_back({option, std::move(has_effect), std::move(otherwise)});
@@ -210,7 +231,7 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
           "projected: every site is moved along its ray to the sphere (default).\n"
           "weighted (implied by --radius): a site off the sphere is a circle; sites inside\n"
           "the convex hull are hidden, and cells are power (Laguerre) cells")
-      ->check(model_error)
+      ->check(one_of({"projected", "weighted"}, "is not a model (projected, weighted)"))
       ->type_name("MODEL");
   command
       .add_option_function<std::vector<double>>(

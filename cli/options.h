@@ -157,6 +157,23 @@ std::unordered_map<std::string, Value> named_values() {
   return values;
 }
 
+/// Returns the words of choices, sorted.
+template <class Value>
+std::vector<std::string> keys_of(const std::unordered_map<std::string, Value>& choices) {
+  std::vector<std::string> words;
+  for (const auto& choice : choices) words.push_back(choice.first);
+  std::ranges::sort(words);
+  return words;
+}
+
+/// Returns a check that a text is one of these words, which shells complete (completion.h).
+/// \param otherwise  ends the message "'foo' is not a choice"
+CLI::Validator one_of(const std::vector<std::string>& words,
+                      const std::string& otherwise = "is not a choice");
+
+/// Returns the words that the check of an option lets through; none if it has no such check.
+std::vector<std::string> words_of(CLI::Option& option);
+
 /// Adds an option that takes one of the words in `choices`.
 /// \param name  the option, "--edges"
 /// \param target  gets the value of the word; it must live until the command line has been parsed
@@ -168,9 +185,7 @@ CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
   return parser
       .add_option_function<std::string>(
           name, [&target, choices](const std::string& text) { target = choices.at(text); }, what)
-      ->check([choices](const std::string& text) {
-        return choices.contains(text) ? std::string() : "'" + text + "' is not a choice";
-      })
+      ->check(one_of(keys_of(choices)))
       ->type_name("WORD");
 }
 

@@ -31,11 +31,7 @@ Command add_completion_command(CLI::App& tool) {
   parser->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()
       ->type_name("")
-      ->check([](const std::string& text) {
-        return text == "bash" || text == "zsh" || text == "fish"
-                   ? std::string()
-                   : "'" + text + "' is not bash, zsh or fish";
-      });
+      ->check(one_of({"bash", "zsh", "fish"}, "is not bash, zsh or fish"));
   parser->footer(
       "Packages install the scripts. Without one, a line in the shell's start file is enough:\n"
       "  bash, ~/.bashrc                    source <(rondel completion bash)\n"

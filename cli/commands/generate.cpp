@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "inputs/kinds.h"
 #include "job.h"
@@ -85,9 +86,14 @@ ExitStatus run_generate(const GenerateOptions& options) {
   return done;
 }
 
-// Returns what is wrong with the name of a kind of sites; empty if there is such a kind.
-std::string kind_error(const std::string& text) {
-  return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
+// Returns the names of all kinds.
+std::vector<std::string> names_of_kinds() {
+  std::vector<std::string> names;
+  for (const std::span<const inputs::Kind> kinds :
+       {inputs::plain_kinds(), point_set_kinds(), inputs::hostile_kinds()}) {
+    for (const inputs::Kind& kind : kinds) names.emplace_back(kind.name);
+  }
+  return names;
 }
 
 // Returns the table of kinds for the help of `rondel generate`, a line for each kind.
@@ -115,7 +121,7 @@ Command add_generate_command(CLI::App& tool) {
   inputs::Recipe& recipe = options->recipe;
   parser->add_option("KIND", options->kind, "What to generate: see below")
       ->required()
-      ->check(kind_error)
+      ->check(one_of(names_of_kinds(), "is not a kind"))
       ->type_name("");
   CLI::Option* number = parser->add_option("-n,--number", recipe.n, "Number of sites, also as 1e6");
   number->check(count_error)->transform(digits_of_whole)->type_name("N");

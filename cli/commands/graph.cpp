@@ -31,11 +31,11 @@ struct GraphOptions {
   double tolerance_deg = 0.01;
 };
 
-// Returns what is wrong with a word of --kind; empty if nothing is.
-std::string reading_error(const std::string& name) {
-  if (from_name<GraphKind>(name) || name == "hull" || name == "alpha" || name == "circles")
-    return {};
-  return "'" + name + "' is not a choice";
+// Returns the words of --kind.
+std::vector<std::string> kinds_of_graphs() {
+  std::vector<std::string> kinds = {"hull", "alpha", "circles"};
+  for (const std::string_view name : names_of<GraphKind>()) kinds.emplace_back(name);
+  return kinds;
 }
 
 // Checks that OUTPUT can hold the result: graphs are rows of two sites, circles are rows of
@@ -140,7 +140,7 @@ Command add_graph_command(CLI::App& tool) {
       ->add_option("--kind", options->kind,
                    "delaunay, urquhart, gabriel, relative, mst, hull, alpha or circles")
       ->required()
-      ->check(reading_error)
+      ->check(one_of(kinds_of_graphs()))
       ->type_name("WORD");
   parser
       ->add_option("--radius-deg", options->radius_deg,

@@ -319,9 +319,7 @@ void add_method(CLI::App& parser, InterpolateOptions& options) {
           "nearest, linear, laplace, sibson (default), hermite or cubic between any sites;\n"
           "bilinear on a grid along axes; native in the cells of the mesh of the sites; or\n"
           "nearest_d2s, each site given to its nearest target")
-      ->check([methods](const std::string& text) {
-        return methods.contains(text) ? std::string() : "'" + text + "' is not a choice";
-      })
+      ->check(one_of(keys_of(methods)))
       ->type_name("WORD");
 }
 

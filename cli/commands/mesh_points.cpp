@@ -67,8 +67,7 @@ Command add_mesh_points_command(CLI::App& group) {
   CLI::App* parser = group.add_subcommand("points", "Make the mesh of sites of a known kind");
   parser->add_option("KIND", options->kind, "healpix, reduced-gaussian, cubed-sphere or poisson")
       ->required()
-      ->check(
-          CLI::IsMember({"healpix", "reduced-gaussian", "cubed-sphere", "poisson"}).description(""))
+      ->check(one_of({"healpix", "reduced-gaussian", "cubed-sphere", "poisson"}))
       ->type_name("");
   parser
       ->add_option("--size", options->size,

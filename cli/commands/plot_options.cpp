@@ -32,13 +32,15 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
     return std::nullopt;
   };
   std::string words;
-  for (const auto& choice : choices) words += (words.empty() ? "" : ", ") + choice.first;
+  std::vector<std::string> names;
+  for (const auto& choice : choices) {
+    words += (words.empty() ? "" : ", ") + choice.first;
+    names.push_back(choice.first);
+  }
   parser
       .add_option_function<std::string>(
           name, [&target, find](const std::string& text) { target = find(text).value(); }, help)
-      ->check([find, words](const std::string& text) {
-        return find(text) ? std::string() : "'" + text + "' is not one of " + words;
-      })
+      ->check(one_of(names, "is not one of " + words))
       ->type_name("WHAT");
 }
 
@@ -94,11 +96,7 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
   parser
       .add_option("--graticule", options.style.graticule_deg,
                   "Distance of meridians and parallels: 30 (default), 15, 10, 5, or 0\nfor none")
-      ->check([](const std::string& text) {
-        const bool is_known =
-            text == "0" || text == "5" || text == "10" || text == "15" || text == "30";
-        return is_known ? std::string() : "'" + text + "' is not one of 0, 5, 10, 15, 30";
-      })
+      ->check(one_of({"0", "5", "10", "15", "30"}, "is not one of 0, 5, 10, 15, 30"))
       ->type_name("DEG");
 }
 

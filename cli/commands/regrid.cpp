@@ -98,10 +98,7 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
           "largest-share: the most frequent value (default for fields with flag_values or\n"
           "flag_meanings); nearest, linear, laplace, sibson, hermite, cubic: between the\n"
           "centers; bilinear: on a grid along axes; native: in the cells of the mesh itself")
-      ->check([](const std::string& text) {
-        return named_values<FieldMethod>().contains(text) ? std::string()
-                                                          : "'" + text + "' is not a choice";
-      })
+      ->check(one_of(keys_of(named_values<FieldMethod>())))
       ->type_name("WORD");
   const auto is_of_cells = [&options] {
     const auto& method = options.regrid.method;
@@ -126,10 +123,7 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
       "and the integral is kept");
   parser.get_option("--limiter")
-      ->check([](const std::string& text) {
-        return text == "none" || text == "bounds" ? std::string()
-                                                  : "'" + text + "' is not a choice";
-      })
+      ->check(one_of({"none", "bounds"}))
       ->type_name("WORD");
   require_effect(
       options.common, limiter,

@@ -88,9 +88,36 @@ class Shells(unittest.TestCase):
             ["rondel", "delaunay", "a"],
             ["rondel", "delaunay", "ab.nc", "-o", "a"],
             ["rondel", "delaunay", "ab.nc", "--threads", ""],
+            ["rondel", "completion", ""],
+            ["rondel", "mesh", "scvt", ""],
         ]
         files = {"a file.csv", "ab.nc"}
-        self.assertEqual(self.bash(lines), [{"voronoi"}, {"scvt"}, files, files, set()])
+        shells = {"bash", "zsh", "fish"}
+        self.assertEqual(self.bash(lines), [{"voronoi"}, {"scvt"}, files, files, set(), shells, set()])
+
+    def test_bash_offers_the_words_of_options(self):
+        lines = [
+            ["rondel", "regrid", "ab.nc", "grid:1", "--method", "c"],
+            ["rondel", "remap", "--norm", ""],
+            ["rondel", "delaunay", "ab.nc", "--model", ""],
+            ["rondel", "plot", "ab.nc", "--show", ""],
+            ["rondel", "mesh", "points", "h"],
+            ["rondel", "generate", "unif"],
+        ]
+        wanted = [{"conservative", "conservative-2nd", "cubic"}, {"destarea", "fracarea"}, {"projected", "weighted"}]
+        wanted += [{"none", "delaunay", "voronoi", "both"}, {"healpix"}, {"uniform"}]
+        self.assertEqual(self.bash(lines), wanted)
+
+    def test_words_are_those_that_the_parser_takes(self):
+        """An option whose value is one of some words refuses others, and takes each of these."""
+        script = self.script("bash").read_text()
+        choices = re.findall(r"^    '([\w -]*)\|(--[\w-]+)'\) choices='([^']*)'", script, re.M)
+        self.assertGreater(len(choices), 20)
+        for command, option, words in choices:
+            for word in [*words.split(), "no-such-word"]:
+                done = subprocess.run([TOOL, *command.split(), option, word], text=True, capture_output=True, check=False)
+                is_refused = f"{option}: 'no-such-word' is not" in done.stderr
+                self.assertEqual(is_refused, word == "no-such-word", (command, option, word, done.stderr))
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
     def test_fish_offers_what_the_help_names(self):
@@ -103,6 +130,9 @@ class Shells(unittest.TestCase):
             self.assertLessEqual(options_in(help_of(command)), {*short.split(), *long.split()}, command)
         offered = self.run_shell("fish", "--no-config", "-c", f"source {script}\ncomplete -C 'rondel mesh s'")
         self.assertEqual([line.split("\t")[0] for line in offered.splitlines()], ["scvt"])
+        for asked, wanted in (("completion ", {"bash", "zsh", "fish"}), ("remap --norm ", {"destarea", "fracarea"})):
+            offered = self.run_shell("fish", "--no-config", "-c", f"source {script}\ncomplete -C 'rondel {asked}'")
+            self.assertEqual({line.split("\t")[0] for line in offered.splitlines()}, wanted)
 
     @unittest.skipUnless(shutil.which("zsh"), "zsh is not installed")
     def test_zsh_reads_its_script(self):
