@@ -31,7 +31,9 @@ namespace rondel {
 /// 3. At a corner the row has one weight, 1. On a side it has those of its two ends, the same bits
 ///    from either cell; so values are continuous, and smooth within cells.
 /// 4. Which cell has a target, or which side or corner, is decided exactly. Of several cells, as
-///    where cells overlap, the one with the lowest index counts. A target in no cell has no row.
+///    where cells overlap, the one with the lowest index counts. A target in no cell has no row, but
+///    if it is within 2^-50 radians of a side or corner it is taken for one there: on the border of
+///    all cells coordinates are rounded to either side.
 /// 5. Cells without rings take no part. Where a cell crosses itself, a target has the cell if the
 ///    ring winds around it, and no row if its weights have no positive sum.
 /// 6. The bytes depend on the places of corners and targets, and on the order of the cells only

@@ -41,6 +41,10 @@ namespace {
 constexpr std::size_t targets_per_piece = 1024;
 constexpr std::size_t no_part = ~std::size_t{0};
 
+// How far a target may be from a cell, in radians, and count as on its border. The unit vectors of
+// three places of one arc, each rounded by at most 2^-52, are not farther from each other's arc.
+constexpr double rounding_of_places = 0x1p-50;
+
 // A target: the ray as given, for exact signs, and its unit vector.
 struct TargetRay {
   Point given;
@@ -90,10 +94,21 @@ class CellFinder {
       found = cell;
       seat = here;
     });
-    if (found != no_part) weigh(found, seat, u, row);
+    if (found != no_part) {
+      weigh(found, seat, u, row);
+    } else {
+      weigh_beside(u, row);
+    }
   }
 
  private:
+  // A side that a target is beside, or a corner, which is both of its ends.
+  struct BorderPart {
+    Index from;
+    Index to;
+    [[nodiscard]] bool is_corner() const { return from == to; }
+  };
+
   [[nodiscard]] std::size_t size(std::size_t cell) const { return rings_[cell].size(); }
   [[nodiscard]] Index corner(std::size_t cell, std::size_t k) const { return rings_[cell][k]; }
   [[nodiscard]] const Point& point(std::size_t cell, std::size_t k) const {
@@ -255,6 +270,53 @@ class CellFinder {
     std::ranges::sort(row, [&](const CornerWeight& a, const CornerWeight& b) {
       return is_before(points_[a.corner], points_[b.corner]);
     });
+  }
+
+  // Appends the entries of a target in no cell that rounding may have put there: those of the side or
+  // the corner that it is at. Corners come before sides, then what comes first by coordinates.
+  void weigh_beside(const Point& u, std::vector<CornerWeight>& row) const {
+    constexpr double r = rounding_of_places;
+    std::optional<BorderPart> best;
+    tree_->visit({{u.x - r, u.y - r, u.z - r}, {u.x + r, u.y + r, u.z + r}}, [&](Index in_tree) {
+      const std::size_t cell = order_[in_tree];
+      for (std::size_t k = 0; k < size(cell); ++k) {
+        const std::optional<BorderPart> part =
+            part_beside(corner(cell, k), corner(cell, next(cell, k)), u);
+        if (part && (!best || is_preferred(*part, *best))) best = part;
+      }
+    });
+    if (!best) return;
+    row.push_back({best->from, 1});
+    if (best->is_corner()) return;
+    row.push_back({best->to, 0});
+    if (!weigh_side(points_, u, row)) row.clear();
+    std::erase_if(row, [](const CornerWeight& entry) { return entry.weight == 0; });
+  }
+
+  // Returns the part of a side that a target is beside, its ends in the order of their coordinates;
+  // nothing if it is farther away.
+  [[nodiscard]] std::optional<BorderPart> part_beside(Index from, Index to, const Point& u) const {
+    constexpr double square = rounding_of_places * rounding_of_places;
+    if (is_before(points_[to], points_[from])) std::swap(from, to);
+    for (const Index end : {from, to}) {
+      const Point away = u - points_[end];
+      if (dot(away, away) <= square) return BorderPart{end, end};
+    }
+    const Point along = points_[to] - points_[from];
+    const Point away = u - points_[from];
+    const double place = dot(away, along);
+    if (place < 0 || place > dot(along, along)) return std::nullopt;
+    const Point normal = cross(points_[from], along);
+    const double height = dot(normal, away);
+    if (height * height > square * dot(normal, normal)) return std::nullopt;
+    return BorderPart{from, to};
+  }
+
+  [[nodiscard]] bool is_preferred(const BorderPart& a, const BorderPart& b) const {
+    if (a.is_corner() != b.is_corner()) return a.is_corner();
+    const Point& of_a = points_[a.from];
+    const Point& of_b = points_[b.from];
+    return of_a == of_b ? is_before(points_[a.to], points_[b.to]) : is_before(of_a, of_b);
   }
 
   const std::vector<Point>& points_;

@@ -20,6 +20,7 @@
 #include "rondel/error.h"
 #include "rondel/interpolate.h"
 #include "rondel/native_weights.h"
+#include "rondel/predicates.h"
 #include "support/random.h"
 #include "support/thrown.h"
 
@@ -402,6 +403,65 @@ TEST(native, cells_around_a_pole_have_it) {
   for (const double value : row_of(weights, 0).values) EXPECT_NEAR(value, 0.2, 1e-15);
   EXPECT_EQ(row_of(weights, 1).columns.size(), 5U);
   EXPECT_TRUE(row_of(weights, 2).columns.empty());
+}
+
+// Targets on the meridians at the border of a dual mesh, whose unit vectors are rounded to either side.
+TEST(native, targets_on_the_border_are_found) {
+  CellRings faces;
+  constexpr int columns = 5;
+  constexpr int rows = 7;
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      faces.points.push_back(unit_vector({11.0 + column, 20.0 + row}));
+    }
+  }
+  std::vector<Point> centers;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const auto at = static_cast<Index>(row * (columns + 1) + column);
+      const Index above = at + columns + 1;
+      faces.append_ring(std::vector<Index>{at, at + 1, above + 1, above});
+      faces.end_cell();
+      centers.push_back(unit_vector({11.5 + column, 20.5 + row}));
+    }
+  }
+  const CellRings dual = dual_cells(faces, centers);
+  std::vector<Point> targets;
+  std::vector<Point> beyond;
+  for (int k = 0; k <= 600; ++k) {
+    for (const double lon : {11.5, 15.5}) {
+      const double lat = 20.5 + k / 100.0;
+      targets.push_back(unit_vector({lon, lat}));
+      beyond.push_back(unit_vector({lon < 13 ? lon - 1e-12 : lon + 1e-12, lat}));
+    }
+  }
+  const Weights weights = native_weights(dual, targets);
+  std::size_t num_outside = 0;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const std::uint64_t begin = weights.offsets[t];
+    const std::uint64_t end = weights.offsets[t + 1];
+    ASSERT_GT(end, begin) << t;
+    double sum = 0;
+    Point place{0, 0, 0};
+    for (std::uint64_t k = begin; k < end; ++k) {
+      sum += weights.values[k];
+      const Point& center = centers[weights.columns[k]];
+      place = {place.x + weights.values[k] * center.x, place.y + weights.values[k] * center.y,
+               place.z + weights.values[k] * center.z};
+      EXPECT_GE(weights.values[k], 0);
+    }
+    EXPECT_NEAR(sum, 1, 1e-15);
+    EXPECT_LE(end - begin, 4U);
+    EXPECT_NEAR(lonlats(std::vector<Point>{place}).front().lat_deg, 20.5 + double(t / 2) / 100,
+                1e-12);
+    num_outside += orientation(unit_vector({t % 2 == 0 ? 11.5 : 15.5, 20.5}),
+                               unit_vector({t % 2 == 0 ? 11.5 : 15.5, 26.5}),
+                               targets[t]) == (t % 2 == 0 ? Sign::positive : Sign::negative)
+                       ? 1
+                       : 0;
+  }
+  EXPECT_GT(num_outside, 100U);  // that is what rounding does
+  EXPECT_EQ(native_weights(dual, beyond).values.size(), 0U);
 }
 
 TEST(native, nothing_is_found_without_cells) {
