@@ -93,6 +93,10 @@ Targets read_targets(const FileName& target, const ReadOptions& read) {
   options.keep_columns = false;
   targets.table = read_sites(target, options);
   const SiteTable& table = targets.table;
+  if (table.num_unlocated > 0) {
+    tell(table.name,
+         {"left out " + count(table.num_unlocated, "target", "targets") + " without a place"});
+  }
   targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;
 }

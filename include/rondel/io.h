@@ -115,7 +115,7 @@ struct ReadOptions {
   bool radians = false;       ///< longitude, latitude and radius are in radians
   bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
   /// .csv and .tsv: a table without columns for places has no sites, and a row whose coordinates
-  /// are empty is a site that is not a number.
+  /// are all empty is a site that is not a number, in place of being left out.
   bool may_lack_places = false;
 };
 
@@ -176,7 +176,8 @@ struct SiteTable {
   /// GeoJSON with several features in a line: the number of each site's feature, from 0; else
   /// empty.
   std::vector<std::uint64_t> features = {};
-  /// GeoJSON: the number of features that were left out because they have no geometry
+  /// The number of sites that were left out because they have no place: features of GeoJSON without a
+  /// geometry, rows of .csv and .tsv whose coordinates are all empty
   std::uint64_t num_unlocated = 0;
 
   [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }

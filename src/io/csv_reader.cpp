@@ -82,7 +82,12 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
   while (records.next()) {
     const auto& fields = records.fields();
     require_width(records, width);
-    if (!has_places || (options.may_lack_places && lacks_place(fields, coordinates))) {
+    const bool lacks = has_places && lacks_place(fields, coordinates);
+    if (lacks && !options.may_lack_places) {
+      ++table.num_unlocated;
+      continue;
+    }
+    if (!has_places || lacks) {
       collector.add_unlocated(coordinates.is_lonlat, records.line());
     } else if (coordinates.is_lonlat) {
       const double lon = parse_number(fields[a], "longitude");

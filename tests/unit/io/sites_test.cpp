@@ -376,6 +376,22 @@ TEST(read_sites, keeps_ids_of_features_with_one_site) {
   EXPECT_TRUE(read_sites(none, options).ids.ends.empty());
 }
 
+TEST(read_sites, rows_without_coordinates_are_left_out) {
+  const TemporaryDirectory directory;
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable some =
+      read_sites(directory.with("a.csv", "lon,lat,v\n1,2,3\n,,4\n5,6,\n, ,5\n"), options);
+  ASSERT_EQ(some.sites.size(), 2U);
+  EXPECT_EQ(some.num_unlocated, 2U);
+  EXPECT_EQ(some.positions[1], (LonLat{5, 6}));
+  EXPECT_EQ(some.where(1), some.name + ":4");
+  ASSERT_EQ(some.columns.size(), 3U);
+  EXPECT_EQ(some.columns[2].cell(0), "3");
+  EXPECT_EQ(some.columns[2].cell(1), "");
+  EXPECT_EQ(read_sites(directory.with("b.csv", "x,y,z\n,,\n")).num_unlocated, 1U);
+}
+
 TEST(read_sites, may_lack_places) {
   const TemporaryDirectory directory;
   const auto read = [&](const std::string& text, bool may_lack = true) {
@@ -394,7 +410,7 @@ TEST(read_sites, may_lack_places) {
   for (const char* text : {"lon,lat\n1,\n", "x,y,z\n,,1\n", "lon,lat\nnan,1\n"}) {
     EXPECT_THROW(read(text), FileError) << text;
   }
-  EXPECT_THROW(read("lon,lat\n,\n", false), FileError);
+  EXPECT_THROW(read("lon,lat\n1,\n", false), FileError);
   EXPECT_THROW(read("x,v\n1,3\n", false), FileError);
 }
 
