@@ -121,7 +121,11 @@ class PolygonReader {
     positions.reserve(ring.items.size());
     for (const JsonTree& item : ring.items) positions.push_back(geojson_position(item));
     map::LonLatRing result = map::ring_of_file(std::move(positions), is_hole);
-    if (!result.fault.empty() && faulty_ == FaultyRings::error) throw BadValue(result.fault);
+    if (!result.fault.empty() && faulty_ == FaultyRings::error) {
+      const bool is_open = result.positions.size() > 3;
+      throw BadValue(result.fault +
+                     (is_open ? "; --invalid repair (invalid='repair' in Python) closes it" : ""));
+    }
     return result;
   }
 

@@ -16,6 +16,7 @@
 
 #include "rondel/io.h"
 #include "rondel/types.h"
+#include "system/message_text.h"
 
 namespace rondel::map {
 
@@ -52,7 +53,11 @@ inline LonLatRing ring_of_file(std::vector<LonLat> positions, bool is_hole) {
   if (size < least) {
     ring.fault = "a ring of " + std::to_string(size) + " positions";
   } else if (!is_closed && !is_turn) {
-    ring.fault = "a ring that is not closed";
+    const auto text_of = [](const LonLat& place) {
+      return system::shortest_text(place.lon_deg) + ' ' + system::shortest_text(place.lat_deg);
+    };
+    ring.fault = "a ring that is not closed, from " + text_of(ring.positions.front()) + " to " +
+                 text_of(ring.positions.back());
   }
   return ring;
 }

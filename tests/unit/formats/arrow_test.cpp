@@ -319,7 +319,7 @@ TEST(arrow, polygons_become_cells) {
   LonLatMultiPolygons open = polygons;
   open.rows.rows.values.back() = {1, 1};
   EXPECT_EQ(thrown_message<InvalidInput>([&] { (void)cells_of_polygons(open); }),
-            "feature 0: a ring that is not closed");
+            "feature 0: a ring that is not closed, from 0 0 to 1 1");
   EXPECT_EQ(cells_of_polygons(open, {.invalid = InvalidPolygons::repair}).facts.faults.size(), 1U);
   open.rows.rows.values.back() = {1, 91};
   EXPECT_EQ(thrown_message<InvalidInput>([&] { (void)cells_of_polygons(open); }),

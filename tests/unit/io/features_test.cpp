@@ -91,10 +91,12 @@ TEST(geojson_features, may_go_around_a_pole) {
   EXPECT_TRUE(
       read(geometry("Polygon", "[[[10,60],[130,60],[250,60],[370,60]]]")).rings[0][0].is_turn);
   EXPECT_EQ(ring("[180,60]").positions, (Ring{{-180, 60}, {-60, 60}, {60, 60}}));
-  for (const char* const last : {"[180,61]", "[179,60]", "[-180,59]"}) {
+  for (const auto& [last, place] :
+       {std::pair{"[180,61]", "180 61"}, {"[179,60]", "179 60"}, {"[-180,59]", "-180 59"}}) {
     EXPECT_EQ(refusal_of_features(
                   geometry("Polygon", "[[[-180,60],[-60,60],[60,60]," + std::string(last) + "]]")),
-              "a ring that is not closed");
+              "a ring that is not closed, from -180 60 to " + std::string(place) +
+                  "; --invalid repair (invalid='repair' in Python) closes it");
   }
 }
 
@@ -134,7 +136,8 @@ TEST(geojson_features, are_refused_with_what_is_wrong) {
             "a ring of 3 positions");
   EXPECT_EQ(refusal_of_features(geometry("Polygon", "[[]]")), "a ring of 0 positions");
   EXPECT_EQ(refusal_of_features(geometry("Polygon", "[[[0,0],[1,0],[1,1],[0,1]]]")),
-            "a ring that is not closed");
+            "a ring that is not closed, from 0 0 to 0 1; --invalid repair (invalid='repair' in "
+            "Python) closes it");
   EXPECT_EQ(refusal_of_features(geometry("LineString", "{}")), "a line that is no array");
   EXPECT_EQ(refusal_of_features(geometry("LineString", "[[1,2]]")), "a line of 1 positions");
   EXPECT_EQ(refusal_of_features(geometry("MultiLineString", "[[[1,2],[3,4]],[[1,2]]]")),

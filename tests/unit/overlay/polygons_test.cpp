@@ -356,7 +356,9 @@ TEST(overlay_polygons, messages_say_where) {
   EXPECT_EQ(message_of(R"({"type":"Point","coordinates":[1,2]})"),
             R"(1: type "Point" where a Polygon is needed)");
   EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,0]]")), "1: a ring of 3 positions");
-  EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,1],[0,2]]")), "1: a ring that is not closed");
+  EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,1],[0,2]]")),
+            "1: a ring that is not closed, from 0 0 to 0 2; --invalid repair (invalid='repair' in "
+            "Python) closes it");
   EXPECT_EQ(message_of("{\"type\":\"FeatureCollection\",\"features\":[\n"
                        R"({"type":"Feature","geometry":)" +
                        polygon("[[0,0],[1,91],[0,1],[0,0]]") + "}]}"),

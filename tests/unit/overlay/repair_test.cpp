@@ -259,7 +259,8 @@ TEST(overlay_repair, faults_are_told_without_repair) {
 {"type":"Polygon","coordinates":[]}]})";
   EXPECT_EQ(polygon_faults(path),
             (std::vector<std::string>{
-                "", "a ring of 3 positions", "a ring of 3 positions", "a ring that is not closed",
+                "", "a ring of 3 positions", "a ring of 3 positions",
+                "a ring that is not closed, from 0 0 to 2 3",
                 "ring 1 of part 0, a hole, does not lie inside of its polygon at 3 3", ""}));
   const CellTable table = read_polygons(path, {.invalid = InvalidPolygons::repair});
   const std::vector<double> found = areas(table.cells);
