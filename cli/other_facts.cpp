@@ -130,10 +130,13 @@ std::optional<OtherFacts> other_facts_of(const CommonOptions& common, Job& job) 
       return facts_of(read_features(file, options, job.execution()), job.seconds());
     });
   }
-  return facts_if_read([&] {
+  const auto read = [&] {
     const WeightFile weights = read_weights(file, {.are_checked = true});
     return facts_of(common.input, weights, job.seconds());
-  });
+  };
+  // Nothing but weights is read from .npz, so that what is wrong with them is the answer.
+  if (format_of(file) == "npz") return read();
+  return facts_if_read(read);
 }
 
 }  // namespace rondel::cli

@@ -10,18 +10,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <system_error>
 
 #include "job.h"
 #include "other_facts.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
 #include "triangle_output.h"
 
 namespace rondel::cli {
@@ -200,11 +204,26 @@ std::string name_of_values(const SiteTable& table, const CommonOptions& common) 
   return {};
 }
 
+// Returns the name of the first variable with several fields at the sites, as of several times, which
+// is no column; nothing if there is none.
+std::string name_of_fields(const SiteTable& table, const CommonOptions& common) {
+  try {
+    const auto [file, variable] = file_and_variable(common.source());
+    std::vector<std::string> names;
+    if (!variable.empty()) names = {variable};
+    const FieldFile fields(file, names, table.sites.size(), {}, {}, WantedPlaces{table.positions});
+    return fields.fields().arrays.front().name;
+  } catch (const FileError&) {
+    return {};  // a mesh may have no fields
+  }
+}
+
 // Returns the lines that say what to do with the sites; none if there are no sites.
 std::string commands_for(const SiteTable& table, const CommonOptions& common) {
   if (table.sites.empty()) return {};
   std::string text = "commands that take it: delaunay, voronoi, regions, nearest, graph, plot\n";
-  const std::string values = name_of_values(table, common);
+  std::string values = name_of_values(table, common);
+  if (values.empty() && is_netcdf_file(common.source())) values = name_of_fields(table, common);
   if (!values.empty()) text += "and with --value " + values + ": interpolate, contours\n";
   if (is_netcdf_file(common.source())) {
     text += "and if its values are on cells: regrid, remap, mesh quality\n";
@@ -260,6 +279,23 @@ ExitStatus run_info_of_triangles(const CommonOptions& common) {
   return done;
 }
 
+// Throws FileError for a file whose name does not say what it holds, with all that it may hold.
+void require_known_ending(const CommonOptions& common) {
+  static constexpr std::string_view endings[] = {"csv", "tsv", "xyz", "txt",     "npy",  "nc",
+                                                 "nc4", "cdf", "ncf", "geojson", "json", "npz"};
+  const std::string format = format_of(common.source());
+  std::error_code error;
+  if (common.input == "-" || !std::filesystem::exists(common.input, error)) return;
+  if (std::ranges::count(endings, format) > 0 || is_netcdf_file(common.source())) return;
+  const std::string what = format.empty()                   ? "the name has no ending"
+                           : common.source().format.empty() ? "unknown ending \"." + format + '"'
+                                                            : "unknown format \"" + format + '"';
+  throw FileError(common.input + ": " + what +
+                  "; sites are read from .csv .tsv .xyz .txt .npy .geojson, fields and meshes from "
+                  "netCDF, triangles from .msh .14 .gr3 .ll .2dm, features from .geojson, weights "
+                  "from .nc .npz");
+}
+
 // Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and
 // prints the facts. No file is written. Throws FileError for a file that cannot be read.
 ExitStatus run_info(const CommonOptions& options) {
@@ -271,6 +307,7 @@ ExitStatus run_info(const CommonOptions& options) {
   try {
     table = job.read();
   } catch (const FileError&) {
+    require_known_ending(common);
     const std::optional<OtherFacts> others = other_facts_of(common, job);
     if (!others) throw;
     job.report(others->json, others->text);
