@@ -86,6 +86,8 @@ struct Remap {
   CompressedRows<Index> pieces;
   std::vector<double> areas;
   std::vector<Point> moments;  ///< empty for order 1
+  /// The mean of x over each source, between which gradients are fitted; empty for order 1.
+  std::vector<Point> source_centers = {};
 };
 
 /// Computes the overlay of two sets of cells and the weights that follow from it.
@@ -121,6 +123,15 @@ RONDEL_API WeightFile weight_file(Remap remap);
 /// rondel/weight_files.h does. \throws what that function throws
 RONDEL_API void write_weights(const FileName& file, const Remap& remap,
                               const NetcdfOptions& netcdf = {});
+
+/// Returns the weights of order 2 for fields that lack values in some sources, as beyond coasts. A
+/// source without a value is no neighbor in the gradients of others, as one that is masked, and has no
+/// gradient itself: what apply() leaves out of a row is then its area alone, and no difference to it.
+/// Where all sources have values, these are the weights of remap().
+/// \param has_value  0 for each source without a value
+/// \throws InvalidInput if `remap` is of order 1, or there are not as many numbers as sources
+RONDEL_API Weights weights_with_values(const Remap& remap, std::span<const std::int32_t> has_value,
+                                       const Execution& execution = {});
 
 /// Multiplies fields by the weights, as apply() does, and limits the result of order 2: no value is
 /// outside of the bounds of the sources that its target touches, and the integral stays that of the

@@ -261,6 +261,7 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
     }
     result.moments = moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, source_mask, execution.threads);
+    result.source_centers = std::move(centers);
   }
   const std::vector<double>& areas =
       result.norm == RemapNorm::fracarea ? pieces.row_sums : result.target_areas;
@@ -308,6 +309,44 @@ Remap remap(const CellSet& source, const CellSet& target, const RemapOptions& op
     throw InvalidInput(file + ": " + error.what(), error.index());
   }
   return result;
+}
+
+Weights weights_with_values(const Remap& remap, std::span<const std::int32_t> has_value,
+                            const Execution& execution) {
+  const system::Call call(execution);
+  const std::size_t num_sources = remap.source_areas.size();
+  if (remap.moments.size() != remap.areas.size() || remap.source_centers.size() != num_sources) {
+    throw InvalidInput("the remapping is not of order 2");
+  }
+  if (has_value.size() != num_sources) {
+    throw InvalidInput(std::to_string(has_value.size()) + " numbers for " +
+                       std::to_string(num_sources) + " sources");
+  }
+  if (std::ranges::count(has_value, 0) == 0) return remap.weights;
+  std::vector<std::int32_t> mask(has_value.begin(), has_value.end());
+  const std::vector<std::int32_t>& source_mask = remap.source.facts().mask;
+  for (std::size_t i = 0; i < source_mask.size(); ++i) {
+    if (source_mask[i] == 0) mask[i] = 0;
+  }
+  overlay::CellGradients gradients =
+      cell_gradients(CellSetData::of(remap.source), remap.source_centers, mask, execution.threads);
+  for (std::size_t i = 0; i < num_sources; ++i) {
+    if (mask[i] != 0) continue;
+    for (std::uint64_t k = gradients.offsets[i]; k < gradients.offsets[i + 1]; ++k) {
+      gradients.slopes[k] = {0, 0, 0};
+    }
+  }
+  std::vector<double> areas = remap.target_areas;
+  for (std::size_t j = 0; j < areas.size() && remap.norm == RemapNorm::fracarea; ++j) {
+    areas[j] = 0;
+    for (std::uint64_t k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+      areas[j] += remap.areas[k];
+    }
+  }
+  Weights weights = linear_weights(
+      remap, gradients, areas, spatial_order_of(CellSetData::of(remap.target)), execution.threads);
+  weights.num_columns = num_sources;
+  return weights;
 }
 
 void apply_gradients(const Remap& remap, std::span<const double> means,

@@ -5,6 +5,8 @@
 // of any cells.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
@@ -79,6 +81,16 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   apply_limited(second, marks, out);
   for (const double value : out) {
     require(std::isnan(value) || (value >= 0 && value <= 1), "limited values are within bounds");
+  }
+  std::vector<std::int32_t> has_value(source.num_cells(), 1);
+  for (std::size_t i = 0; i < has_value.size(); i += 3) has_value[i] = 0;
+  std::vector<double> with_gaps(source.num_cells(), 2);
+  for (std::size_t i = 0; i < has_value.size(); ++i) {
+    if (has_value[i] == 0) with_gaps[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  apply(weights_with_values(second, has_value), with_gaps, out);
+  for (const double value : out) {
+    require(std::isnan(value) || std::abs(value - 2) < 1e-9, "constants are kept beside gaps");
   }
   const Remap same = remap(source, source, covered);
   for (std::size_t j = 0; j < source.num_cells(); ++j) {

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "rondel/error.h"
 #include "rondel/remap.h"
 #include "unit/overlay/support.h"
 
@@ -113,6 +115,46 @@ TEST(overlay_limiter, values_within_bounds_stay) {
   apply(remap.weights, values, plain);
   apply_limited(remap, values, limited);
   for (std::size_t j = 0; j < 200; ++j) EXPECT_NEAR(limited[j], plain[j], 1e-15);
+}
+
+// A source without a value is what a masked one is: weights for fields that lack it are those of a
+// remapping without it, and a linear field has no error at the coast.
+TEST(overlay_gaps, weights_are_those_of_a_mask) {
+  const CellSet source = CellSet::voronoi(triangulation_of("uniform", 2000, 1));
+  const CellSet target = CellSet::voronoi(triangulation_of("uniform", 300, 2));
+  std::vector<std::int32_t> has_value;
+  std::vector<double> values;
+  const std::vector<Point> centers = source.centers();
+  for (const Point& center : centers) {
+    has_value.push_back(center.z > 0.3 * center.x ? 1 : 0);
+    values.push_back(has_value.back() == 0 ? no_value : center.x - 2 * center.y);
+  }
+  for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+    const Remap all = rondel::remap(source, target, {.order = 2, .norm = norm});
+    EXPECT_EQ(weights_with_values(all, std::vector<std::int32_t>(2000, 1)), all.weights);
+    const Weights weights = weights_with_values(all, has_value);
+    const Remap masked = rondel::remap(
+        source, target, {.order = 2, .norm = RemapNorm::fracarea, .source_mask = has_value});
+    std::vector<double> found(300);
+    std::vector<double> plain(300);
+    std::vector<double> wanted(300);
+    const ApplyOptions options{.max_missing = 1};
+    apply(weights, values, found, 1, options);
+    apply(all.weights, values, plain, 1, options);
+    apply(masked.weights, values, wanted, 1, options);
+    double largest = 0;
+    for (std::size_t j = 0; j < 300; ++j) {
+      ASSERT_EQ(std::isnan(found[j]), std::isnan(wanted[j])) << j;
+      if (std::isnan(found[j])) continue;
+      EXPECT_NEAR(found[j], wanted[j], 1e-11) << j;
+      largest = std::max(largest, std::abs(plain[j] - wanted[j]));
+    }
+    EXPECT_GT(largest, 1e-3) << "without them the coast is wrong";
+  }
+  const Remap first = rondel::remap(source, target, {.order = 1});
+  EXPECT_THROW((void)weights_with_values(first, has_value), InvalidInput);
+  const Remap second = rondel::remap(source, target, {.order = 2});
+  EXPECT_THROW((void)weights_with_values(second, std::vector<std::int32_t>(3, 1)), InvalidInput);
 }
 
 // All fields of a call are limited by themselves, for any number of threads.
