@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/atomic_file.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <list>
@@ -69,6 +70,28 @@ void AtomicFile::write(std::string_view bytes) {
   } else {
     buffer_ += bytes;
   }
+}
+
+void AtomicFile::write_at(std::uint64_t place, std::string_view bytes) {
+  if (string_ != nullptr) {
+    buffer_.resize(std::max<std::size_t>(buffer_.size(), place + bytes.size()));
+    buffer_.replace(place, bytes.size(), bytes);
+    return;
+  }
+  flush();
+  while (!bytes.empty()) {
+    const std::ptrdiff_t count = system::write_at(descriptor_, place, bytes);
+    if (count < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    place += static_cast<std::uint64_t>(count);
+    num_drained_ = std::max(num_drained_, place);
+  }
+}
+
+void AtomicFile::extend(std::uint64_t size) {
+  constexpr std::string_view zero("\0", 1);
+  const std::uint64_t end = string_ != nullptr ? buffer_.size() : num_drained_ + buffer_.size();
+  if (end < size) write_at(size - 1, zero);
 }
 
 void AtomicFile::flush() {

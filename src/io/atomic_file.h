@@ -55,6 +55,14 @@ class RONDEL_API AtomicFile {
   // Appends bytes, by way of a buffer.
   void write(std::string_view bytes);
 
+  // True if bytes can be written at any place: a string, or a file that is not written directly.
+  [[nodiscard]] bool has_places() const { return string_ != nullptr || !is_direct(); }
+  // Writes bytes at a place, which may lie beyond the end; what is left out has zeros. After the first
+  // call write() must not be called. Precondition: has_places().
+  void write_at(std::uint64_t place, std::string_view bytes);
+  // Makes the file at least so long, with zeros at its end. Precondition: has_places().
+  void extend(std::uint64_t size);
+
   // Reserves disk space for `size` bytes, unless the file is written directly. commit() frees what
   // is not written.
   void reserve(std::uint64_t size);

@@ -77,13 +77,24 @@ class Netcdf4Header {
     if (count > 0) {
       require_netcdf(library_, library_.dimension_ids(group, nullptr, numbers.data(), 0));
     }
+    const std::vector<int> unlimited = unlimited_dimensions(group);
     for (const int number : numbers) {
       NetcdfName name{};
       std::size_t size = 0;
       require_netcdf(library_, library_.dimension(group, number, name.data(), &size));
       numbers_.push_back(number);
-      header_.dimensions.push_back({prefix + name.data(), size});
+      const bool is_unlimited = std::ranges::count(unlimited, number) != 0;
+      header_.dimensions.push_back({prefix + name.data(), size, is_unlimited});
     }
+  }
+
+  // Returns the numbers of the dimensions that may grow; none if the library does not say it.
+  [[nodiscard]] std::vector<int> unlimited_dimensions(int group) const {
+    int count = 0;
+    if (library_.unlimited_ids(group, &count, nullptr) != 0 || count <= 0) return {};
+    std::vector<int> numbers(static_cast<std::size_t>(count));
+    if (library_.unlimited_ids(group, nullptr, numbers.data()) != 0) return {};
+    return numbers;
   }
 
   void add_variable(int group, int number, const std::string& prefix) {
@@ -103,6 +114,7 @@ class Netcdf4Header {
     VariableInFile variable;
     variable.name = prefix + name.data();
     variable.type = type == netcdf_string_type ? NetcdfType::text : static_cast<NetcdfType>(type);
+    variable.has_strings = type == netcdf_string_type;
     variable.group = group;
     variable.number = number;
     variable.num_values = 1;
@@ -280,6 +292,35 @@ void Netcdf4File::read_box(const VariableInFile& variable, const NetcdfBox& box,
                                    reinterpret_cast<unsigned long long*>(out.data()))
           : library_.read_integers(variable.group, variable.number, box.start.data(),
                                    box.count.data(), reinterpret_cast<long long*>(out.data())));
+}
+
+void Netcdf4File::read(const VariableInFile& variable, std::string& out) const {
+  const NetcdfLock lock(netcdf_library_lock());
+  for_each_slab(variable.shape, 0, out.size(),
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
+                  require_netcdf(library_,
+                                 library_.read_text(variable.group, variable.number, start.data(),
+                                                    count.data(), out.data() + offset));
+                });
+}
+
+std::vector<std::string> Netcdf4File::strings(const VariableInFile& variable) const {
+  std::vector<std::string> result(variable.num_values);
+  const NetcdfLock lock(netcdf_library_lock());
+  std::vector<char*> read(result.size(), nullptr);
+  int error = 0;
+  for_each_slab(variable.shape, 0, read.size(),
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
+                  if (error != 0) return;
+                  error = library_.read_strings(variable.group, variable.number, start.data(),
+                                                count.data(), read.data() + offset);
+                });
+  for (std::size_t i = 0; i < read.size() && error == 0; ++i) {
+    if (read[i] != nullptr) result[i] = read[i];
+  }
+  library_.free_strings(read.size(), read.data());
+  require_netcdf(library_, error);
+  return result;
 }
 
 }  // namespace rondel::io

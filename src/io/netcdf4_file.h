@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/netcdf_header.h"
 #include "io/netcdf_library.h"
@@ -47,6 +48,10 @@ class Netcdf4File {
   void read(const VariableInFile& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
   void read_box(const VariableInFile& variable, const NetcdfBox& box,
                 std::span<std::int64_t> out) const;
+  // Reads all characters of a text. Precondition: `out` has their number.
+  void read(const VariableInFile& variable, std::string& out) const;
+  // Returns all strings of a variable that has strings.
+  [[nodiscard]] std::vector<std::string> strings(const VariableInFile& variable) const;
 
  private:
   const NetcdfLibrary& library_;

@@ -148,9 +148,12 @@ void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
   std::vector<int> dimensions;
   for (const NetcdfDimension& dimension : definitions.dimensions) {
     int number = 0;
-    require(library_.add_dimension(number_, dimension.name.c_str(),
-                                   static_cast<std::size_t>(dimension.size), &number),
-            "dimension " + in_quotes(dimension.name));
+    require(
+        library_.add_dimension(
+            number_, dimension.name.c_str(),
+            dimension.is_unlimited ? netcdf_unlimited : static_cast<std::size_t>(dimension.size),
+            &number),
+        "dimension " + in_quotes(dimension.name));
     dimensions.push_back(number);
   }
   for (const NetcdfAttribute& attribute : definitions.attributes) put(netcdf_whole_file, attribute);

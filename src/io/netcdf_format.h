@@ -53,6 +53,7 @@ constexpr std::uint64_t netcdf_padded(std::uint64_t size) {
 struct NetcdfDimension {
   std::string name;
   std::uint64_t size = 0;
+  bool is_unlimited = false;  // whether records may be appended along it
 };
 
 // An attribute, which is either a text or numbers.

@@ -34,6 +34,7 @@ bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   from.get(netcdf.inquire, "nc_inq");
   from.get(netcdf.dimension_ids, "nc_inq_dimids");
   from.get(netcdf.dimension, "nc_inq_dim");
+  from.get(netcdf.unlimited_ids, "nc_inq_unlimdims");
   from.get(netcdf.group_ids, "nc_inq_grps");
   from.get(netcdf.group_name, "nc_inq_grpname");
   from.get(netcdf.variable, "nc_inq_var");
@@ -49,6 +50,8 @@ bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   from.get(netcdf.read_doubles, "nc_get_vara_double");
   from.get(netcdf.read_integers, "nc_get_vara_longlong");
   from.get(netcdf.read_naturals, "nc_get_vara_ulonglong");
+  from.get(netcdf.read_text, "nc_get_vara_text");
+  from.get(netcdf.read_strings, "nc_get_vara_string");
   from.get(netcdf.create, "nc_create");
   from.get(netcdf.add_dimension, "nc_def_dim");
   from.get(netcdf.add_variable, "nc_def_var");

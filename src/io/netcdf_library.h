@@ -24,6 +24,7 @@ struct NetcdfLibrary {
   int (*inquire)(int, int*, int*, int*, int*);
   int (*dimension_ids)(int, int*, int*, int);
   int (*dimension)(int, int, char*, std::size_t*);
+  int (*unlimited_ids)(int, int*, int*);
   int (*group_ids)(int, int*, int*);
   int (*group_name)(int, char*);
   int (*variable)(int, int, char*, int*, int*, int*, int*);
@@ -39,6 +40,8 @@ struct NetcdfLibrary {
   int (*read_doubles)(int, int, const std::size_t*, const std::size_t*, double*);
   int (*read_integers)(int, int, const std::size_t*, const std::size_t*, long long*);
   int (*read_naturals)(int, int, const std::size_t*, const std::size_t*, unsigned long long*);
+  int (*read_text)(int, int, const std::size_t*, const std::size_t*, char*);
+  int (*read_strings)(int, int, const std::size_t*, const std::size_t*, char**);
   int (*create)(const char*, int, int*);
   int (*add_dimension)(int, const char*, std::size_t, int*);
   int (*add_variable)(int, const char*, int, int, const int*, int*);
@@ -67,6 +70,7 @@ inline constexpr int netcdf_most_dimensions = 1024;
 inline constexpr int netcdf_whole_file = -1;  // stands for the file in place of a variable that has
                                               // an attribute
 inline constexpr int netcdf_string_type = 12;
+inline constexpr std::size_t netcdf_unlimited = 0;    // the size of a dimension that may grow
 inline constexpr int netcdf_in_chunks = 0;            // a way in which variables are stored
 inline constexpr int netcdf_create_netcdf4 = 0x1000;  // replaces a file of that name
 

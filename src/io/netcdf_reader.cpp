@@ -150,7 +150,9 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
                   size_);
   }
   for (NetcdfDimension& dimension : dimensions_) {
-    if (dimension.size == 0) dimension.size = number;
+    if (dimension.size != 0) continue;
+    dimension.size = number;
+    dimension.is_unlimited = true;
   }
 }
 
@@ -270,6 +272,20 @@ void NetcdfReader::require_room(const VariableInFile& variable) const {
   if (netcdf4_ == nullptr || variable.num_values <= max_values()) return;
   refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
                        std::to_string(size_) + " bytes");
+}
+
+std::string NetcdfReader::characters(const VariableInFile& variable) const {
+  std::string text(variable.num_values, '\0');
+  if (netcdf4_ != nullptr) {
+    netcdf4_->read(variable, text);
+  } else {
+    copy<char>(variable, 0, std::span<char>(text));
+  }
+  return text;
+}
+
+std::vector<std::string> NetcdfReader::strings(const VariableInFile& variable) const {
+  return netcdf4_->strings(variable);
 }
 
 std::vector<double> NetcdfReader::numbers(const VariableInFile& variable) const {

@@ -41,6 +41,7 @@ struct VariableInFile : NetcdfVariable {
   bool has_records = false;
   std::uint64_t record_values = 0;  // values in a record; all values if there are no records
   std::uint64_t num_values = 0;
+  bool has_strings = false;  // netCDF-4: of the type text, and each value is a string of any length
   int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for the variable
   int number = 0;
 };
@@ -48,7 +49,7 @@ struct VariableInFile : NetcdfVariable {
 // A file of netCDF-4 has what the classic formats have, and more:
 // 1. Variables of a group are called "group/name", and come after those of the file itself, as do
 //    dimensions. Attributes that name variables have these names, too (netcdf_groups.h).
-// 2. A variable of strings is of the type text. Its values are not read.
+// 2. A variable of strings is of the type text.
 // 3. An attribute of several strings is a text with spaces between them.
 // 4. Variables and attributes of types that the file defines itself are left out; the message of
 //    require() says so of such a variable.
@@ -97,6 +98,10 @@ class NetcdfReader {
   // Reads the numbers of a box of one or more values, its last dimension varying fastest. Throws
   // BadValue like numbers().
   void read_box(const VariableInFile& variable, const NetcdfBox& box, std::span<double> out) const;
+  // Returns the characters of a variable of the type text that has no strings.
+  [[nodiscard]] std::string characters(const VariableInFile& variable) const;
+  // Returns the strings of a variable that has strings. Throws BadValue if reading fails.
+  [[nodiscard]] std::vector<std::string> strings(const VariableInFile& variable) const;
   // Returns the lengths of the compressed chunks along the variable's dimensions; 1 if there are
   // none.
   [[nodiscard]] std::vector<std::uint64_t> chunk_of(const VariableInFile& variable) const;

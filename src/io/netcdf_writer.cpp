@@ -91,8 +91,8 @@ class HeaderBytes {
 NetcdfWriter::NetcdfWriter(AtomicFile& file) : file_(file) {}
 NetcdfWriter::~NetcdfWriter() = default;
 
-std::size_t NetcdfWriter::add_dimension(std::string name, std::uint64_t size) {
-  dimensions_.push_back({std::move(name), size});
+std::size_t NetcdfWriter::add_dimension(std::string name, std::uint64_t size, bool is_unlimited) {
+  dimensions_.push_back({std::move(name), size, is_unlimited});
   return dimensions_.size() - 1;
 }
 
@@ -119,48 +119,93 @@ int NetcdfWriter::needed_version() const {
   for (const NetcdfDimension& dimension : dimensions_) {
     if (dimension.size > largest_dimension) return 5;
   }
-  std::uint64_t offset = header(2, 0).size();
-  std::uint64_t last_offset = offset;
   for (const NetcdfVariable& variable : variables_) {
-    const std::uint64_t size = netcdf_padded(size_of_values(variable));
-    if (variable.type > NetcdfType::float64 || size > largest_variable) return 5;
-    last_offset = std::exchange(offset, offset + size);
+    const std::uint64_t size =
+        is_of_records(variable) ? size_of_record(variable) : size_of_values(variable);
+    if (variable.type > NetcdfType::float64 || netcdf_padded(size) > largest_variable) return 5;
   }
-  return last_offset > largest_offset ? 2 : 1;
+  const std::vector<std::uint64_t> begins = offsets(header(2, 0).size());
+  return !begins.empty() && std::ranges::max(begins) > largest_offset ? 2 : 1;
+}
+
+void NetcdfWriter::choose_records() {
+  if (!file_.has_places()) return;
+  const bool has_empty = std::ranges::any_of(
+      dimensions_, [](const NetcdfDimension& dimension) { return dimension.size == 0; });
+  for (std::size_t d = 0; d < dimensions_.size() && !has_empty && records_ == no_dimension; ++d) {
+    const bool is_first = std::ranges::all_of(variables_, [&](const NetcdfVariable& variable) {
+      const auto at = std::ranges::find(variable.dimensions, d);
+      return at == variable.dimensions.end() || at == variable.dimensions.begin();
+    });
+    if (dimensions_[d].is_unlimited && is_first) records_ = d;
+  }
+}
+
+bool NetcdfWriter::is_of_records(const NetcdfVariable& variable) const {
+  return std::ranges::any_of(variable.dimensions, [&](std::size_t dimension) {
+    return dimension == records_ || dimensions_[dimension].size == 0;
+  });
+}
+
+std::uint64_t NetcdfWriter::size_of_record(const NetcdfVariable& variable) const {
+  std::uint64_t size = size_of(variable.type);
+  for (const std::size_t dimension : variable.dimensions) {
+    if (dimension != records_) size *= std::max<std::uint64_t>(dimensions_[dimension].size, 1);
+  }
+  return size;
+}
+
+// The records of one variable alone are not padded.
+std::uint64_t NetcdfWriter::size_of_records() const {
+  std::uint64_t size = 0;
+  std::uint64_t unpadded = 0;
+  std::size_t number = 0;
+  for (const NetcdfVariable& variable : variables_) {
+    if (!is_of_records(variable)) continue;
+    unpadded = size_of_record(variable);
+    size += netcdf_padded(unpadded);
+    ++number;
+  }
+  return number == 1 ? unpadded : size;
+}
+
+// Records come behind all else.
+std::vector<std::uint64_t> NetcdfWriter::offsets(std::uint64_t first_offset) const {
+  std::uint64_t of_records = first_offset;
+  for (const NetcdfVariable& variable : variables_) {
+    if (!is_of_records(variable)) of_records += netcdf_padded(size_of_values(variable));
+  }
+  std::vector<std::uint64_t> result;
+  for (const NetcdfVariable& variable : variables_) {
+    const bool has_records = is_of_records(variable);
+    std::uint64_t& next = has_records ? of_records : first_offset;
+    result.push_back(next);
+    next += netcdf_padded(has_records ? size_of_record(variable) : size_of_values(variable));
+  }
+  return result;
 }
 
 // For variables of records, the header has the size of one record.
 std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const {
   HeaderBytes bytes(version);
-  bytes.count(0);  // records
+  bytes.count(records_ == no_dimension ? 0 : dimensions_[records_].size);
   bytes.list(netcdf_dimensions_tag, dimensions_.size());
-  for (const NetcdfDimension& dimension : dimensions_) {
-    bytes.name(dimension.name);
-    bytes.count(dimension.size);
+  for (std::size_t d = 0; d < dimensions_.size(); ++d) {
+    bytes.name(dimensions_[d].name);
+    bytes.count(d == records_ ? 0 : dimensions_[d].size);
   }
   bytes.attributes(attributes_);
   bytes.list(netcdf_variables_tag, variables_.size());
-  std::uint64_t offset = first_offset;
-  std::uint64_t offset_of_records = first_offset;
-  for (const NetcdfVariable& variable : variables_) {
-    offset_of_records += netcdf_padded(size_of_values(variable));
-  }
-  for (const NetcdfVariable& variable : variables_) {
+  const std::vector<std::uint64_t> begins = offsets(first_offset);
+  for (std::size_t v = 0; v < variables_.size(); ++v) {
+    const NetcdfVariable& variable = variables_[v];
     bytes.name(variable.name);
     bytes.count(variable.dimensions.size());
-    std::uint64_t of_record = size_of(variable.type);
-    for (const std::size_t dimension : variable.dimensions) {
-      bytes.count(dimension);
-      of_record *= std::max<std::uint64_t>(dimensions_[dimension].size, 1);
-    }
+    for (const std::size_t dimension : variable.dimensions) bytes.count(dimension);
     bytes.attributes(variable.attributes);
     bytes.u32(static_cast<std::uint32_t>(variable.type));
-    bytes.count(netcdf_padded(of_record));
-    // Records, of which there are none, would come behind all else.
-    const std::uint64_t size = size_of_values(variable);
-    std::uint64_t& next = size == 0 ? offset_of_records : offset;
-    bytes.offset(next);
-    next += netcdf_padded(size == 0 ? of_record : size);
+    bytes.count(netcdf_padded(size_of_record(variable)));
+    bytes.offset(begins[v]);
   }
   return bytes.take();
 }
@@ -189,6 +234,7 @@ void NetcdfWriter::require_records() const {
 
 void NetcdfWriter::begin(int version) {
   require_records();
+  choose_records();
   const int needed = needed_version();
   if (version == 0) version = needed;
   if (version < needed) {
@@ -202,6 +248,14 @@ void NetcdfWriter::begin(int version) {
     expected_ += netcdf_padded(size_of_values(variable));
   }
   file_.write(header(version, size));
+  if (records_ != no_dimension) {
+    places_ = offsets(size);
+    end_ = size + size_of_records() * dimensions_[records_].size;
+    for (const NetcdfVariable& variable : variables_) {
+      if (!is_of_records(variable)) end_ += netcdf_padded(size_of_values(variable));
+    }
+    expected_ = end_;
+  }
   end_full_variables();
 }
 
@@ -240,7 +294,29 @@ void NetcdfWriter::find_room() {
 void NetcdfWriter::write_bytes(std::string_view bytes) {
   assert(current_ < variables_.size() &&
          num_written_ + bytes.size() <= size_of_values(variables_[current_]));
+  if (records_ != no_dimension) {
+    write_records(bytes);
+    return;
+  }
   file_.write(bytes);
+  count_bytes(bytes.size());
+}
+
+void NetcdfWriter::write_records(std::string_view bytes) {
+  const NetcdfVariable& variable = variables_[current_];
+  const std::uint64_t begin = places_[current_];
+  std::uint64_t written = num_written_;
+  const std::uint64_t whole =
+      is_of_records(variable) ? size_of_record(variable) : size_of_values(variable);
+  const std::uint64_t step = is_of_records(variable) ? size_of_records() : whole;
+  find_room();
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const std::uint64_t in_record = written % whole;
+    const std::size_t count = std::min<std::uint64_t>(rest.size(), whole - in_record);
+    file_.write_at(begin + written / whole * step + in_record, rest.substr(0, count));
+    written += count;
+    rest.remove_prefix(count);
+  }
   count_bytes(bytes.size());
 }
 
@@ -252,7 +328,7 @@ void NetcdfWriter::count_bytes(std::uint64_t size) {
 void NetcdfWriter::end_full_variables() {
   constexpr std::string_view zeros("\0\0\0", 3);
   while (current_ < variables_.size() && num_written_ == size_of_values(variables_[current_])) {
-    if (netcdf4_ == nullptr) {
+    if (netcdf4_ == nullptr && records_ == no_dimension) {
       file_.write(zeros.substr(0, netcdf_padded(num_written_) - num_written_));
     }
     num_written_ = 0;
@@ -262,6 +338,8 @@ void NetcdfWriter::end_full_variables() {
 
 void NetcdfWriter::finish() {
   assert(current_ == variables_.size());
+  // Padding at the end, where nothing was written.
+  if (records_ != no_dimension && end_ > 0) file_.extend(end_);
   if (netcdf4_ != nullptr) netcdf4_->finish();
 }
 

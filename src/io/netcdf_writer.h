@@ -37,6 +37,10 @@ class Netcdf4Output;
 // definition, in any number of pieces, then finish(). Equal calls give equal bytes; for netCDF-4,
 // with the same library. A dimension of size 0 is the dimension of records, of which there are
 // none; there may be one such dimension.
+//
+// A dimension may be unlimited, so that others can append records. In a classic file that is one,
+// the first that is the first dimension of all variables that have it; more are limited there, and
+// so are all in a file that is written directly, since records of variables take turns.
 class NetcdfWriter {
  public:
   explicit NetcdfWriter(AtomicFile& file);
@@ -45,7 +49,7 @@ class NetcdfWriter {
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
   // Returns the number by which variables refer to the dimension.
-  std::size_t add_dimension(std::string name, std::uint64_t size);
+  std::size_t add_dimension(std::string name, std::uint64_t size, bool is_unlimited = false);
   void add_attribute(std::string name, std::string text);
   void add_attribute(NetcdfAttribute attribute);
   void add_variable(NetcdfVariable variable);
@@ -86,7 +90,7 @@ class NetcdfWriter {
   void write_rows(unsigned threads, std::size_t rows, std::size_t row_size, const Fill& fill) {
     const std::size_t of_row = std::max<std::size_t>(row_size, 1) * sizeof(T);
     const std::size_t of_piece = std::max<std::size_t>(bytes_per_piece / of_row, 1);
-    if (netcdf4_ != nullptr) {
+    if (netcdf4_ != nullptr || records_ != no_dimension) {
       for (std::size_t begin = 0; begin < rows; begin += of_piece) {
         const std::size_t end = std::min(rows, begin + of_piece);
         std::vector<T>& values = values_of_rows<T>();
@@ -122,6 +126,18 @@ class NetcdfWriter {
     return values;
   }
 
+  static constexpr std::size_t no_dimension = ~std::size_t{0};
+
+  // Chooses the dimension of records of a classic file.
+  void choose_records();
+  // True if the variable has a record for each index of its first dimension.
+  [[nodiscard]] bool is_of_records(const NetcdfVariable& variable) const;
+  // Returns the bytes of one record of a variable, without the padding.
+  [[nodiscard]] std::uint64_t size_of_record(const NetcdfVariable& variable) const;
+  // Returns the bytes of one record of all variables.
+  [[nodiscard]] std::uint64_t size_of_records() const;
+  // Returns the offset of each variable after a header of this size.
+  [[nodiscard]] std::vector<std::uint64_t> offsets(std::uint64_t first_offset) const;
   // Returns the bytes of a variable's values.
   [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
   // Returns the lowest version that can hold the definitions.
@@ -142,6 +158,8 @@ class NetcdfWriter {
   // Tells the system the size of the file, before the first rows.
   void find_room();
   void write_bytes(std::string_view bytes);
+  // Writes bytes of the current variable, where records take turns.
+  void write_records(std::string_view bytes);
   // Counts bytes of the current variable, and ends it when it is full.
   void count_bytes(std::uint64_t size);
   // Pads variables that are full, and goes to the next one.
@@ -152,9 +170,12 @@ class NetcdfWriter {
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<NetcdfVariable> variables_;
-  std::size_t current_ = 0;        // the variable whose values are next
-  std::uint64_t num_written_ = 0;  // bytes of its values so far
-  std::uint64_t expected_ = 0;     // bytes of the file, until the system has been told
+  std::size_t current_ = 0;             // the variable whose values are next
+  std::uint64_t num_written_ = 0;       // bytes of its values so far
+  std::uint64_t expected_ = 0;          // bytes of the file, until the system has been told
+  std::size_t records_ = no_dimension;  // the dimension of records, if there are some
+  std::vector<std::uint64_t> places_;   // offsets of the variables, if records take turns
+  std::uint64_t end_ = 0;               // of the file, if records take turns
 };
 
 }  // namespace rondel::io

@@ -46,7 +46,9 @@ class MeshWriter {
   void write(const std::string& path) const {
     io::AtomicFile file(path);
     io::NetcdfWriter out(file);
-    for (const auto& [name, size] : dimensions_) out.add_dimension(name, size);
+    for (const io::NetcdfDimension& dimension : dimensions_) {
+      out.add_dimension(dimension.name, dimension.size);
+    }
     for (const auto& [name, text] : attributes_) out.add_attribute(name, text);
     for (const auto& [variable, values] : variables_) out.add_variable(variable);
     out.begin();
