@@ -264,6 +264,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   out.arrays = in.fields().arrays;
   for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
   out.axes = in.fields().axes;
+  out.unlimited = in.fields().unlimited;
   out.fill = options.apply.fill;
   // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it
   // is written only if there are none.

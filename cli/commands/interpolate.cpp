@@ -131,6 +131,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   out.arrays = in.fields().arrays;
   for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
   out.axes = in.fields().axes;
+  out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
   FieldCarrier carrier(job, options.interpolation, table, targets, weights, extrapolator, counts);

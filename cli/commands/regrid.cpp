@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "extrapolate_options.h"
@@ -122,9 +123,7 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
       "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
       "and the integral is kept");
-  parser.get_option("--limiter")
-      ->check(one_of({"none", "bounds"}))
-      ->type_name("WORD");
+  parser.get_option("--limiter")->check(one_of({"none", "bounds"}))->type_name("WORD");
   require_effect(
       options.common, limiter,
       [&options] { return options.regrid.method == FieldMethod::conservative_2nd; },
@@ -136,6 +135,40 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       options.common, norm,
       [&options] { return options.regrid.method != FieldMethod::largest_share; },
       "with --method largest-share, which compares the parts of a target");
+}
+
+// Adds --vector, pairs of variables: "u10,v10".
+void add_vectors(CLI::App& parser, RegridCommandOptions& options) {
+  const auto parts_of = [](const std::string& text) {
+    const std::size_t comma = text.find(',');
+    return comma == std::string::npos ? std::pair<std::string, std::string>()
+                                      : std::pair(text.substr(0, comma), text.substr(comma + 1));
+  };
+  const CLI::Option* const vector =
+      parser
+          .add_option_function<std::vector<std::string>>(
+              "--vector",
+              [&options, parts_of](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                  options.regrid.vectors.push_back(parts_of(text));
+                }
+              },
+              "Two variables that are eastward and northward components, as in u10,v10: they are\n"
+              "carried as vectors in space, also near poles; may be repeated")
+          ->check([parts_of](const std::string& text) {
+            const auto [east, north] = parts_of(text);
+            return east.empty() || north.empty() ? "'" + text + "' is not EAST,NORTH"
+                                                 : std::string();
+          })
+          ->allow_extra_args(false)
+          ->type_name("EAST,NORTH");
+  require_effect(
+      options.common, vector,
+      [&options] { return options.regrid.method != FieldMethod::largest_share; },
+      "with --method largest-share");
+  require_effect(
+      options.common, vector, [&options] { return options.statistics.empty(); },
+      "with --statistics");
 }
 
 // Adds statistics in place of a method.
@@ -171,9 +204,10 @@ void add_statistics(CLI::App& parser, RegridCommandOptions& options) {
 
 void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   CellFileOptions& cells = options.regrid.cells;
-  add_word<GridSides>(parser, "--sides", cells.sides, named_values<GridSides>(),
-                      "What cells of grids have in the north and south: parallels (default) or\n"
-                      "great-circles (ESMF's)");
+  const CLI::Option* const sides = add_word<GridSides>(
+      parser, "--sides", cells.sides, named_values<GridSides>(),
+      "What cells of grids have in the north and south: parallels (default) or\n"
+      "great-circles (ESMF's)");
   const CLI::Option* const edges = add_word<PolygonEdges>(
       parser, "--edges", cells.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
@@ -190,13 +224,15 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
         return has_polygons() || options.regrid.cells.corners == MissingCorners::made;
       },
       "without polygons in .geojson or --corners made");
-  require_effect(
-      options.common, corners,
-      [&options] {
-        const auto& method = options.regrid.method;
-        return !method || *method <= FieldMethod::largest_share;
-      },
-      "with a method between places");
+  for (const CLI::Option* const option : {sides, corners}) {
+    require_effect(
+        options.common, option,
+        [&options] {
+          const auto& method = options.regrid.method;
+          return !method || *method <= FieldMethod::largest_share;
+        },
+        "with a method between places");
+  }
 }
 
 void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
@@ -255,6 +291,7 @@ Command add_regrid_command(CLI::App& tool) {
                    "with cells")
       ->type_name("GRID");
   add_methods(*parser, *options);
+  add_vectors(*parser, *options);
   add_extrapolate_options(*parser, options->common, options->extrapolate);
   add_cells(*parser, *options);
   add_amounts(*parser, *options);
@@ -273,6 +310,7 @@ Command add_regrid_command(CLI::App& tool) {
       "  rondel regrid temperature.nc countries.geojson -o means.csv\n"
       "  rondel regrid temperature.nc countries.geojson --statistics mean,max -o extremes.csv\n"
       "  rondel regrid ocean.nc grid:1 --extrapolate creep --extrapolate-levels 3 -o filled.nc\n"
+      "  rondel regrid winds.nc healpix:6 --vector u10,v10 -o winds-on-pixels.nc\n"
       "  rondel regrid wrf.nc grid:0.1 --corners made -o means.nc");
   return {parser, [options] { return run_regrid(*options); }};
 }

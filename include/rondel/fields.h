@@ -35,6 +35,10 @@ struct FieldArray {
       {};  ///< flag_values, flag_masks
   /// True if single precision holds the values: netCDF has floats, or packed integers.
   bool is_single = false;
+  /// True for texts, which only FieldSet::others has. They have no values, but `characters`, of which
+  /// the last dimension counts those of a text; zero bytes fill up what is shorter.
+  bool is_text = false;
+  std::string characters = {};
 
   /// Returns the number of fields at the points: the product of `shape`.
   [[nodiscard]] RONDEL_API std::size_t num_fields() const;
@@ -65,6 +69,9 @@ struct FieldSet {
       0;  ///< how many points were left out because their longitude or latitude is missing
   /// The name of the dimension of points that are on no grid, in netCDF that is written.
   std::string dimension = "point";
+  /// The names of the dimensions along which records may be appended to a file of netCDF, such as a
+  /// time. In a classic file that is written there is one, and none on standard output.
+  std::vector<std::string> unlimited = {};
   /// The number that stands for missing values in a file that is written (`_FillValue`). Values
   /// that were read have NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();
@@ -118,8 +125,8 @@ struct WantedPlaces {
 
 /// What a FieldFile knows of netCDF beside the fields.
 struct FieldExtras {
-  /// Whether FieldSet::others has the arrays without points, unless they are texts or have more than
-  /// 2^20 values. Otherwise a remark names them.
+  /// Whether FieldSet::others has the arrays without points, texts among them, unless they have more
+  /// than 2^20 values or characters. Otherwise a remark names them.
   bool has_others = false;
   /// Whether FieldSet::points and positions have the places. They take 40 bytes for each.
   bool has_positions = true;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rondel/cell_set.h"
@@ -79,6 +80,11 @@ struct RegridFileOptions {
   /// method. Each variable becomes one for each statistic: "tas_mean", "tas_max".
   std::vector<ZonalStatistic> statistics = {};
   ZonalWeights statistic_weights = ZonalWeights::area;
+  /// Pairs of variables that are the eastward and the northward components of vectors, such as winds.
+  /// Their components in space are carried, x, y and z, by the method (none of them is turned, also
+  /// near poles), and the part along the sphere is taken at the centers of the targets. Both become
+  /// missing where one of them is.
+  std::vector<std::pair<std::string, std::string>> vectors = {};
   /// How targets that have no value by the method get one, field by field (Extrapolator).
   std::optional<ExtrapolationOptions> extrapolation = std::nullopt;
 };
@@ -112,6 +118,9 @@ struct RegridFileReport {
 /// may be the nodes or edges of a mesh; `target` may be such places, FILE.nc:NAME. Where corners
 /// were made from centers (CellFileOptions::corners), the attribute `source_corners` or
 /// `target_corners` of the output says so.
+///
+/// With conservative methods the integral of the components of vectors in space is kept as that of
+/// other fields is, up to the part across the sphere, which is left out.
 ///
 /// Values are the same bytes for any number of threads, memory and tiles. The output appears when
 /// it is complete. All files that are read must stay as they are meanwhile.

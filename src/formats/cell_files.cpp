@@ -14,6 +14,7 @@
 
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
+#include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
 #include "formats/own_centers.h"
 #include "io/bad_value.h"
@@ -25,6 +26,7 @@
 #include "overlay/same_nodes.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
 #include "system/distinct.h"
 #include "system/job.h"
@@ -246,6 +248,13 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
   if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
+  if (const std::string grid = formats::grid_named_by_file(file); !grid.empty()) {
+    try {
+      return NamedGrid(grid, options.sides).cells(execution);
+    } catch (const InvalidInput& error) {
+      throw FileError(file.path + ": " + error.what());
+    }
+  }
   CellSet cells = of(read_cells(file, options.corners), options.sides, execution);
   if (options.invalid == InvalidPolygons::error) return cells;
   try {

@@ -70,7 +70,9 @@ class CfGrids {
       throw BadValue(
           std::string("its longitudes and latitudes have no bounds, so no cells") +
           (may_be_made ? "; --corners made (corners='made' in Python) makes them from the centers"
-                       : "; rondel regrid --source NAME says on which named grid they are"));
+                       : "; if they are the points of a grid with a name, such as healpix:7 or "
+                         "O320, the name has its cells: give it in place of the file or, for the "
+                         "fields of rondel regrid, by --source"));
     }
     if (found != pairs_.begin()) require_same_places(pairs_.front(), *found);
     tell_of_others(*found);
@@ -142,24 +144,18 @@ class CfGrids {
 
   // Adds a remark that names the grids that are not read.
   void tell_of_others(const CoordinatePair& taken) {
-    std::string others;
-    constexpr std::size_t most = 3;
-    std::size_t number = 0;
+    std::vector<std::string> names;
     for (const CoordinatePair& pair : pairs_) {
       const bool is_other = pair.lon != taken.lon || pair.lat != taken.lat;
       if (!is_other || !has_cells(pair) || !pair.is_used) continue;
       // Coordinates along the same dimensions describe the same cells, so they are no other grid.
       if (are_among(dimensions_of(pair), dimensions_of(taken))) continue;
-      if (++number <= most) {
-        others += (others.empty() ? "" : ", ") + headers_[pair.lon].name + " and " +
-                  headers_[pair.lat].name;
-      }
+      names.push_back(headers_[pair.lon].name + " and " + headers_[pair.lat].name);
     }
-    if (number == 0) return;
-    if (number > most) others += " and more";
+    if (names.empty()) return;
     remarks_.push_back("the file has several grids; that of " + headers_[taken.lon].name + " and " +
-                       headers_[taken.lat].name + " is read, not that of " + others +
-                       "; FILE.nc:NAME names one by a variable");
+                       headers_[taken.lat].name + " is read, not that of " +
+                       text_of_others(std::move(names)) + "; FILE.nc:NAME names one by a variable");
   }
 
   const NetcdfReader& file_;

@@ -128,6 +128,17 @@ bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
          std::ranges::find(bounds_endings, name.substr(coordinate.size())) != bounds_endings.end();
 }
 
+std::string text_of_others(std::vector<std::string> grids) {
+  std::ranges::sort(grids);
+  grids.erase(std::unique(grids.begin(), grids.end()), grids.end());
+  std::string text;
+  constexpr std::size_t most = 3;
+  for (std::size_t k = 0; k < grids.size() && k < most; ++k) {
+    text += (k == 0 ? "" : ", ") + grids[k];
+  }
+  return grids.size() > most ? text + " and more" : text;
+}
+
 }  // namespace rondel::formats
 
 namespace rondel {

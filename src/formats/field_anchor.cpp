@@ -142,18 +142,9 @@ std::string FieldDimensionFinder::text_of_choice(const std::vector<PossiblePlace
 }
 
 std::string FieldDimensionFinder::remark_on_grids() const {
-  std::vector<std::string> others = other_pairs_;
-  std::ranges::sort(others);
-  others.erase(std::unique(others.begin(), others.end()), others.end());
-  if (others.empty() || names_of_places().empty()) return {};
-  std::string text;
-  constexpr std::size_t most = 3;
-  for (std::size_t k = 0; k < others.size() && k < most; ++k) {
-    text += (k == 0 ? "" : ", ") + others[k];
-  }
-  if (others.size() > most) text += " and more";
+  if (other_pairs_.empty() || names_of_places().empty()) return {};
   return "the file has several grids; that of " + names_of_places() + " is read, not that of " +
-         text + "; FILE.nc:NAME names one by a variable";
+         text_of_others(other_pairs_) + "; FILE.nc:NAME names one by a variable";
 }
 
 }  // namespace rondel::formats

@@ -244,11 +244,14 @@ bool FieldDimensionFinder::is_at_places(const io::VariableInFile& variable) cons
 bool FieldDimensionFinder::is_lost(const io::VariableInFile& variable) const {
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
-  if (!header.is_number || parts_of_grids_[index]) return false;
+  if (parts_of_grids_[index]) return false;
   if (header.shape.empty()) {
-    // Mappings and topologies are numbers without a meaning.
+    // Mappings and topologies are numbers or characters without a meaning.
     return header.text("grid_mapping_name").empty() && header.text("cf_role").empty() &&
            header.text("standard_name") != "mesh_topology";
+  }
+  if (!header.is_number) {
+    return header.shape.size() == 1 && header.dimensions[0] == header.name;
   }
   return std::ranges::any_of(headers_, [&](const VariableHeader& other) {
     return other.text("bounds") == header.name &&

@@ -95,8 +95,9 @@ class FieldDimensionFinder {
   [[nodiscard]] bool is_auxiliary(const io::VariableInFile& variable) const;
   // True if the values of the variable depend on place, here or elsewhere (are_at_places()).
   [[nodiscard]] bool is_at_places(const io::VariableInFile& variable) const;
-  // True if the variable is a number without dimensions, or the bounds of another axis than those
-  // of the points: these are not carried to other points.
+  // True if the variable is a number or a text without dimensions, the bounds of another axis than
+  // those of the points, or labels along a dimension of their name: these are no fields and no axes
+  // of numbers.
   [[nodiscard]] bool is_lost(const io::VariableInFile& variable) const;
 
  private:

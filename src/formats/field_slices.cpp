@@ -53,6 +53,20 @@ bool is_of_floats(io::NetcdfType type) {
   return io::size_of(type) < 4 || type == io::NetcdfType::float32;
 }
 
+// The most values or characters of a variable that is kept beside the fields.
+constexpr std::uint64_t most_of_other = std::uint64_t{1} << 20U;
+
+// Returns strings in one text, `length` characters for each; zero bytes fill up what is shorter.
+std::string padded(const std::vector<std::string>& strings, std::size_t length) {
+  std::string text;
+  text.reserve(strings.size() * length);
+  for (const std::string& string : strings) {
+    text += string;
+    text.append(length - string.size(), '\0');
+  }
+  return text;
+}
+
 // Returns a name that a file can have: the name of a variable of a group has a slash.
 std::string written_name(std::string name) {
   std::ranges::replace(name, '/', '_');
@@ -116,6 +130,9 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
   fields_.attributes = kept_attributes(file.attributes());
+  for (const io::NetcdfDimension& dimension : file.dimensions()) {
+    if (dimension.is_unlimited) fields_.unlimited.push_back(written_name(dimension.name));
+  }
   for (const std::string& given : wanted.names) {
     const std::string name = io::full_name(file.variables(), given);
     const io::VariableInFile* const variable = file.find(name);
@@ -123,6 +140,9 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     // For a name that is no variable this throws; others are no fields, for one of the reasons
     // below.
     const io::VariableInFile& named = file.require(name);
+    if (named.type == io::NetcdfType::text) {
+      throw io::BadValue("variable " + io::in_quotes(name) + " is a text, and no field");
+    }
     if (!layouts_.why_not().empty()) {
       throw io::BadValue("variable " + io::in_quotes(name) + " " + layouts_.why_not());
     }
@@ -259,20 +279,31 @@ void FieldSlices::add_all() {
 // these, or at other places, would be wrong beside values at new points.
 void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
   NameList without_points;
+  NameList texts;
+  NameList large;
   NameList unknown;
   for (const ApartVariable& other : apart) {
     const io::VariableInFile& variable = *other.variable;
-    if (other.may_be_kept && !depends_on_place(variable) && keep_other(variable)) {
+    const bool may_be_kept = other.may_be_kept && !depends_on_place(variable);
+    if (may_be_kept && keep_other(variable)) {
       const std::string dimension = unknown_dimension(variable);
       if (!dimension.empty()) unknown.add(variable.name + " (" + dimension + ")");
+    } else if (may_be_kept && extras_.has_others) {
+      large.add(variable.name);
+    } else if (!may_be_kept && variable.type == io::NetcdfType::text) {
+      texts.add(variable.name);
     } else {
       without_points.add(variable.name);
     }
   }
-  if (!without_points.text().empty()) {
-    fields_.remarks.push_back("left out, as they have no values at the points: " +
-                              without_points.text());
-  }
+  const auto tell = [this](const std::string& why, const NameList& names) {
+    if (!names.text().empty()) fields_.remarks.push_back("left out, as they " + why + names.text());
+  };
+  tell("have no values at the points: ", without_points);
+  tell("are texts of places: ", texts);
+  tell("have no values at the points and more than " + std::to_string(most_of_other) +
+           " of their own: ",
+       large);
   if (!unknown.text().empty()) {
     fields_.remarks.push_back(
         "copied as they are, as nothing says that their dimensions count places: " +
@@ -292,7 +323,8 @@ bool FieldSlices::depends_on_place(const io::VariableInFile& variable) const {
 
 // Fields have the dimension, too, or it has an axis, or it is that of the two bounds of a cell.
 std::string FieldSlices::unknown_dimension(const io::VariableInFile& variable) const {
-  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+  const bool has_characters = variable.type == io::NetcdfType::text && !variable.has_strings;
+  for (std::size_t d = 0; d + (has_characters ? 1 : 0) < variable.shape.size(); ++d) {
     const std::size_t dimension = variable.dimensions[d];
     const std::string& name = file_.dimensions()[dimension].name;
     const bool is_of_fields = std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
@@ -304,10 +336,8 @@ std::string FieldSlices::unknown_dimension(const io::VariableInFile& variable) c
 }
 
 bool FieldSlices::keep_other(const io::VariableInFile& variable) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 20U;
-  if (!extras_.has_others || variable.type == io::NetcdfType::text || variable.num_values > most) {
-    return false;
-  }
+  if (!extras_.has_others || variable.num_values > most_of_other) return false;
+  if (variable.type == io::NetcdfType::text) return keep_text(variable);
   std::vector<std::size_t> all(variable.shape.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   FieldArray array = array_of(file_, variable, all);
@@ -318,8 +348,45 @@ bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   return true;
 }
 
+// Strings become texts of one length.
+bool FieldSlices::keep_text(const io::VariableInFile& variable) {
+  std::vector<std::size_t> all(variable.shape.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  FieldArray array = array_of(file_, variable, all);
+  array.is_text = true;
+  if (variable.has_strings) {
+    const std::vector<std::string> strings = file_.strings(variable);
+    std::size_t longest = 1;
+    for (const std::string& string : strings) longest = std::max(longest, string.size());
+    if (strings.size() * longest > most_of_other) return false;
+    array.dimensions.push_back(array.name + "_length");
+    array.shape.push_back(longest);
+    array.characters = padded(strings, longest);
+    const auto is_encoding = [](const auto& attribute) { return attribute.first == "_Encoding"; };
+    if (std::ranges::none_of(array.attributes, is_encoding)) {
+      array.attributes.emplace_back("_Encoding", "utf-8");
+    }
+  } else {
+    array.characters = file_.characters(variable);
+  }
+  fields_.others.push_back(std::move(array));
+  return true;
+}
+
+bool FieldSlices::is_label(const io::VariableInFile& variable) const {
+  if (variable.type != io::NetcdfType::text || variable.dimensions.empty()) return false;
+  return std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
+    return std::ranges::any_of(source.layout.leading, [&](std::size_t d) {
+      return source.variable->dimensions[d] == variable.dimensions.front();
+    });
+  });
+}
+
 void FieldSlices::keep_named() {
   std::vector<std::string> names;
+  for (const io::VariableInFile& variable : file_.variables()) {
+    if (is_label(variable)) names.push_back(variable.name);
+  }
   for (const FieldArray& axis : fields_.axes) {
     const io::VariableInFile* const variable = file_.find(axis.name);
     if (variable == nullptr) continue;

@@ -71,6 +71,10 @@ class FieldSlices {
   [[nodiscard]] std::string unknown_dimension(const io::VariableInFile& variable) const;
   // Adds a variable that has no points to `others`; returns false if it is left out.
   bool keep_other(const io::VariableInFile& variable);
+  // Does the same for a text.
+  bool keep_text(const io::VariableInFile& variable);
+  // True if the variable has texts along a leading dimension of the fields, such as names of regions.
+  [[nodiscard]] bool is_label(const io::VariableInFile& variable) const;
   // Adds to `others` the bounds of axes, and what the fields name as coordinates without places.
   void keep_named();
   // Names the bounds of axes that are among `others`.

@@ -139,7 +139,11 @@ class NetcdfSink : public FieldSink {
       out_.write(std::span<const double>(axis.values));
     }
     for (const FieldArray& other : job.fields.others) {
-      out_.write(std::span<const double>(other.values));
+      if (other.is_text) {
+        out_.write(std::span<const char>(other.characters));
+      } else {
+        out_.write(std::span<const double>(other.values));
+      }
     }
     points_.write(out_);
     columns_.write(out_);
@@ -167,6 +171,7 @@ class NetcdfSink : public FieldSink {
   // Defines dimensions, axes, places, columns and arrays, each with a name that is still free.
   void define(const FieldsToWrite& job) {
     const FieldSet& fields = job.fields;
+    unlimited_ = fields.unlimited;
     out_.add_attribute("Conventions", "CF-1.8");
     for (const auto& [name, text] : fields.attributes) {
       if (name != "Conventions") out_.add_attribute(name, text);
@@ -189,7 +194,12 @@ class NetcdfSink : public FieldSink {
       for (std::size_t d = 0; d < other.shape.size(); ++d) {
         dimensions.push_back(dimension(other.dimensions[d], other.shape[d]).number);
       }
-      out_.add_variable({take_name(netcdf_name(other.name), taken_), NetcdfType::float64,
+      // Labels along a dimension of their name share the name with it, as axes do.
+      const bool is_label =
+          other.is_text && !dimensions.empty() && other.dimensions.front() == other.name;
+      out_.add_variable({is_label ? dimension(other.name, other.shape.front()).own_name
+                                  : take_name(netcdf_name(other.name), taken_),
+                         other.is_text ? NetcdfType::text : NetcdfType::float64,
                          std::move(dimensions), with_attributes(other)});
     }
     points_.define(out_);
@@ -226,7 +236,8 @@ class NetcdfSink : public FieldSink {
       if (known.name == name && known.length == length) return known;
     }
     const std::string own_name = take_name(netcdf_name(name), taken_);
-    known_.push_back({name, length, own_name, out_.add_dimension(own_name, length)});
+    const bool is_unlimited = std::ranges::count(unlimited_, name) != 0;
+    known_.push_back({name, length, own_name, out_.add_dimension(own_name, length, is_unlimited)});
     return known_.back();
   }
 
@@ -243,6 +254,7 @@ class NetcdfSink : public FieldSink {
   // Names of variables and dimensions that are in use.
   std::set<std::string> taken_;
   std::vector<LeadingDimension> known_;
+  std::vector<std::string> unlimited_;  // names of dimensions that may grow
 };
 
 }  // namespace

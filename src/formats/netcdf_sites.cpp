@@ -9,11 +9,13 @@
 #include <string>
 #include <utility>
 
+#include "formats/cf_reader.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_groups.h"
 #include "io/number.h"
+#include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -80,24 +82,54 @@ std::vector<LonLat> middles_for(const FileName& file, const std::string& variabl
                      [&] { return formats::middles_of_edges(io::NetcdfReader(bytes), variable); });
 }
 
-// Returns the centers of mass of the faces on which a variable is whose file has no places of faces,
-// with what was left out.
+// True if a variable is on the faces of a mesh of UGRID, or is the mesh itself.
+bool is_on_faces(const io::VariableInFile& variable) {
+  const auto text = [&](const char* name) { return io::netcdf_text(variable.attributes, name); };
+  return (text("location") == "face" && !text("mesh").empty()) ||
+         text("cf_role") == "mesh_topology";
+}
+
+// True if the places of a file as a whole are the faces of its mesh: one of its variables is on them,
+// or none is on a mesh of UGRID at all; meshes of ESMF and Exodus have values on cells alone.
+bool are_places_faces(const io::NetcdfReader& reader) {
+  const std::vector<VariableHeader> headers = formats::headers_of(reader);
+  if (!formats::has_mesh(headers)) return false;
+  bool is_elsewhere = false;
+  for (const VariableHeader& header : headers) {
+    const bool is_on_mesh = !header.text("mesh").empty();
+    if (is_on_mesh && header.text("location") == "face") return true;
+    is_elsewhere = is_elsewhere || (is_on_mesh && !header.text("location").empty());
+  }
+  return !is_elsewhere;
+}
+
+// Returns the centers of mass of the faces on which a variable is, or the file as a whole if none is
+// named, where the file has no places of faces; with what was left out.
 NetcdfSites centers_for(const FileName& file, const std::string& variable) {
   NetcdfSites sites;
-  if (variable.empty()) return sites;
   io::FileBytes bytes(file, true);
   const CellSet cells = CellSet::of(io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
-    const io::VariableInFile& values = reader.require(variable);
-    const bool is_on_faces = io::netcdf_text(values.attributes, "location") == "face" &&
-                             !io::netcdf_text(values.attributes, "mesh").empty();
-    return is_on_faces ? formats::cells_in(reader, bytes.name(), variable) : CellTable();
+    const bool are_faces =
+        variable.empty() ? are_places_faces(reader) : is_on_faces(reader.require(variable));
+    return are_faces ? formats::cells_in(reader, bytes.name(), variable) : CellTable();
   }));
   if (cells.num_cells() == 0 || !cells.facts().given_centers().empty()) return sites;
   sites.table.positions = cells.places();
   sites.mask = cells.facts().mask;
   sites.remarks = cells.facts().remarks;
   return sites;
+}
+
+// Returns what centers_for() returns, and nothing for a file as a whole whose cells cannot be read:
+// its fields may have places all the same.
+NetcdfSites centers_or_none(const FileName& file, const std::string& variable) {
+  try {
+    return centers_for(file, variable);
+  } catch (const FileError&) {
+    if (!variable.empty()) throw;
+    return {};
+  }
 }
 
 // Returns an array with one value at each site as a column; missing values are empty cells.
@@ -163,7 +195,7 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
     sites = std::move(*centers);
   } else {
     sites.table.positions = middles_for(file, named.name);
-    if (sites.table.positions.empty()) sites = centers_for(file, named.name);
+    if (sites.table.positions.empty()) sites = centers_or_none(file, named.name);
   }
   const std::size_t num_centers = sites.table.positions.size();
   // The fields are needed if they give the sites or the columns, or if the name picks one of

@@ -19,6 +19,7 @@
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/field_choice.h"
+#include "formats/grid_of_file.h"
 #include "formats/mpas_places.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
@@ -204,6 +205,10 @@ VoronoiMesh mesh_of_centers(const CellTable& table, const MeshOptions& options,
 VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
                       std::vector<std::string>* remarks) {
   const system::Call call(execution);
+  if (const std::string grid = formats::grid_named_by_file(file); !grid.empty()) {
+    throw FileError(file.path + ": its points are those of the grid '" + grid +
+                    "', whose cells are no Voronoi cells, as a mesh has them");
+  }
   CellTable table;
   std::string remark;
   {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "rondel/weights.h"
 #include "system/job.h"
@@ -58,27 +59,33 @@ void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,
 class TileCarrier::SourceValues {
  public:
   SourceValues(const ArrayToCarry& job, std::size_t first, std::size_t count)
-      : job_(job), first_(first) {
+      : job_(job), first_(first), components_(job.file.components(job.array)) {
     if (job.has_windows) return;
-    whole_.resize(count * job.sources);
+    whole_.resize(count * components_ * job.sources);
     job.file.read(job.array, first, whole_);
     take_values_that_are_there(job.coincident, job.sources, whole_);
   }
   // Returns the values of all fields at all sources, unless they are read when they are asked for.
   [[nodiscard]] std::span<const double> whole() const { return whole_; }
-  // Returns the values of a field at the sources from `begin` on.
-  std::span<const double> of(std::size_t field, std::size_t begin, std::size_t count) {
+  // Returns the values of a component of a field at the sources from `begin` on; the first component
+  // is asked for first.
+  std::span<const double> of(std::size_t field, std::size_t component, std::size_t begin,
+                             std::size_t count) {
     if (!whole_.empty()) {
-      return std::span(whole_).subspan(field * job_.sources + begin, count);
+      const std::size_t row = field * components_ + component;
+      return std::span(whole_).subspan(row * job_.sources + begin, count);
     }
-    window_.resize(count);
-    job_.file.read_points(job_.array, first_ + field, begin, window_);
-    return window_;
+    if (component == 0) {
+      window_.resize(components_ * count);
+      job_.file.read_points(job_.array, first_ + field, begin, window_);
+    }
+    return std::span(window_).subspan(component * count, count);
   }
 
  private:
   const ArrayToCarry& job_;
   std::size_t first_;
+  std::size_t components_;
   std::vector<double> whole_;
   std::vector<double> window_;
 };
@@ -102,12 +109,15 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
     ++begin;
   }
   SourceValues values(job_, first, count);
+  const std::size_t num_rows = count * job_.file.components(job_.array);
   std::vector<double> carried;
-  if (ranks_.is_first() && !plan_.is_streamed) carried.assign(count * job_.targets, missing_value);
+  if (ranks_.is_first() && !plan_.is_streamed) {
+    carried.assign(num_rows * job_.targets, missing_value);
+  }
   const auto take = [&](std::size_t number, std::span<const Index> targets,
                         std::span<const double> found) {
     if (plan_.is_streamed) {
-      out_.write(found);
+      out_.write(job_.file.at_targets(job_.array, {found.begin(), found.end()}, targets));
     } else {
       for (std::size_t k = 0; k < found.size(); ++k) {
         carried[k / targets.size() * job_.targets + targets[k % targets.size()]] = found[k];
@@ -133,23 +143,25 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
                [&](std::size_t number, std::span<const std::byte> message) {
                  const std::size_t num_targets = tiles_.num_targets(number);
                  const auto targets = take_values<Index>(num_targets, message);
-                 take(number, targets, take_values<double>(count * num_targets, message));
+                 take(number, targets, take_values<double>(num_rows * num_targets, message));
                });
   }
   if (plan_.is_streamed) return;
   if (job_.complete && ranks_.is_first()) job_.complete(values.whole(), carried);
-  out_.write(carried);
+  out_.write(job_.file.at_targets(job_.array, std::move(carried)));
 }
 
 std::vector<double> TileCarrier::applied(const RemapTile& tile, SourceValues& values,
                                          std::size_t count) const {
   const std::size_t num_targets = tile.targets.size();
-  std::vector<double> result(count * num_targets);
+  const std::size_t components = job_.file.components(job_.array);
+  std::vector<double> result(count * components * num_targets);
   const ApplyOptions rules{
       .fill = missing_value, .max_missing = job_.max_missing, .keeps_sums = job_.keeps_sums};
-  for (std::size_t f = 0; f < count; ++f) {
-    const auto out = std::span(result).subspan(f * num_targets, num_targets);
-    const auto in = values.of(f, tile.first_source, tile.weights.num_columns);
+  for (std::size_t row = 0; row < count * components; ++row) {
+    const auto out = std::span(result).subspan(row * num_targets, num_targets);
+    const auto in =
+        values.of(row / components, row % components, tile.first_source, tile.weights.num_columns);
     if (job_.is_largest_share) {
       apply_largest_share(tile.weights, in, out, 1, rules, execution_);
     } else {

@@ -16,13 +16,14 @@
 #include "formats/regrid_plan.h"
 #include "formats/regrid_processes.h"
 #include "formats/regrid_tiles.h"
+#include "formats/regrid_vectors.h"
 #include "rondel/fields.h"
 
 namespace rondel::formats {
 
 // The array, and what is done with it.
 struct ArrayToCarry {
-  const FieldFile& file;
+  const RegridVectors& file;  // the fields, vectors by their components in space
   std::size_t array;
   std::size_t num_fields;
   std::size_t sources;

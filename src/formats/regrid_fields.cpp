@@ -49,6 +49,7 @@ FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
   fields.arrays = std::move(arrays);
   fields.axes = in.axes;
   fields.others = in.others;
+  fields.unlimited = in.unlimited;
   fields.attributes = in.attributes;
   fields.dimension = "cell";
   target.add_mapping(fields);
@@ -78,6 +79,9 @@ std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& 
     add_remarks(file_and_variable({side->name(), {}}).first.path, side->remarks(), all);
   }
   add_remarks(file, fields.remarks, all);
+  if (std::ranges::count(fields.arrays, "mask", &FieldArray::name) > 0) {
+    add_remarks(file, {"the variable \"mask\" is a field as others, and masks nothing"}, all);
+  }
   return all;
 }
 

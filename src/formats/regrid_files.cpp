@@ -22,8 +22,10 @@
 #include "formats/regrid_output.h"
 #include "formats/regrid_plan.h"
 #include "formats/regrid_processes.h"
+#include "formats/regrid_second.h"
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
+#include "formats/regrid_vectors.h"
 #include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -91,11 +93,16 @@ void require_effects(const RegridFileOptions& options, const FileName& out) {
           "overlap has no effect with a method between places");
   require(is_of_cells || options.cells.corners == MissingCorners::error,
           "corners have no effect with a method between places");
+  require(is_of_cells || options.cells.sides == GridSides::parallels,
+          "sides have no effect with a method between places");
   require(options.method != FieldMethod::largest_share || !has_norm,
           "norm has no effect with the method largest_share");
   require(options.method == FieldMethod::conservative_2nd || !options.is_limited,
           "the limiter has no effect without the method conservative_2nd");
   const bool has_statistics = !options.statistics.empty();
+  require(options.vectors.empty() || options.method != FieldMethod::largest_share,
+          "vectors have no largest share");
+  require(options.vectors.empty() || !has_statistics, "vectors have no effect with statistics");
   require(!has_statistics || !has_norm, "norm has no effect with statistics");
   require(!has_statistics || options.cells_per_tile == 0, "tiles have no effect with statistics");
   require(has_statistics || options.statistic_weights == ZonalWeights::area,
@@ -131,6 +138,8 @@ class RegridJob {
   }
 
   RegridFileReport run() {
+    // What is not possible with any memory is said before what needs more.
+    if (options_.method == FieldMethod::bilinear) formats::PlaceTiles::require_axes(source_);
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     const FieldSet& in = fields_->fields();
@@ -183,6 +192,7 @@ class RegridJob {
                       "; means over cells need values of cells, and other methods take any places");
     }
     report_.remarks = formats::remarks_of(source_, target_, fields_name_, fields_->fields());
+    vectors_.emplace(*fields_, fields_name_, options_.vectors, source_, target_);
   }
 
   // Sums what all processes have extrapolated.
@@ -200,8 +210,13 @@ class RegridJob {
     ranks_.number_of_first(0);
   }
 
+  // A component of vectors is no category.
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {
     if (options_.method) return *options_.method;
+    const auto has_array = [&](const auto& pair) {
+      return pair.first == array.name || pair.second == array.name;
+    };
+    if (std::ranges::any_of(options_.vectors, has_array)) return FieldMethod::conservative;
     const bool has_meanings = std::ranges::any_of(
         array.attributes, [](const auto& attribute) { return attribute.first == "flag_meanings"; });
     return has_meanings || !array.numbers.empty() ? FieldMethod::largest_share
@@ -228,6 +243,11 @@ class RegridJob {
     task.targets = report_.targets;
     for (const FieldArray& array : fields_->fields().arrays) {
       task.fields = std::max<std::uint64_t>(task.fields, array.num_fields());
+    }
+    if (!options_.vectors.empty()) {
+      // The two components on the sphere and the three in space; at the target three, and one of them.
+      task.per_source = 5;
+      task.per_target = 4;
     }
     task.memory = options_.memory;
     task.tile = options_.cells_per_tile;
@@ -277,7 +297,7 @@ class RegridJob {
   }
 
   // Returns the weights of a method; those of targets with too small a part that is covered are
-  // removed.
+  // removed. Of conservative_2nd there are none here, but in second_.
   const Weights& weights_of(FieldMethod method) {
     if (method == FieldMethod::largest_share) method = FieldMethod::conservative;
     const auto known = weights_.find(method);
@@ -294,14 +314,13 @@ class RegridJob {
     options.norm = options_.norm;
     options.overlap = options_.overlap;
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
-    std::vector<std::int32_t> is_covered;
+    covered_.clear();
     for (const double fraction : made.target_fractions) {
-      is_covered.push_back(formats::is_enough(fraction, options_.max_missing) ? 1 : 0);
+      covered_.push_back(formats::is_enough(fraction, options_.max_missing) ? 1 : 0);
     }
-    made.weights = with_rows(made.weights, is_covered);
-    if (options.order != 2 || !options_.is_limited) return std::move(made.weights);
-    second_ = std::move(made);
-    return second_->weights;
+    if (options.order == 1) return with_rows(made.weights, covered_);
+    second_.emplace(std::move(made), covered_, options_.is_limited);
+    return {};
   }
 
   // True if the area of a missing value counts as 0, so that integrals are kept.
@@ -317,9 +336,11 @@ class RegridJob {
           formats::extrapolator_between(source_, target_, *options_.extrapolation, execution_));
     }
     for (std::size_t f = 0; f * report_.targets < carried.size(); ++f) {
-      report_.extrapolated +=
+      const std::size_t number =
           filler_->fill(values.subspan(f * report_.sources, report_.sources),
                         carried.subspan(f * report_.targets, report_.targets), execution_);
+      // The components of a vector in space get their values together.
+      if (f % components_ == 0) report_.extrapolated += number;
     }
   }
 
@@ -338,12 +359,13 @@ class RegridJob {
   // Carries the fields of an array.
   void carry(std::size_t array, FieldMethod method, RegridOutput& output) {
     const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
+    components_ = vectors_->components(array);
     if (!plan_.has_tiles) {
       carry_slices(array, num_fields, method, output);
       return;
     }
     const formats::RegridTiles& weights = tiles(method);
-    const formats::ArrayToCarry job{.file = *fields_,
+    const formats::ArrayToCarry job{.file = *vectors_,
                                     .array = array,
                                     .num_fields = num_fields,
                                     .sources = report_.sources,
@@ -387,8 +409,8 @@ class RegridJob {
       return std::min(first_of(slice) + of_slice, num_fields);
     };
     const auto read = [&](std::size_t slice) {
-      std::vector<double> values((end_of(slice) - first_of(slice)) * report_.sources);
-      fields_->read(array, first_of(slice), values);
+      std::vector<double> values((end_of(slice) - first_of(slice)) * components_ * report_.sources);
+      vectors_->read(array, first_of(slice), values);
       return values;
     };
     std::vector<double> carried;
@@ -400,7 +422,7 @@ class RegridJob {
         values.swap(next);
         next.clear();
         const auto carry_on = [&] {
-          carried = carried_slice(values, method);
+          carried = vectors_->at_targets(array, carried_slice(values, method));
           output.write(carried);
         };
         if (plan_.reads_ahead && slice + 1 < num_slices) {
@@ -418,7 +440,7 @@ class RegridJob {
         ranks_, 0, num_slices,
         [&](std::size_t slice) {
           std::vector<double> values = read(slice);
-          carried = carried_slice(values, method);
+          carried = vectors_->at_targets(array, carried_slice(values, method));
           system::announce(execution_, "regrid", end_of(slice), num_fields);
           const auto bytes = std::as_bytes(std::span<const double>(carried));
           return RegridRanks::Message(bytes.begin(), bytes.end());
@@ -443,7 +465,7 @@ class RegridJob {
     if (method == FieldMethod::largest_share) {
       apply_largest_share(weights, values, carried, count, rules, execution_);
     } else if (second_ && method == FieldMethod::conservative_2nd) {
-      apply_limited(*second_, values, carried, count, rules, execution_);
+      second_->apply(values, carried, rules, execution_);
     } else {
       apply(weights, values, carried, count, rules, execution_);
     }
@@ -501,6 +523,9 @@ class RegridJob {
     facts.push_back({"corners", std::string(name_of(options_.cells.corners))});
     facts.push_back({"extrapolation", text_of(options_.extrapolation)});
     facts.push_back({"invalid", std::string(name_of(options_.cells.invalid))});
+    std::string vectors;
+    for (const auto& [east, north] : options_.vectors) vectors += east + ',' + north + ' ';
+    facts.push_back({"vectors", vectors});
     return facts;
   }
 
@@ -516,8 +541,11 @@ class RegridJob {
   FileName out_;
   std::string fields_name_;  // of the file of the fields
   std::unique_ptr<FieldFile> fields_;
+  std::optional<formats::RegridVectors> vectors_;
+  std::size_t components_ = 1;  // fields that stand for one of the array that is carried
   std::map<FieldMethod, Weights> weights_;
-  std::optional<Remap> second_;  // of order 2, if its values are limited
+  std::vector<std::int32_t> covered_;           // targets of which enough is covered
+  std::optional<formats::SecondOrder> second_;  // what applies weights of order 2
   formats::RegridPlan plan_;
   std::unique_ptr<formats::RegridTiles> tiles_;
   std::vector<Duplicate> coincident_;  // sources that share a place

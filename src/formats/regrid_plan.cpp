@@ -59,8 +59,9 @@ std::uint64_t needed_to_open(const RegridTask& task) {
 // `needed_by_whole` is what whole weights need.
 RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) {
   const std::uint64_t beside = beside_tiles(task);
-  const std::uint64_t of_sources = task.has_windows ? 0 : bytes_of_value * task.sources;
-  const std::uint64_t of_targets = bytes_of_value * task.targets;
+  const std::uint64_t of_sources =
+      task.has_windows ? 0 : bytes_of_value * task.per_source * task.sources;
+  const std::uint64_t of_targets = bytes_of_value * task.per_target * task.targets;
   const std::uint64_t least_cells = task.tile > 0 ? task.tile : cells_of_smallest_tile(task);
   const std::uint64_t of_least = task.cost.of_cell_in_tile * least_cells;
   const std::uint64_t room = task.memory - std::min(task.memory, beside);
@@ -92,15 +93,18 @@ RegridPlan plan_of_tiles(const RegridTask& task, std::uint64_t needed_by_whole) 
 
 // Returns the plan for what follows when the fields are open.
 RegridPlan plan_to_carry(const RegridTask& task) {
-  const std::uint64_t of_field = bytes_of_value * (task.sources + task.targets);
+  const std::uint64_t of_field =
+      bytes_of_value * (task.per_source * task.sources + task.per_target * task.targets);
   const std::uint64_t weights =
       task.cost.of_source * task.sources + task.cost.of_target * task.targets;
   const bool is_tile_wanted = task.has_tiles && (task.tile > 0 || task.num_processes > 1);
   if (weights + of_field <= task.memory && !is_tile_wanted) {
     const std::uint64_t largest = std::max({task.sources, task.targets, std::uint64_t{1}});
-    const std::uint64_t of_slice = std::max<std::uint64_t>(values_per_slice / largest, 1);
+    const std::uint64_t of_slice =
+        std::max<std::uint64_t>(values_per_slice / (largest * task.per_source), 1);
     RegridPlan plan;
-    const std::uint64_t of_field_and_next = of_field + bytes_of_value * task.sources;
+    const std::uint64_t of_field_and_next =
+        of_field + bytes_of_value * task.per_source * task.sources;
     plan.reads_ahead = task.fields > 1 && weights + of_field_and_next <= task.memory;
     const std::uint64_t fitting =
         (task.memory - weights) /

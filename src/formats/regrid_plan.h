@@ -45,7 +45,9 @@ struct RegridTask {
   RegridCost cost;
   std::uint64_t sources = 0;
   std::uint64_t targets = 0;
-  std::uint64_t fields = 0;       // of one array
+  std::uint64_t fields = 0;      // of one array
+  std::uint64_t per_source = 1;  // values in memory at a place of the source for one of a field
+  std::uint64_t per_target = 1;
   bool has_tiles = false;         // whether weights can be computed in tiles
   bool are_cells = false;         // whether tiles have cells of both sides
   bool is_in_order = false;       // whether the targets of a tile are consecutive

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
+#include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
@@ -34,47 +37,6 @@ std::set<std::string> taken_names(const FieldSet& fields) {
   return names;
 }
 
-// Returns what attributes say of a grid.
-GridMapping mapping_of(std::span<const io::NetcdfAttribute> attributes) {
-  GridMapping mapping;
-  for (const io::NetcdfAttribute& attribute : attributes) {
-    if (!attribute.text.empty()) mapping.texts.emplace_back(attribute.name, attribute.text);
-    if (attribute.numbers.empty()) continue;
-    mapping.numbers.emplace_back(attribute.name, attribute.numbers.front());
-  }
-  return mapping;
-}
-
-// True if the file has the dimensions of the grid. A file may also have some of its points, with their
-// longitudes and latitudes.
-bool has_dimensions_of(const io::NetcdfReader& reader, const std::string& name) {
-  const auto has = [&](std::uint64_t length) {
-    return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
-  };
-  try {
-    const NamedGrid grid(name);
-    return has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has);
-  } catch (const InvalidInput& error) {
-    throw io::BadValue(error.what());
-  }
-}
-
-// Returns the name of the grid that netCDF says its points are on, or an empty text.
-std::string grid_named_by_file(const FileName& file) {
-  io::FileBytes bytes(file_and_variable(file).first, true);
-  if (!io::is_netcdf(bytes.head())) return {};
-  return io::in_file(bytes.name(), [&] {
-    const io::NetcdfReader reader(bytes);
-    std::string name = grid_named_by(mapping_of(reader.attributes()));
-    if (!name.empty() && has_dimensions_of(reader, name)) return name;
-    for (const io::VariableInFile& variable : reader.variables()) {
-      name = grid_named_by(mapping_of(variable.attributes));
-      if (!name.empty() && has_dimensions_of(reader, name)) return name;
-    }
-    return std::string();
-  });
-}
-
 // Returns the cells of the grid that the first of the variables is on, where the file has several;
 // else, as where its dimensions do not say it, those of the file.
 CellTable cells_of_variable(const FileName& file, const std::vector<std::string>& names,
@@ -93,6 +55,22 @@ CellTable cells_of_variable(const FileName& file, const std::vector<std::string>
     }
   }
   return read_cells(file, corners);
+}
+
+// Throws FileError for a file that has no places of a grid: polygons, and tables.
+void require_places(const FileName& file) {
+  if (is_netcdf_file(file)) return;
+  std::error_code error;
+  if (!std::filesystem::exists(file.path, error)) return;  // which its reader says
+  const std::string format = format_of(file);
+  if (format == "geojson" || format == "json") {
+    throw FileError(file.path +
+                    ": it has polygons, which are no places: conservative methods, largest_share "
+                    "and statistics are over polygons, and other methods between places");
+  }
+  throw FileError(file.path +
+                  ": it is neither the name of a grid nor netCDF with places; rondel interpolate "
+                  "carries values to the points of tables");
 }
 
 }  // namespace
@@ -119,6 +97,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
                            std::vector<std::string> names) {
   if (!has_cells) {
     const auto [path, variable] = file_and_variable(file);
+    require_places(path);
     if (!variable.empty()) names = {variable};
     NetcdfSites sites = read_netcdf_sites(path, names, false);
     places_ = std::move(sites.table.positions);

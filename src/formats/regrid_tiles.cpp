@@ -29,13 +29,17 @@ PlaceTiles::PlaceTiles(const RegridSide& source, const RegridSide& target, Field
     remarks_ = native_.remarks;
   } else if (method != FieldMethod::bilinear) {
     triangulate(execution);
-  } else if (source.axes() != nullptr) {
-    coincident_ = repeated_places(*source.axes());
   } else {
-    throw FileError(source.name() +
-                    ": the method bilinear needs a grid along axes of longitude and latitude; "
-                    "linear takes any places");
+    require_axes(source);
+    coincident_ = repeated_places(*source.axes());
   }
+}
+
+void PlaceTiles::require_axes(const RegridSide& source) {
+  if (source.axes() != nullptr) return;
+  throw FileError(source.name() +
+                  ": the method bilinear needs a grid along axes of longitude and latitude; "
+                  "linear takes any places");
 }
 
 // A source has its place, and a site with six faces that are located; gradients of a source are a

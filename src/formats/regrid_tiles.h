@@ -64,6 +64,8 @@ class PlaceTiles : public RegridTiles {
   PlaceTiles(const RegridSide& source, const RegridSide& target, FieldMethod method,
              const FileName& mesh, std::size_t targets_per_tile, const Execution& execution);
 
+  // Throws FileError if the source of the method bilinear has no axes.
+  static void require_axes(const RegridSide& source);
   // Returns the bytes that the weights of a method take, which were measured and rounded up.
   [[nodiscard]] static RegridCost cost_of(FieldMethod method);
 

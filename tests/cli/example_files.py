@@ -89,6 +89,13 @@ data:
 """
 
 
+def winds():
+    """The text of a grid with both components of a wind."""
+    text = grid("u10", 'u10:units = "m s-1" ;', lambda lon, lat: 10 - abs(lat) / 9)
+    text = text.replace("double u10(lat, lon) ;", "double u10(lat, lon) ; double v10(lat, lon) ;")
+    return text.replace("\n}\n", "\n  v10 = " + ", ".join(["1"] * 648) + " ;\n}\n")
+
+
 def model():
     """The text of such a grid with temperatures at three times."""
     text = grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)
@@ -202,6 +209,7 @@ def makers(root):
         "model.nc": netcdf(model()),
         "temperature.nc": netcdf(grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)),
         "waves.nc": netcdf(waves()),
+        "winds.nc": netcdf(winds()),
         "wrf.nc": netcdf(curvilinear()),
         "spacing.nc": netcdf(grid("h", 'h:units = "km" ;', lambda lon, lat: 400 + 2 * abs(lat))),
     }

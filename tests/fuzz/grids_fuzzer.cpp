@@ -188,6 +188,27 @@ void regrid_in_tiles(ByteSource& source, const std::string& in, const std::strin
   regrid_file({in, {}}, {target, {}}, {out, {}}, options);
 }
 
+// The same two fields as components of vectors: tiles change nothing, and no vector becomes longer
+// than the longest one.
+void test_vectors(ByteSource& source, const std::string& in, const std::string& target,
+                  RegridFileOptions options, const ScratchFolder& folder) {
+  const std::string out = folder.file("vectors.nc");
+  const std::string tiles = folder.file("vector_tiles.nc");
+  options.vectors = {{"one", "any"}};
+  const RegridFileReport report = regrid_file({in, {}}, {target, {}}, {out, {}}, options);
+  std::filesystem::remove(tiles + ".partial");
+  regrid_in_tiles(source, in, target, tiles, options);
+  require(bytes_of(out) == bytes_of(tiles), "tiles have the same bytes");
+  const FieldSet found = read_fields({out, {}}, {}, report.targets);
+  for (std::size_t t = 0; t < report.targets; ++t) {
+    const double east = found.arrays[0].values[t];
+    const double north = found.arrays[1].values[t];
+    require(std::isnan(east) == std::isnan(north), "components are missing together");
+    require(std::isnan(east) || east * east + north * north < 9 + 100 + 1e-6,
+            "no vector is longer than those it is made of");
+  }
+}
+
 // A field that is constant stays so, one with gaps stays between its bounds, and tiles change
 // nothing.
 void test_files(ByteSource& source, const NamedGrid& from, const std::string& target) {
@@ -233,6 +254,9 @@ void test_files(ByteSource& source, const NamedGrid& from, const std::string& ta
   }
   for (const double value : found.arrays[1].values) {
     require(std::isnan(value) || (value > -1e-9 && value < 10 + 1e-9), "means are between bounds");
+  }
+  if (options.method != FieldMethod::largest_share && source.below(2) == 0) {
+    test_vectors(source, in, target, options, folder);
   }
 }
 
