@@ -16,6 +16,7 @@
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/extrapolate.h"
 #include "rondel/read_cells.h"
@@ -33,6 +34,32 @@ CellRings rings_of(const PairsIn& nodes, const OffsetsIn& offsets, const Indices
   for (std::size_t i = 1; i < cells.rings.size(); ++i) cells.cells.push_back(i);
   cells.points = unit_vectors(rows_of<LonLat>(nodes));
   return cells;
+}
+
+// The weights in the cells of a mesh that Python has as the bytes of netCDF, and the reader's remarks.
+struct MeshWeights {
+  Weights weights;
+  std::vector<std::string> remarks;
+};
+
+MeshWeights native_weights_in_mesh(const nb::bytes& content, const PairsIn& places,
+                                   const PairsIn& targets, unsigned threads) {
+  std::string bytes(content.c_str(), content.size());
+  return watched_quietly(targets.shape(0), threads, [&](const Execution& execution) {
+    const NativeCells native =
+        read_native_cells(FileName::in_memory(bytes, "nc", "the source"), rows_of<LonLat>(places));
+    return MeshWeights{
+        native_weights(native.cells, unit_vectors(rows_of<LonLat>(targets)), execution),
+        native.remarks};
+  });
+}
+
+// Returns the weights between the places of cells, in the cells of the dual mesh.
+Weights native_weights_between(const CellSet& cells, const PairsIn& targets, unsigned threads) {
+  return watched_quietly(targets.shape(0), threads, [&](const Execution& execution) {
+    const CellRings dual = dual_cells(cells.given_rings(), unit_vectors(cells.places()));
+    return native_weights(dual, unit_vectors(rows_of<LonLat>(targets)), execution);
+  });
 }
 
 // Returns the weights between the nodes of cells, or with centers between these.
@@ -83,6 +110,13 @@ void add_native_weights(nb::module_& module) {
              nb::arg("offsets").noconvert(), nb::arg("corners").noconvert(),
              nb::arg("centers").noconvert().none(), nb::arg("targets").noconvert(),
              nb::arg("threads"));
+  nb::class_<MeshWeights>(module, "MeshWeights")
+      .def("take_weights", [](MeshWeights& self) { return std::move(self.weights); })
+      .def_ro("remarks", &MeshWeights::remarks);
+  module.def("native_weights_in_mesh", &native_weights_in_mesh, nb::arg("content"),
+             nb::arg("places").noconvert(), nb::arg("targets").noconvert(), nb::arg("threads"));
+  module.def("native_weights_between", &native_weights_between, nb::arg("cells"),
+             nb::arg("targets").noconvert(), nb::arg("threads"));
   module.def("extrapolated_weights", &extrapolated_weights, nb::arg("weights"),
              nb::arg("sources").noconvert(), nb::arg("targets").noconvert(), nb::arg("shape"),
              nb::arg("method"), nb::arg("max_distance_km").none(), nb::arg("num_sources"),

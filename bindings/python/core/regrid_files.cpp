@@ -4,6 +4,7 @@
 #include "rondel/regrid_files.h"
 
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interrupt.h"
@@ -33,6 +35,13 @@ void add_report(nb::module_& module) {
       .def_ro("extrapolated", &RegridFileReport::extrapolated);
 }
 
+// Raises ValueError for a word that is no extrapolation.
+Extrapolation extrapolation_of(const std::string& word) {
+  const std::optional<Extrapolation> known = extrapolation_named(word);
+  if (!known) throw nb::value_error(("there is no extrapolation " + word).c_str());
+  return *known;
+}
+
 }  // namespace
 
 void add_regrid_files(nb::module_& module) {
@@ -46,7 +55,8 @@ void add_regrid_files(nb::module_& module) {
          std::size_t cells_per_tile, int deflate, const std::string& history,
          const std::string& statistics, nb::handle weigh_by, nb::handle corners,
          const std::optional<std::string>& extrapolate, std::optional<double> max_distance_km,
-         unsigned num_sources, unsigned exponent, unsigned levels, unsigned threads,
+         unsigned num_sources, unsigned exponent, unsigned levels,
+         const std::vector<std::pair<std::string, std::string>>& vectors, unsigned threads,
          const nb::object& progress, bool resume) {
         RegridFileOptions options;
         options.names = names;
@@ -59,14 +69,13 @@ void add_regrid_files(nb::module_& module) {
                          .invalid = named<InvalidPolygons>("invalid", invalid),
                          .corners = named<MissingCorners>("corners", corners)};
         if (extrapolate) {
-          const std::optional<Extrapolation> known = extrapolation_named(*extrapolate);
-          if (!known) throw nb::value_error(("there is no extrapolation " + *extrapolate).c_str());
-          options.extrapolation = ExtrapolationOptions{.method = *known,
+          options.extrapolation = ExtrapolationOptions{.method = extrapolation_of(*extrapolate),
                                                        .max_distance_km = max_distance_km,
                                                        .neighbors = num_sources,
                                                        .exponent = exponent,
                                                        .levels = levels};
         }
+        options.vectors = vectors;
         options.overlap = named<CellOverlap>("overlap", overlap);
         options.memory = memory;
         options.cells_per_tile = cells_per_tile;
@@ -86,8 +95,8 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
       nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
       nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
-      nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("threads"),
-      nb::arg("progress").none(), nb::arg("resume"));
+      nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("vectors"),
+      nb::arg("threads"), nb::arg("progress").none(), nb::arg("resume"));
 }
 
 }  // namespace rondel::python

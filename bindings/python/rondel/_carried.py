@@ -133,7 +133,7 @@ def carried(
     }
     lost_names = {*own_names, *map(str, mappings(data))}
     rest = data.drop_vars([name for name in lost_names if name in data.variables])
-    rest = rest.drop_dims(source.dims)
+    rest = rest.drop_dims(source.dims, errors="ignore")
     whole = _without_other_places(rest, data, wanted)
     whole = whole.assign(taken).assign_coords(wanted.coordinates)
     if keep_attrs:
@@ -144,11 +144,22 @@ def carried(
         }
     else:
         whole = whole.drop_attrs(deep=False)
-    whole = whole[[name for name in data.data_vars if name in whole.data_vars]]
+    whole = in_order(whole, data)
+    limits = whole.encoding.get("unlimited_dims")
+    if limits:
+        whole.encoding["unlimited_dims"] = {dim for dim in limits if dim in whole.dims}
     bounds = wanted.bounds()
     if not bounds or any(name in whole.variables for name in bounds):
         return _without_bounds(whole, wanted)
     return whole.assign_coords(bounds)
+
+
+def in_order(made: xarray.Dataset, data: xarray.Dataset) -> xarray.Dataset:
+    """The variables that the data have, too, in their order, with all coordinates."""
+    chosen = made[[name for name in data.data_vars if name in made.data_vars]]
+    chosen = chosen.assign_coords(made.coords)
+    chosen.encoding = dict(made.encoding)
+    return chosen
 
 
 def _applied_rows(

@@ -290,6 +290,30 @@ class Places:
         return np.ascontiguousarray(pairs, np.float64)
 
     @property
+    def data(self) -> Any:
+        """What was given, with its numbers unpacked."""
+        return self._data
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """The names of the longitudes and the latitudes."""
+        return self._found.lon_name, self._found.lat_name
+
+    @property
+    def named_cells(self) -> CellSet | None:
+        """The cells whose centers the places are: those of a set, or of the grid that data name."""
+        return self._cells if self._cells is not None else self._named_cells
+
+    def located(self) -> tuple[FloatArray, IntArray | None]:
+        """Longitudes and latitudes, shape (n, 2), of the places that have both, and the numbers of
+        these, or None if all have.
+        """
+        if self._located is None:
+            return self.pairs(), None
+        numbers = np.flatnonzero(self._located).astype(np.int64)
+        return np.ascontiguousarray(self.pairs()[numbers]), numbers
+
+    @property
     def are_axes(self) -> bool:
         return self._found.are_axes
 

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from typing import Any, cast
+from collections.abc import Hashable, Iterable
+from typing import Any, cast, get_args
 
 from ._blocks import OutputChunks
+from ._errors import warn_caller
 from ._geometries import Corners
 from ._native import Extrapolation
 from ._regrid_files import FieldMethod
@@ -20,6 +21,22 @@ _OF_REGRIDDER = {
     "largest_share": "conservative_normed",
     "nearest": "nearest_s2d",
 }
+
+
+def _without_mask(grid: Any, what: str) -> Any:
+    """The same places without the variable that a `Regridder` would take for a mask."""
+    if isinstance(grid, dict):
+        known = grid
+    else:
+        known = getattr(grid, "coords" if hasattr(grid, "name") else "variables", {})
+    if "mask" not in known:
+        return grid
+    warn_caller(
+        f"the variable 'mask' of the {what} masks nothing here; rondel.Regridder takes it for one"
+    )
+    if isinstance(grid, dict):
+        return {name: values for name, values in grid.items() if name != "mask"}
+    return grid.drop_vars("mask")
 
 
 def regrid(
@@ -36,6 +53,7 @@ def regrid(
     extrap_method: Extrapolation | None = None,
     extrap_distance: float | None = None,
     corners: Corners = "error",
+    vectors: Iterable[tuple[str, str]] = (),
     threads: int | None = None,
     progress: Progress = None,
 ) -> Any:
@@ -47,12 +65,15 @@ def regrid(
     Parameters
     ----------
     data : Dataset or DataArray
-        Fields with their longitudes and latitudes; arrays of Dask stay lazy.
+        Fields with their longitudes and latitudes; arrays of Dask stay lazy. A variable `mask` is a
+        field as others here, and masks nothing, as with `regrid_file`; a warning says so. A
+        `Regridder` takes it for a mask, as xESMF does.
     target : str, Dataset, DataArray, dict, tuple or CellSet
         The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it.
     method : str, optional
         'conservative' (default) and 'conservative_2nd': means over cells; 'nearest', 'linear',
-        'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers. With
+        'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers; 'native': in
+        the cells of the mesh of `data` itself, as a `Regridder` does it. With
         conservative methods, arrays that have the attribute `flag_values` or `flag_meanings` get
         the value that the largest part of a target has, as 'largest_share' asks for.
     lon, lat, lon_out, lat_out : str, optional
@@ -67,6 +88,9 @@ def regrid(
     extrap_method, extrap_distance, corners : optional
         As in `Regridder`: values for targets to which no source contributes, and corners of cells
         where the coordinates have no bounds.
+    vectors : iterable of (str, str), optional
+        Pairs of variables that are the eastward and northward components of vectors, such as winds,
+        as in a call of a `Regridder`.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -98,10 +122,13 @@ def regrid(
     """
     if not 0 <= max_missing <= 1:
         raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
+    if method not in get_args(FieldMethod):
+        names = ", ".join(map(repr, get_args(FieldMethod)))
+        raise ValueError(f"method must be one of {names}, not {method!r}")
     is_of_cells = method in ("conservative", "conservative_2nd")
     regridder = Regridder(
-        data,
-        target,
+        _without_mask(data, "data"),
+        _without_mask(target, "target"),
         cast("RegridMethod", _OF_REGRIDDER.get(method, method)),
         lon=lon,
         lat=lat,
@@ -120,5 +147,6 @@ def regrid(
         skipna=True,
         na_thres=max_missing,
         output_chunks=output_chunks,
+        vectors=vectors,
         how="largest_share" if method == "largest_share" else "by_kind" if is_of_cells else "sum",
     )

@@ -91,6 +91,7 @@ def regrid_file(
     extrapolate_sources: int = 8,
     extrapolate_exponent: int = 2,
     extrapolate_levels: int = 0,
+    vectors: Iterable[tuple[str, str]] = (),
     threads: int | None = None,
     progress: Progress = None,
     resume: bool = False,
@@ -157,6 +158,10 @@ def regrid_file(
         With 'idw' the number of sources (8) and the power of the distance (2).
     extrapolate_levels : int, optional
         With 'creep' the number of levels; 0 (default): all that can be filled.
+    vectors : iterable of (str, str), optional
+        Pairs of variables that are the eastward and northward components of vectors, such as winds:
+        their components in space are carried, which none of the methods turns, also near poles, and
+        the parts along the sphere at the centers of the targets are written.
     threads : int, optional
         The largest number of threads; by default one for each core.
     progress : callable, optional
@@ -225,6 +230,7 @@ def regrid_file(
         extrapolate_sources,
         extrapolate_exponent,
         extrapolate_levels,
+        [(east, north) for east, north in vectors],
         as_threads(threads),
         progress,
         bool(resume),

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterable
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -38,6 +38,7 @@ RegridMethod: TypeAlias = Literal[
     "sibson",
     "hermite",
     "cubic",
+    "native",
 ]
 _CONSERVATIVE: dict[str, tuple[int, Literal["destarea", "fracarea"]]] = {
     "conservative": (1, "destarea"),
@@ -45,7 +46,7 @@ _CONSERVATIVE: dict[str, tuple[int, Literal["destarea", "fracarea"]]] = {
     "conservative_2nd": (2, "destarea"),
 }
 _INTERPOLATING = ("linear", "laplace", "sibson", "hermite", "cubic")
-_METHODS = ("bilinear", *_CONSERVATIVE, "nearest_s2d", "nearest_d2s", *_INTERPOLATING)
+_METHODS = ("bilinear", *_CONSERVATIVE, "nearest_s2d", "nearest_d2s", *_INTERPOLATING, "native")
 _NEEDLESS = ("periodic", "ignore_degenerate", "parallel")
 
 
@@ -70,7 +71,10 @@ class Regridder(Described):
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in
-        `SphericalDelaunay.weights`. Unless the source has axes, 'bilinear' means 'linear'.
+        `SphericalDelaunay.weights`. Unless the source has axes, 'bilinear' means 'linear'. With
+        'native' values are interpolated in the cells of the mesh of `ds_in` (`native_weights`): a
+        Dataset with a mesh of UGRID, MPAS, ICON, ESMF or Exodus, whose nodes or faces `lon` and
+        `lat` are, or a `CellSet`, with values at its cells.
     locstream_in, locstream_out : bool, optional
         Whether a dictionary or tuple has the coordinates of points instead of axes; by default
         False.
@@ -292,6 +296,7 @@ class Regridder(Described):
         na_thres: float = 1.0,
         how: Literal["sum", "largest_share", "by_kind"] = "sum",
         output_chunks: OutputChunks = None,
+        vectors: Iterable[tuple[str, str]] = (),
     ) -> Any:
         """Regrids fields to the target grid.
 
@@ -321,6 +326,10 @@ class Regridder(Described):
             ``array.chunk-size`` allows. A block needs the weights of its own targets and whole
             fields at the source, whose other dimensions keep their chunks. No chunks change a
             value.
+        vectors : iterable of (str, str), optional
+            Pairs of variables of a Dataset that are the eastward and northward components of
+            vectors, such as winds: their components in space are carried, which none of the methods
+            turns, also near poles, and the parts along the sphere at the targets are the result.
 
         Returns
         -------
@@ -345,6 +354,7 @@ class Regridder(Described):
         from ._carried import carried
         from ._coordinates import with_dimensions
         from ._values import unpacked
+        from ._vectors import in_space, on_sphere, pairs_of
 
         if how not in ("sum", "largest_share", "by_kind"):
             raise ValueError(f"how must be 'sum', 'largest_share' or 'by_kind', not {how!r}")
@@ -360,7 +370,14 @@ class Regridder(Described):
         source = self._source
         if isinstance(data, xarray.Dataset):
             data, source = source.along_cells(data)
-            return carried(data, self.weights, source, self._target, **options)
+            pairs = pairs_of(data, vectors)
+            if not pairs:
+                return carried(data, self.weights, source, self._target, **options)
+            parts = in_space(data, pairs, source)
+            found = carried(parts, self.weights, source, self._target, **options)
+            return on_sphere(found, data, pairs, self._target, keep_attrs)
+        if list(vectors):
+            raise TypeError("vectors are variables of a Dataset, and the data are none")
         is_labeled = isinstance(data, xarray.DataArray)
         if not is_labeled and not hasattr(data, "__dask_graph__"):
             data = np.ma.asanyarray(data) if np.ma.isMaskedArray(data) else np.asarray(data)
@@ -471,6 +488,11 @@ def _made(
         made = _nearest(source, target)
     elif method == "nearest_d2s":
         made = _nearest_d2s(source, target, threads)
+    elif method == "native":
+        made = _native(source, target, threads)
+        mask = source.mask()
+        if mask is not None:
+            made = made._without_columns(mask)
     else:
         if method == "bilinear" and source.are_axes:
             made = _bilinear(source, target)
@@ -511,6 +533,38 @@ def _nearest_d2s(source: Places, target: Places, threads: int | None) -> Weights
     points = source.points().reshape(-1, 3)[used]
     made = tri._interpolator().nearest_d2s_weights(points, as_threads(threads))
     return Weights._of(made)._renumbered(numbers, used, shape)
+
+
+def _native(source: Places, target: Places, threads: int | None) -> Weights:
+    """Weights in the cells of the source's own mesh, or between the cells of a set."""
+    import xarray
+
+    from ._mesh_bytes import mesh_bytes
+
+    targets, limit = target.pairs(), as_threads(threads)
+    cells = source.named_cells
+    if cells is not None:
+        if source.are_axes:
+            raise ValueError(
+                "the method 'native' needs cells with corners in common; 'bilinear' is for a grid "
+                "along axes"
+            )
+        found = Weights._of(_core.native_weights_between(cells._placed(), targets, limit))
+    elif isinstance(source.data, xarray.Dataset):
+        content = mesh_bytes(source.data, *source.names)
+        places, numbers = source.located()
+        made = _core.native_weights_in_mesh(content, places, targets, limit)
+        for remark in made.remarks:
+            warn_caller(remark)
+        found = Weights._of(made.take_weights())
+        if numbers is not None:
+            found = found._renumbered(None, numbers, (target.lon.size, source.lon.size))
+    else:
+        raise ValueError(
+            "the method 'native' needs a Dataset with the mesh of the values, or a CellSet, not "
+            f"{type(source.data).__name__}"
+        )
+    return found if target._located is None else found._with_rows(target._located)
 
 
 def _bilinear(source: Places, target: Places) -> Weights:

@@ -192,7 +192,7 @@ def _methods_of(text: str, norm: str, are_axes: bool) -> Any:
     if "bilinear" in words or first == "linear":
         # On anything but axes of a grid, 'bilinear' is 'linear'.
         return (("bilinear",) if "bilinear" in words else ("linear",)) if are_axes else _LINEAR
-    if first in ("laplace", "sibson", "hermite", "cubic", "patch", "bicubic", "largest"):
+    if first in ("laplace", "sibson", "hermite", "cubic", "native", "patch", "bicubic", "largest"):
         return (first,)
     return None
 

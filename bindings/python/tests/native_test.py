@@ -269,6 +269,66 @@ def test_files_are_regridded_in_their_own_cells(mesh, tmp_path):
         rondel.regrid_file(f"{tmp_path / 'mesh.nc'}:t", "grid:10", out)
 
 
+def test_a_regridder_interpolates_in_the_mesh_of_a_dataset(mesh, tmp_path):
+    """It does what `regrid_file` does with the file, at nodes and at faces."""
+    xarray = pytest.importorskip("xarray")
+    lon = mesh[0]
+    values = np.random.default_rng(8).normal(size=len(lon))
+    write_mesh(tmp_path / "mesh.nc", mesh, values)
+    rondel.regrid_file(
+        f"{tmp_path / 'mesh.nc'}:t", "healpix:2", tmp_path / "out.nc", method="native"
+    )
+    with (
+        xarray.open_dataset(tmp_path / "out.nc") as wanted,
+        xarray.open_dataset(tmp_path / "mesh.nc") as source,
+    ):
+        regridder = rondel.Regridder(source, "healpix:2", "native")
+        np.testing.assert_array_equal(regridder(source).t.values, wanted.t.values)
+        found = rondel.regrid(source, "healpix:2", "native")
+        np.testing.assert_array_equal(found.t.values, wanted.t.values)
+        regridder.to_netcdf(tmp_path / "w.nc")
+        again = rondel.Regridder(source, "healpix:2", "native", weights=tmp_path / "w.nc")
+        np.testing.assert_array_equal(again(source).t.values, wanted.t.values)
+        with pytest.raises(ValueError, match="not 'linear'"):
+            rondel.Regridder(source, "healpix:2", "linear", weights=tmp_path / "w.nc")
+        # A node without a place takes no part.
+        x = source.x.copy()
+        x[:3] = np.nan
+        with pytest.warns(UserWarning, match="3 of .* places have no"):
+            part = rondel.Regridder(source.assign(x=x), "healpix:2", "native")
+        assert not set(part.weights.indices) & {0, 1, 2}
+        with pytest.raises(ValueError, match="needs a Dataset with the mesh of the values"):
+            rondel.Regridder(source.t.assign_coords(x=source.x, y=source.y), "healpix:2", "native")
+
+
+def test_a_regridder_interpolates_between_cells_of_a_set():
+    pytest.importorskip("xarray")
+    points = np.random.default_rng(6).normal(size=(200, 3))
+    sites = points / np.linalg.norm(points, axis=1)[:, None]
+    triangulation = rondel.delaunay(sites)
+    to_lon, to_lat = targets(500, 4)
+    values = np.random.default_rng(7).normal(size=200)
+    wanted = triangulation.weights(rondel.unit_vectors(to_lon, to_lat), "linear") @ values
+    cells = rondel.CellSet.voronoi(triangulation)
+    target = {"lon": to_lon, "lat": to_lat}
+    found = rondel.Regridder(cells, target, "native", locstream_out=True)(values)
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-12)
+    named = rondel.Regridder("R2B1", target, "native", locstream_out=True)
+    assert np.isfinite(named(np.ones(named.shape_in))).all()
+    with pytest.raises(ValueError, match="'bilinear' is for a grid along"):
+        rondel.Regridder("grid:30", target, "native", locstream_out=True)
+    with pytest.raises(ValueError, match="needs a mesh"):
+        rondel.Regridder({"lon": [0.0, 10], "lat": [0.0, 10]}, target, "native", locstream_out=True)
+
+
+@pytest.mark.parametrize("method", ["foo", "nearest_s2d", "bilinear_"])
+def test_methods_of_regrid_are_named(method):
+    xarray = pytest.importorskip("xarray")
+    data = xarray.DataArray(np.ones((2, 2)), {"lat": [0.0, 9], "lon": [0.0, 9]}, ("lat", "lon"))
+    with pytest.raises(ValueError, match=f"'conservative', .*'native', not '{method}'"):
+        rondel.regrid(data, "grid:30", method)
+
+
 def test_fields_are_extrapolated_by_their_own_gaps(tmp_path):
     xarray = pytest.importorskip("xarray")
     pytest.importorskip("netCDF4")

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Vectors on the sphere as three fields of their components in space, and back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import xarray
+
+from ._carried import in_order
+from ._places import Places
+from ._values import missing_marker, unpacked
+from ._winds import directions
+
+_AXES = "xyz"
+
+
+def pairs_of(data: xarray.Dataset, vectors: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """The pairs of names, which must be those of variables with the same dimensions."""
+    pairs = [(east, north) for east, north in vectors]
+    names = [name for pair in pairs for name in pair]
+    for name in names:
+        if name not in data.data_vars:
+            raise ValueError(f"{name!r}, a component of vectors, is no variable of the data")
+        if names.count(name) > 1:
+            raise ValueError(f"{name!r} is a component of vectors twice")
+    for east, north in pairs:
+        if set(data[east].dims) != set(data[north].dims):
+            raise ValueError(f"{east!r} and {north!r} have different dimensions")
+    return pairs
+
+
+def in_space(data: xarray.Dataset, pairs: list[tuple[str, str]], source: Places) -> xarray.Dataset:
+    """The data with three variables in place of each pair, in the order of their names."""
+    data = unpacked(data)
+    to_east, to_north = _frames(source)
+    made = {}
+    for east, north in pairs:
+        u, v = (_marked(data[name]).astype(np.float64) for name in (east, north))
+        for axis in _AXES:
+            part = u * to_east[axis] + v * to_north[axis]
+            made[_name(east, axis)] = part.transpose(*data[east].dims)
+    return data.drop_vars([name for pair in pairs for name in pair]).assign(made)
+
+
+def on_sphere(
+    found: xarray.Dataset,
+    data: xarray.Dataset,
+    pairs: list[tuple[str, str]],
+    target: Places,
+    keep_attrs: bool,
+) -> xarray.Dataset:
+    """What was carried, with the parts along the sphere to the east and to the north."""
+    frames = _frames(target)
+    made, lost = {}, []
+    for east, north in pairs:
+        parts = [found[_name(east, axis)] for axis in _AXES]
+        lost += [_name(east, axis) for axis in _AXES]
+        for name, to in zip((east, north), frames, strict=True):
+            x, y, z = (part * to[axis] for axis, part in zip(_AXES, parts, strict=True))
+            kind = data[name].dtype if data[name].dtype.kind == "f" else np.dtype(np.float64)
+            made[name] = (x + y + z).transpose(*parts[0].dims).astype(kind)
+            made[name].attrs = dict(data[name].attrs) if keep_attrs else {}
+            made[name].encoding = dict(parts[0].encoding)
+    return in_order(found.drop_vars(lost).assign(made), data)
+
+
+def _name(east: str, axis: str) -> str:
+    return f"{east}, {axis} in space"
+
+
+def _marked(array: xarray.DataArray) -> xarray.DataArray:
+    """The values with NaN where they are missing."""
+    marker = missing_marker(array)
+    if marker is None:
+        return array
+    marked: xarray.DataArray = xarray.apply_ufunc(
+        marker, array, dask="parallelized", output_dtypes=[np.float64]
+    )
+    return marked
+
+
+def _frames(places: Places) -> list[dict[str, xarray.DataArray]]:
+    """The components of the directions to the east and to the north."""
+    lon, lat = (np.asarray(each, np.float64) for each in places.degrees())
+    return [
+        {axis: xarray.DataArray(to[..., k], dims=places.dims) for k, axis in enumerate(_AXES)}
+        for to in directions(lon, lat)
+    ]
