@@ -34,10 +34,18 @@ class Regrid(unittest.TestCase):
         np.savetxt(folder / "sites.csv", table, delimiter=",", header="lon,lat,a,b,c,d,e", comments="")
         cls.input = folder / "in.nc"
         names = [part for name in "abcde" for part in ("--value", name)]
-        subprocess.run(
-            [RONDEL, "interpolate", folder / "sites.csv", "--to", "grid:4", *names, "-o", cls.input, "--quiet"],
-            check=True,
-        )
+        # Values between northern sites alone leave gaps.
+        cls.gaps = folder / "gaps.nc"
+        np.savetxt(folder / "north.csv", table[table[:, 1] > 0], delimiter=",", header="lon,lat,a,b,c,d,e", comments="")
+        for sites, out in (("sites.csv", cls.input), ("north.csv", cls.gaps)):
+            subprocess.run(
+                [RONDEL, "interpolate", folder / sites, "--to", "grid:4", *names, "-o", out, "--quiet"], check=True
+            )
+        # The second ring crosses itself, and both overlap.
+        rings = ([[0, 0], [40, 0], [40, 40], [0, 40], [0, 0]], [[20, 0], [60, 40], [60, 0], [20, 40], [20, 0]])
+        shapes = [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [r]}} for r in rings]
+        cls.regions = folder / "regions.geojson"
+        cls.regions.write_text(json.dumps({"type": "FeatureCollection", "features": shapes}))
 
     @classmethod
     def tearDownClass(cls):
@@ -48,9 +56,9 @@ class Regrid(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def regrid(self, name, *arguments, **options):
+    def regrid(self, name, *arguments, source=None, **options):
         subprocess.run(
-            [RONDEL, "regrid", self.input, *arguments, "-o", self.folder / name, "--quiet"], check=True, **options
+            [RONDEL, "regrid", source or self.input, *arguments, "-o", self.folder / name, "--quiet"], check=True, **options
         )
         return (self.folder / name).read_bytes()
 
@@ -75,11 +83,22 @@ class Regrid(unittest.TestCase):
             ("out.nc", ["O16", "--method", "conservative-2nd"]),
             ("out.nc", ["healpix:4", "--method", "sibson"]),
             ("out.nc", ["healpix:4", "--method", "largest-share", "--value", "c"]),
+            ("out.nc", ["O16", "--method", "conservative-2nd", "--limiter", "bounds", "--vector", "a,b"]),
+            ("out.nc", ["healpix:4", "--vector", "a,b", "--vector", "c,d", "--tile", "500"]),
+            ("out.nc", ["healpix:4", "--method", "linear", "--vector", "e,b", "--kind", "cdf5"]),
+            ("out.csv", [self.regions, "--edges", "geodesic", "--invalid", "repair", "--overlap", "each"]),
         )
-        for name, arguments in cases:
-            expected = self.regrid("expected" + pathlib.Path(name).suffix, *arguments)
+        filled = (
+            ("out.nc", ["grid:3", "--extrapolate", "creep", "--extrapolate-levels", "2", "--vector", "a,b"]),
+            ("out.nc", ["healpix:3", "--method", "bilinear", "--extrapolate", "idw", "--extrapolate-sources", "3",
+                        "--extrapolate-exponent", "1", "--extrapolate-distance", "900"]),
+            ("out.nc", ["healpix:3", "--method", "conservative-2nd"]),
+        )
+        every = [(*case, self.input) for case in cases] + [(*case, self.gaps) for case in filled]
+        for name, arguments, source in every:
+            expected = self.regrid("expected" + pathlib.Path(name).suffix, *arguments, source=source)
             for num_ranks in range(1, 8):
-                result = self.run_ranks(num_ranks, self.input, *arguments, "-o", self.folder / name, "--json")
+                result = self.run_ranks(num_ranks, source, *arguments, "-o", self.folder / name, "--json")
                 self.assertEqual(result.returncode, 0, result.stderr)
                 told = json.loads(result.stdout)
                 self.assertEqual((told["ranks"], told["sources"]), (num_ranks, 4050))
@@ -129,6 +148,10 @@ class Regrid(unittest.TestCase):
         command = [self.input, "grid:3", "-o", self.folder / "out.nc"]
         for more, message in (
             (["--method", "nearest"], "rank 1 has other arguments than rank 0"),
+            (["--vector", "a,b"], "rank 1 has other arguments than rank 0"),
+            (["--extrapolate", "idw"], "rank 1 has other arguments than rank 0"),
+            (["--extrapolate-sources", "3"], "--extrapolate-sources"),
+            (["--vector", "a"], "--vector"),
             (["--method", "bogus"], "--method"),
         ):
             result = self.run_ranks(1, *command, ":", "-n", "1", RONDEL_MPI, "regrid", *command, *more)
