@@ -301,6 +301,29 @@ def test_a_regridder_interpolates_in_the_mesh_of_a_dataset(mesh, tmp_path):
             rondel.Regridder(source.t.assign_coords(x=source.x, y=source.y), "healpix:2", "native")
 
 
+@pytest.mark.parametrize("lon", ["lonCell", "lonVertex", "face_lon", "node_lon"])
+def test_a_regridder_knows_the_meshes_that_files_have(lon, tmp_path):
+    """Cells and vertices of MPAS, faces and nodes of UGRID, as `regrid_file` has them."""
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("netCDF4")
+    mesh = rondel.mesh.scvt(n=200)
+    path, lat = tmp_path / "mesh.nc", lon.replace("lon", "lat")
+    (mesh.to_ugrid if "_" in lon else mesh.to_mpas)(path)
+    with xarray.open_dataset(path) as source:
+        source.load()
+    (dim,) = source[lon].dims
+    values = np.random.default_rng(1).normal(size=source.sizes[dim])
+    field = tmp_path / "field.nc"
+    data = source.assign(t=((dim,), values, {"coordinates": f"{lon} {lat}"}))
+    data.to_netcdf(field, format="NETCDF3_64BIT", engine="netcdf4")
+    out = tmp_path / "out.nc"
+    rondel.regrid_file(f"{field}:t", "healpix:2", out, method="native", source=f"{field}:{lon}")
+    found = rondel.Regridder(source, "healpix:2", "native", lon=lon, lat=lat)(values)
+    with xarray.open_dataset(out) as wanted:
+        np.testing.assert_array_equal(found, wanted.t.values)
+    assert np.isfinite(found).all()
+
+
 def test_a_regridder_interpolates_between_cells_of_a_set():
     pytest.importorskip("xarray")
     points = np.random.default_rng(6).normal(size=(200, 3))
