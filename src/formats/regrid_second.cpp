@@ -23,11 +23,13 @@ std::vector<std::int32_t> values_that_are_there(std::span<const double> field) {
 
 }  // namespace
 
+// The weights are those for fields without gaps at first.
 SecondOrder::SecondOrder(Remap remap, std::vector<std::int32_t> covered, bool is_limited)
     : remap_(std::move(remap)), covered_(std::move(covered)), is_limited_(is_limited) {
   remap_.weights = with_rows(remap_.weights, covered_);
 }
 
+// Applies the weights that are in use, to fields that they are for.
 void SecondOrder::apply_fields(std::span<const double> in, std::span<double> out,
                                const ApplyOptions& rules, const Execution& execution) const {
   const std::size_t count = in.size() / std::max<std::size_t>(remap_.source_areas.size(), 1);
@@ -38,6 +40,8 @@ void SecondOrder::apply_fields(std::span<const double> in, std::span<double> out
   }
 }
 
+// Most files have one coast for all times, so that weights are computed once; a gap that moves costs the
+// gradients of all sources each time, and no overlay.
 void SecondOrder::apply(std::span<const double> in, std::span<double> out,
                         const ApplyOptions& rules, const Execution& execution) {
   const std::size_t sources = remap_.source_areas.size();

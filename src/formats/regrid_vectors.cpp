@@ -13,6 +13,7 @@
 namespace rondel::formats {
 namespace {
 
+// The number of components of a vector in space: x, y and z.
 constexpr std::size_t in_space = 3;
 
 // A place that is missing has no vector, so any direction will do.
@@ -20,6 +21,7 @@ exact::SineCosine turn_of(double degrees) {
   return exact::sine_cosine_of_degrees(std::isfinite(degrees) ? degrees : 0);
 }
 
+// Returns the array of this name. Throws FileError if the file has none, or it is not carried.
 std::size_t array_named(const FieldSet& fields, const std::string& name,
                         const std::string& file_name) {
   const auto found = std::ranges::find(fields.arrays, name, &FieldArray::name);
@@ -51,6 +53,7 @@ EastAndNorth SideDirections::at(std::size_t place) const {
   return {{-lon.sine, lon.cosine, 0}, {-lat.sine * lon.cosine, -lat.sine * lon.sine, lat.cosine}};
 }
 
+// An array may be in one pair alone, since its result has one value at each target.
 RegridVectors::RegridVectors(const FieldFile& file, const std::string& file_name,
                              std::span<const std::pair<std::string, std::string>> names,
                              const RegridSide& source, const RegridSide& target)
@@ -88,6 +91,8 @@ std::size_t RegridVectors::components(std::size_t array) const {
   return pair_of(array) == nullptr ? 1 : in_space;
 }
 
+// The vector is u times the direction to the east and v times that to the north; where one of both is
+// missing, so are all three components.
 void RegridVectors::to_space(std::size_t first_point, std::span<double> out) const {
   const std::size_t n = out.size() / in_space;
   for (std::size_t i = 0; i < n; ++i) {
@@ -101,6 +106,7 @@ void RegridVectors::to_space(std::size_t first_point, std::span<double> out) con
   }
 }
 
+// The two components of a field are read into the first two thirds of its room, and turned there.
 void RegridVectors::read(std::size_t array, std::size_t first, std::span<double> out) const {
   const VectorArrays* const pair = pair_of(array);
   if (pair == nullptr) {
@@ -128,6 +134,8 @@ void RegridVectors::read_points(std::size_t array, std::size_t field, std::size_
   to_space(first_point, out);
 }
 
+// The part of a vector along the sphere has as components its products with the two directions. What
+// is across the sphere, which means of tangent vectors have, is left out.
 std::vector<double> RegridVectors::at_targets(std::size_t array, std::vector<double> fields,
                                               std::span<const Index> targets) const {
   const VectorArrays* const pair = pair_of(array);

@@ -304,13 +304,13 @@ class Places:
         """The cells whose centers the places are: those of a set, or of the grid that data name."""
         return self._cells if self._cells is not None else self._named_cells
 
-    def located(self) -> tuple[FloatArray, IntArray | None]:
+    def located(self) -> tuple[FloatArray, Any]:
         """Longitudes and latitudes, shape (n, 2), of the places that have both, and the numbers of
         these, or None if all have.
         """
         if self._located is None:
             return self.pairs(), None
-        numbers = np.flatnonzero(self._located).astype(np.int64)
+        numbers = np.flatnonzero(self._located)
         return np.ascontiguousarray(self.pairs()[numbers]), numbers
 
     @property
