@@ -21,6 +21,10 @@ import { RondelError } from "../errors.js";
 /** @typedef {import("../triangulation.js").Cells} Cells */
 /** @typedef {import("../located.js").SiteLists} SiteLists */
 /** @typedef {import("../located.js").Locations} Locations */
+/** @typedef {import("../surface/lines.js").Lines} Lines */
+/** @typedef {import("../surface/meshes.js").Mesh} Mesh */
+/** @typedef {import("../surface/sites.js").DrawnOptions} DrawnOptions */
+/** @typedef {import("../surface/sites.js").Places} Places */
 /** @typedef {import("../polygons/triangulate.js").Triangles} Triangles */
 /** @typedef {import("../polygons/triangulate.js").TriangulateOptions} TriangulateOptions */
 
@@ -59,6 +63,14 @@ import { RondelError } from "../errors.js";
  *   ids(): Promise<Uint32Array>,
  *   snapshot(): Promise<RemoteDiagram>,
  * }} RemoteDynamic see DynamicTriangulation
+ */
+
+/**
+ * @typedef {object} RemoteSites see DrawnSites
+ * @property {number} numSites
+ * @property {(options?: DrawnOptions) => Promise<Mesh | Lines>} drawn
+ * @property {(lon: number, lat: number) => Promise<number>} nearest
+ * @property {() => Promise<void>} free
  */
 
 const questions = ["nearest", "kNearest", "within", "locate", "free"];
@@ -141,6 +153,11 @@ export class RondelWorker {
   /** @param {Numbers} [xyz] @param {Options} [options] @returns {Promise<RemoteDynamic>} */
   async dynamic(xyz = new Float64Array(), options = {}) {
     return this.#remote(await this.#ask(0, "dynamic", [xyz, options]), [...questions, ...changes]);
+  }
+
+  /** @param {Places} places @returns {Promise<RemoteSites>} */
+  async sites(places) {
+    return this.#remote(await this.#ask(0, "sites", [places]), ["drawn", "nearest", "free"]);
   }
 
   /** @param {any} object GeoJSON @param {TriangulateOptions} [options] @returns {Promise<Triangles>} */

@@ -6,6 +6,7 @@
 
 import { DynamicTriangulation } from "../dynamic.js";
 import { delaunay, voronoi } from "../build.js";
+import { DrawnSites } from "../surface/sites.js";
 
 const properties = ["dimension", "numSites", "numVertices", "numFaces"];
 const arrays = ["triangles", "neighbors", "ghostFaces", "ring", "duplicates", "hidden"];
@@ -36,6 +37,11 @@ const makers = {
   triangulate: async (...args) => {
     const { triangulate } = await import("../polygons/triangulate.js"); // most workers do not load it
     return triangulate(.../** @type {[any]} */ (args));
+  },
+  /** @param {any[]} args */
+  sites: (...args) => {
+    const sites = new DrawnSites(.../** @type {[any]} */ (args));
+    return { object: keep(sites), numSites: sites.numSites };
   },
   /** @param {any[]} args */
   dynamic: (...args) => ({ object: keep(new DynamicTriangulation(...args)) }),
