@@ -16,6 +16,7 @@ const description = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"
 test("the package needs no other, and has a licence, types and a version", () => {
   assert.equal(description.dependencies, undefined);
   assert.equal(description.devDependencies, undefined);
+  assert.ok(Object.keys(description.peerDependencies).every((name) => description.peerDependenciesMeta[name].optional));
   assert.equal(description.version, readFileSync(join(process.env.RONDEL_SOURCE_DIR, "VERSION"), "utf8").trim());
   for (const file of ["LICENSE", "THIRD_PARTY.md", "README.md", "rondel.wasm", "src/module.js", "polygons.wasm", "src/polygons/module.js"]) {
     assert.ok(statSync(join(folder, file)).size > 100, file);
@@ -28,11 +29,12 @@ test("the package needs no other, and has a licence, types and a version", () =>
 
 test("the types say what the functions take", () => {
   const tsc = join(folder, "..", "typescript", "bin", "tsc");
-  const check = (name) => {
-    const flags = ["--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--typeRoots", "/nonexistent"];
+  const check = (name, ...more) => {
+    const flags = [...more, "--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--typeRoots", "/nonexistent"];
     execFileSync(process.execPath, [tsc, ...flags, new URL(name, import.meta.url).pathname]);
   };
   check("types_good.ts");
+  check("types_layers.ts", "--skipLibCheck"); // with the types of MapLibre and deck.gl
   assert.throws(() => check("types_bad.ts"), (error) => [...String(error.stdout).matchAll(/error TS/g)].length === 4);
 });
 

@@ -134,6 +134,18 @@ class Globes(PackageTest):
                 with self.subTest(f"{package}, {view}"):
                     self.compare_pictures(*(base64.b64decode(picture[view]) for picture in pictures))
 
+    def test_polygons_by_geo_triangulate_cover_the_same_pixels(self):
+        bundle("--format=iife", "--entry-names=globes_d3", TESTS / "globes.mjs")
+        page = self.page("globes.html?d3")
+        for ours, theirs in (("triangulatedThreeGlobe", "threeGlobe"), ("triangulatedGlobeGl", "globeGl")):
+            pictures = [page.run(f"globesTest.{name}()") for name in (ours, theirs)]
+            for view in pictures[0]:
+                with self.subTest(f"{ours}, {view}"):
+                    pixels = [list(zip(*[iter(base64.b64decode(picture[view]))] * 4)) for picture in pictures]
+                    a, b = ({i for i, (*rgb, _) in enumerate(every) if max(rgb) - min(rgb) > 40} for every in pixels)
+                    self.assertGreater(len(a), len(pixels[0]) // 20)
+                    self.assertGreater(len(a & b), 0.9 * len(a | b))  # theirs have sides and black borders, too
+
     def compare_pictures(self, *pictures):
         """At most one pixel of a thousand differs by more than 8 of 255; polygons cover a twentieth or more."""
         a, b = (list(zip(*[iter(picture)] * 4)) for picture in pictures)

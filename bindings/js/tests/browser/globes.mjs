@@ -6,12 +6,16 @@
 
 import { geoDelaunay } from "d3-geo-voronoi";
 import Globe from "globe.gl";
+import { geoTriangulate } from "rondel/polygons";
 import {
   AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
   Color,
   DoubleSide,
   Mesh,
   MeshBasicMaterial,
+  MeshLambertMaterial,
   MeshNormalMaterial,
   PerspectiveCamera,
   Scene,
@@ -76,10 +80,10 @@ function drawn(...objects) {
 }
 
 /** Waits until a globe has made the geometries of all polygons. */
-async function allPolygons(scene) {
+async function allPolygons(scene, isPolygon = (object) => object.geometry?.type === "ConicPolygonGeometry") {
   for (;;) {
     let number = 0;
-    scene.traverse((object) => (number += object.geometry?.type === "ConicPolygonGeometry" && object.geometry.index?.count > 0));
+    scene.traverse((object) => (number += isPolygon(object) && object.geometry.index?.count > 0));
     if (number >= features.length) return;
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
@@ -94,6 +98,18 @@ const settings = (globe) =>
     .polygonStrokeColor(() => "#000000")
     .polygonAltitude(0.03)
     .polygonsTransitionDuration(0);
+
+/** A polygon's triangles as an object of a custom layer of three-globe and globe.gl. */
+const triangulated = (globe) => ({ color, coordinates }) => {
+  const { points, triangles } = geoTriangulate({ type: "Polygon", coordinates }, { spacing: 3 });
+  const xyz = points.flatMap(([lon, lat]) => Object.values(globe.getCoords(lat, lon, 0.03)));
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(xyz), 3));
+  geometry.setIndex(triangles.flat());
+  geometry.computeVertexNormals();
+  return Object.assign(new Mesh(geometry, new MeshLambertMaterial({ color })), { name: "triangulated" });
+};
+const isTriangulated = ({ name }) => name === "triangulated";
 
 globalThis.globesTest = {
   /** Which implementation this is: d3's makes up triangles of points on one circle. */
@@ -112,6 +128,27 @@ globalThis.globesTest = {
     const globe = settings(new ThreeGlobe({ animateIn: false }));
     await allPolygons(globe);
     return drawn(globe, new AmbientLight("white", 3));
+  },
+
+  /** The polygons by geoTriangulate(), in custom layers. */
+  async triangulatedThreeGlobe() {
+    const globe = new ThreeGlobe({ animateIn: false }).showAtmosphere(false).customLayerData(polygons);
+    globe.customThreeObject(triangulated(globe));
+    await allPolygons(globe, isTriangulated);
+    return drawn(globe, new AmbientLight("white", 3));
+  },
+
+  async triangulatedGlobeGl() {
+    const element = document.createElement("div");
+    document.body.append(element);
+    const globe = new Globe(element, { animateIn: false, waitForGlobeReady: false });
+    globe.showAtmosphere(false).customLayerData(polygons).customThreeObject(triangulated(globe));
+    globe.width(size).height(size).backgroundColor("#ffffff").enablePointerInteraction(false);
+    await allPolygons(globe.scene(), isTriangulated);
+    globe.pauseAnimation();
+    const result = pictures(globe.renderer(), globe.scene(), globe.camera());
+    globe._destructor();
+    return result;
   },
 
   async globeGl() {
