@@ -71,8 +71,9 @@ void require_effect(CommonOptions& options, const CLI::Option* option,
 
 /// The help text of INPUT where it has sites.
 inline constexpr const char* default_input_help =
-    "The sites: .csv .tsv .xyz .txt .npy .geojson, the places of a netCDF file, or - for\n"
-    "standard input. Longitude and latitude in degrees, or x, y, z.";
+    "The sites: .csv .tsv .xyz .txt .npy .geojson, with GDAL installed .gpkg .fgb .shp\n"
+    ".parquet, the places of a netCDF file, or - for standard input. Longitude and\n"
+    "latitude in degrees, or x, y, z.";
 
 /// Returns the files from which a command reads sites or values.
 using TablesRead = std::function<std::vector<FileName>()>;

@@ -137,8 +137,9 @@ Command add_buffer_command(CLI::App& tool) {
       tool.add_subcommand("buffer", "Find the places within a distance of points, lines, polygons");
   add_input_file(
       *parser, "INPUT", options->common.input,
-      "Points, lines and polygons: .geojson; or sites: .csv .tsv .xyz .txt .npy, the places\n"
-      "of a netCDF file; or - for standard input, sites as CSV if no format is named")
+      "Points, lines and polygons: .geojson; or sites: .csv .tsv .xyz .txt .npy, with GDAL\n"
+      "installed .gpkg .fgb .shp .parquet, the places of a netCDF file; or - for standard\n"
+      "input, sites as CSV if no format is named")
       ->type_name("");
   parser
       ->add_option("--input-format", options->common.input_format,

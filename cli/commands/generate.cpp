@@ -64,7 +64,8 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
 ExitStatus run_generate(const GenerateOptions& options) {
   CommonOptions common = options.common;
   if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
-  require_output(common, can_write_sites(common.target()), ".csv .tsv .xyz .txt .npy");
+  require_output(common, can_write_sites(common.target()),
+                 ".csv .tsv .xyz .txt .npy .gpkg .fgb .parquet");
   const Kind& kind = *find_kind(options.kind);
   Recipe recipe = options.recipe;
   recipe.angle_deg =
@@ -125,8 +126,10 @@ Command add_generate_command(CLI::App& tool) {
       ->type_name("");
   CLI::Option* number = parser->add_option("-n,--number", recipe.n, "Number of sites, also as 1e6");
   number->check(count_error)->transform(digits_of_whole)->type_name("N");
-  add_output_option(*parser, options->common,
-                    "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy")
+  add_output_option(
+      *parser, options->common,
+      "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy; with GDAL\n"
+      "installed .gpkg .fgb .parquet")
       ->required();
   CLI::Option* seed =
       parser->add_option("--seed", recipe.seed, "Seed of the random numbers (default: 1)");

@@ -150,8 +150,9 @@ Command add_relate_command(CLI::App& tool) {
   options->common.output = "-";
   CLI::App* parser = tool.add_subcommand("relate", "Find pairs of features by how they lie");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The features A: .geojson, or sites: .csv .tsv .xyz .txt .npy, the places of a\n"
-                 "netCDF file; or - for standard input")
+                 "The features A: .geojson, or sites: .csv .tsv .xyz .txt .npy, with GDAL\n"
+                 "installed .gpkg .fgb .shp .parquet, the places of a netCDF file; or - for\n"
+                 "standard input")
       ->type_name("");
   add_input_file(*parser, "SECOND", options->second,
                  "The features B; without them those of A are related to each other")

@@ -188,8 +188,10 @@ struct SiteTable {
   [[nodiscard]] RONDEL_API SiteTable selection(const std::vector<bool>& keep) const;
 };
 
-/// Reads sites from .csv .tsv .xyz .txt .npy .geojson; "-" is standard input, as CSV if no format
-/// is named. A file without sites gives an empty table; a file without bytes is an error.
+/// Reads sites from .csv .tsv .xyz .txt .npy .geojson, and by GDAL from .gpkg .fgb .shp .parquet:
+/// GDAL is loaded when such a file is read, and its absence is a FileError. "-" is standard input,
+/// as CSV if no format is named. A file without sites gives an empty table; a file without bytes is
+/// an error.
 RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {},
                                 const Execution& execution = {});
 
@@ -231,7 +233,8 @@ RONDEL_API void write_cells(const FileName& file, const SiteTable& table,
 
 /// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
 /// With radii of circles at `positions`, .csv and .tsv have lon,lat,radius; .npy has `sites`, the
-/// polar points, as .xyz and .txt always have.
+/// polar points, as .xyz and .txt always have. GDAL writes .gpkg .fgb .parquet: points, and a field
+/// "radius" if there are radii.
 RONDEL_API void write_sites(const FileName& file, std::span<const Point> sites,
                             std::span<const LonLat> positions = {},
                             std::span<const double> radii_deg = {},

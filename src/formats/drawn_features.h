@@ -49,6 +49,8 @@ struct DrawnFeatures {
   std::vector<Measure> measures;
   std::span<const Column> columns;
   const Column& ids;
+  // True if each geometry is one point, which files of GDAL then have as a Point, not a MultiPoint.
+  bool are_single_points = false;
 };
 
 }  // namespace rondel::formats

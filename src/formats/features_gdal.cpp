@@ -52,12 +52,6 @@ const GdalFormat* gdal_format(const FileName& file) {
   return io::find_format<GdalFormat>(gdal_formats, file);
 }
 
-// Files in GDAL's memory have one name in the process.
-system::Mutex& gdal_lock() {
-  static system::Mutex lock;
-  return lock;
-}
-
 // Writes well-known binary (WKB), in the byte order of this machine.
 class WkbWriter {
  public:
@@ -135,10 +129,15 @@ void add_parts(const DrawnGeometry& geometry, PartKind kind, WkbWriter& wkb) {
 }
 
 // Returns a geometry: its parts of one kind, or a collection of those of several kinds.
-std::vector<unsigned char> wkb_of(const DrawnGeometry& geometry) {
+std::vector<unsigned char> wkb_of(const DrawnGeometry& geometry, bool is_single_point) {
   std::vector<PartKind> kinds(part_kinds.begin(), part_kinds.end());
   std::erase_if(kinds, [&](PartKind kind) { return geometry.num_parts(kind) == 0; });
   WkbWriter wkb;
+  if (is_single_point) {
+    wkb.begin(type_point);
+    wkb.add_position(geometry.points.front());
+    return wkb.bytes();
+  }
   if (kinds.size() > 1) {
     wkb.begin(type_collection);
     wkb.add_number(static_cast<std::uint32_t>(kinds.size()));
@@ -224,8 +223,8 @@ class GdalFile {
     GdalHandle const reference = gdal_.new_reference(nullptr);
     gdal_.set_well_known_reference(reference, "WGS84");
     gdal_.set_axis_mapping(reference, traditional_axes);
-    layer_ = gdal_.create_layer(dataset_, layer_name.c_str(), reference,
-                                common_type(features.geometries), nullptr);
+    const int type = features.are_single_points ? type_point : common_type(features.geometries);
+    layer_ = gdal_.create_layer(dataset_, layer_name.c_str(), reference, type, nullptr);
     gdal_.destroy_reference(reference);
     require(layer_ != nullptr);
     for (const Measure& measure : features.measures) add_field(measure.name, field_real);
@@ -240,7 +239,8 @@ class GdalFile {
   // Adds a feature. A cell of a column that is empty stays NULL, unless it is an empty text of
   // GeoJSON.
   void add(const DrawnFeatures& features, std::size_t row) {
-    const std::vector<unsigned char> wkb = wkb_of(features.geometries[row]);
+    const std::vector<unsigned char> wkb =
+        wkb_of(features.geometries[row], features.are_single_points);
     GdalHandle geometry = nullptr;
     require(gdal_.geometry_of_wkb(wkb.data(), nullptr, &geometry, static_cast<int>(wkb.size())) ==
             0);
@@ -321,7 +321,10 @@ void write_features_gdal(const FileName& file, const DrawnFeatures& features) {
   GdalFile made(file.path, format);
   const std::string stem = std::filesystem::path(file.path).stem().string();
   const bool has_name = file.path != "-" && file.bytes == nullptr;
-  made.make_layer(has_name ? stem : "cells", features, field_names(features, format));
+  made.make_layer(has_name                     ? stem
+                  : features.are_single_points ? "sites"
+                                               : "cells",
+                  features, field_names(features, format));
   for (std::size_t i = 0; i < features.geometries.size(); ++i) {
     if (features.is_written[i] && !features.geometries[i].is_empty()) made.add(features, i);
   }

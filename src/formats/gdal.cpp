@@ -13,9 +13,9 @@
 namespace rondel::formats {
 namespace {
 
-// Sets all members by the names that GDAL's C interface gives them; false if one is missing.
-bool load_symbols(void* library, Gdal& gdal) {
-  system::SymbolLoader from(library);
+// Sets the members that both directions need, and those of writing, by the names that GDAL's C
+// interface gives them.
+void load_writing(system::SymbolLoader& from, Gdal& gdal) {
   from.get(gdal.all_register, "GDALAllRegister");
   from.get(gdal.version_info, "GDALVersionInfo");
   from.get(gdal.push_error_handler, "CPLPushErrorHandler");
@@ -50,12 +50,59 @@ bool load_symbols(void* library, Gdal& gdal) {
   from.get(gdal.destroy_feature, "OGR_F_Destroy");
   from.get(gdal.take_bytes, "VSIGetMemFileBuffer");
   from.get(gdal.free_bytes, "VSIFree");
+}
+
+// Sets the members of reading.
+void load_reading(system::SymbolLoader& from, Gdal& gdal) {
+  from.get(gdal.open, "GDALOpenEx");
+  from.get(gdal.num_layers, "GDALDatasetGetLayerCount");
+  from.get(gdal.layer, "GDALDatasetGetLayer");
+  from.get(gdal.layer_name, "OGR_L_GetName");
+  from.get(gdal.layer_reference, "OGR_L_GetSpatialRef");
+  from.get(gdal.num_features, "OGR_L_GetFeatureCount");
+  from.get(gdal.reset_reading, "OGR_L_ResetReading");
+  from.get(gdal.next_feature, "OGR_L_GetNextFeature");
+  from.get(gdal.num_fields, "OGR_FD_GetFieldCount");
+  from.get(gdal.field, "OGR_FD_GetFieldDefn");
+  from.get(gdal.field_name, "OGR_Fld_GetNameRef");
+  from.get(gdal.field_type, "OGR_Fld_GetType");
+  from.get(gdal.is_set, "OGR_F_IsFieldSetAndNotNull");
+  from.get(gdal.real, "OGR_F_GetFieldAsDouble");
+  from.get(gdal.integer, "OGR_F_GetFieldAsInteger64");
+  from.get(gdal.text, "OGR_F_GetFieldAsString");
+  from.get(gdal.geometry, "OGR_F_GetGeometryRef");
+  from.get(gdal.geometry_type, "OGR_G_GetGeometryType");
+  from.get(gdal.flat_type, "OGR_GT_Flatten");
+  from.get(gdal.is_empty, "OGR_G_IsEmpty");
+  from.get(gdal.num_parts, "OGR_G_GetGeometryCount");
+  from.get(gdal.part, "OGR_G_GetGeometryRef");
+  from.get(gdal.x, "OGR_G_GetX");
+  from.get(gdal.y, "OGR_G_GetY");
+  from.get(gdal.is_geographic, "OSRIsGeographic");
+  from.get(gdal.angular_units, "OSRGetAngularUnits");
+  from.get(gdal.prime_meridian, "OSRGetPrimeMeridian");
+  from.get(gdal.reference_name, "OSRGetName");
+  from.get(gdal.place_file, "VSIFileFromMemBuffer");
+  from.get(gdal.close_file, "VSIFCloseL");
+  from.get(gdal.remove_file, "VSIUnlink");
+}
+
+// Sets all members; false if the library lacks one.
+bool load_symbols(void* library, Gdal& gdal) {
+  system::SymbolLoader from(library);
+  load_writing(from, gdal);
+  load_reading(from, gdal);
   return from.has_all();
 }
 
 }  // namespace
 
-const Gdal& load_gdal(const std::string& path) {
+system::Mutex& gdal_lock() {
+  static system::Mutex lock;
+  return lock;
+}
+
+const Gdal& load_gdal(const std::string& path, GdalUse use) {
   static Gdal gdal{};
   static const bool is_loaded = [] {
     void* const library =
@@ -67,9 +114,10 @@ const Gdal& load_gdal(const std::string& path) {
     return library != nullptr && load_symbols(library, gdal);
   }();
   if (!is_loaded) {
-    throw FileError(path +
-                    ": such files are written by GDAL, which is not found: install libgdal, "
-                    "name it by RONDEL_GDAL, or write .geojson for ogr2ogr");
+    const bool is_read = use == GdalUse::reading;
+    throw FileError(path + ": such files are " + (is_read ? "read" : "written") +
+                    " by GDAL, which is not found: install libgdal, name it by RONDEL_GDAL, or " +
+                    (is_read ? "convert it to .geojson by ogr2ogr" : "write .geojson for ogr2ogr"));
   }
   // Drivers are registered once for the process.
   static const bool is_ready = [] {

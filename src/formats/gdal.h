@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// GDAL, which is loaded when a file is to be written that only GDAL can write; Rondel is built and
-// runs without it. The members are functions of its C interface, whose binary form is the same
+// GDAL, which is loaded when a file is to be read or written that only GDAL knows; Rondel is built
+// and runs without it. The members are functions of its C interface, whose binary form is the same
 // since GDAL 3.0.
 //
 // in    a library on this machine
@@ -11,6 +11,8 @@
 
 #include <optional>
 #include <string>
+
+#include "system/mutex.h"
 
 namespace rondel::formats {
 
@@ -54,14 +56,52 @@ struct Gdal {
   int (*give_geometry)(GdalHandle, GdalHandle);
   int (*add_feature)(GdalHandle, GdalHandle);
   void (*destroy_feature)(GdalHandle);
+  GdalHandle (*open)(const char*, unsigned, const char* const*, const char* const*,
+                     const char* const*);
+  int (*num_layers)(GdalHandle);
+  GdalHandle (*layer)(GdalHandle, int);
+  const char* (*layer_name)(GdalHandle);
+  GdalHandle (*layer_reference)(GdalHandle);
+  long long (*num_features)(GdalHandle, int);
+  void (*reset_reading)(GdalHandle);
+  GdalHandle (*next_feature)(GdalHandle);
+  int (*num_fields)(GdalHandle);
+  GdalHandle (*field)(GdalHandle, int);
+  const char* (*field_name)(GdalHandle);
+  int (*field_type)(GdalHandle);
+  int (*is_set)(GdalHandle, int);
+  double (*real)(GdalHandle, int);
+  long long (*integer)(GdalHandle, int);
+  const char* (*text)(GdalHandle, int);
+  GdalHandle (*geometry)(GdalHandle);
+  int (*geometry_type)(GdalHandle);
+  int (*flat_type)(int);
+  int (*is_empty)(GdalHandle);
+  int (*num_parts)(GdalHandle);
+  GdalHandle (*part)(GdalHandle, int);
+  double (*x)(GdalHandle, int);
+  double (*y)(GdalHandle, int);
+  int (*is_geographic)(GdalHandle);
+  double (*angular_units)(GdalHandle, char**);
+  double (*prime_meridian)(GdalHandle, char**);
+  const char* (*reference_name)(GdalHandle);
+  GdalHandle (*place_file)(const char*, unsigned char*, unsigned long long, int);
+  int (*close_file)(GdalHandle);
+  int (*remove_file)(const char*);
   unsigned char* (*take_bytes)(const char*, unsigned long long*, int);
   void (*free_bytes)(void*);
 };
 
+// What GDAL is wanted for, which an error says.
+enum class GdalUse { writing, reading };
+
 // Returns the library that the environment variable RONDEL_GDAL names, or else the newest that the
 // system finds, with its drivers registered. Throws FileError, which begins with `path`, if there
 // is no GDAL.
-const Gdal& load_gdal(const std::string& path);
+const Gdal& load_gdal(const std::string& path, GdalUse use = GdalUse::writing);
+
+// Returns the lock for files in GDAL's memory, which have one name in the process.
+system::Mutex& gdal_lock();
 
 // While this object exists, GDAL does not print the errors of this thread; last_error() returns
 // them.

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells as GeoPackage and FlatGeobuf: what GDAL reads of them is what GeoJSON has.
+"""Cells as GeoPackage and FlatGeobuf: what GDAL reads of them is what GeoJSON has. Sites, too, which are also read.
 
 The library is that of pyogrio's wheel; without it ctest says "Skipped".
 """
 
+import csv
 import importlib.util
 import json
 import os
@@ -20,6 +21,7 @@ if any(importlib.util.find_spec(name) is None for name in ("pyogrio", "geopandas
 import geopandas
 import numpy as np
 import pyogrio
+import shapely
 
 TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 DATA = pathlib.Path(__file__).resolve().parents[2] / "data"
@@ -30,7 +32,9 @@ if not LIBRARIES:
 ENVIRONMENT = {**os.environ, "RONDEL_GDAL": str(LIBRARIES[0])}
 
 
-class FilesOfGdal(unittest.TestCase):
+class Folder(unittest.TestCase):
+    """Has a folder in which the tool runs."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -43,6 +47,8 @@ class FilesOfGdal(unittest.TestCase):
     def voronoi(self, *arguments):
         return self.run_tool("voronoi", *arguments)
 
+
+class FilesOfGdal(Folder):
     def written(self, name, *arguments):
         done = self.voronoi(*arguments, "-o", name)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -153,6 +159,135 @@ class FilesOfGdal(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"\Arondel: cells.parquet: GDAL [0-9.]+ has no driver 'Parquet'; .*\n\Z")
         self.assertEqual(list(self.folder.iterdir()), [])
+
+class SitesOfGdal(Folder):
+    """Sites in files that geopandas has written, or reads."""
+
+    def frame(self, **columns):
+        points = [shapely.Point(lon, lat) for lon, lat in ((0, 0), (90, 10), (-180, -33.25), (12.1, 90), (0.1, -89.9))]
+        return geopandas.GeoDataFrame(columns, geometry=points, crs="EPSG:4326")
+
+    def cells(self, name, *options):
+        """The cells of a file of sites, by site, as GeoJSON."""
+        done = self.voronoi(name, *options, "-o", "cells.geojson")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        features = json.loads((self.folder / "cells.geojson").read_text())["features"]
+        return {feature["properties"].pop("site"): feature for feature in features}
+
+    def refused(self, name, message, *options):
+        done = self.voronoi(name, *options, "-o", "cells.geojson")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, rf"\Arondel: {message}\n\Z")
+        self.assertFalse((self.folder / "cells.geojson").exists())
+
+    def test_are_those_of_geojson(self):
+        """All stations, with texts, numbers and missing values: the same cells and columns, byte by byte."""
+        with open(DATA / "stations.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        points = [shapely.Point(float(row["longitude"]), float(row["latitude"])) for row in rows]
+        columns = {"id": [row["id"] for row in rows], "name": [row["name"] if i % 7 else None for i, row in enumerate(rows)],
+                   "value": [None if i % 11 == 0 else i / 7 for i in range(len(rows))],
+                   "count": np.arange(len(rows), dtype=np.int64) + 2**40}
+        frame = geopandas.GeoDataFrame(columns, geometry=points, crs="EPSG:4326")
+        features = [{"type": "Feature", "properties": {**{key: values[i] for key, values in columns.items()}, "count": int(columns["count"][i])},
+                     "geometry": {"type": "Point", "coordinates": [points[i].x, points[i].y]}} for i in range(len(rows))]
+        (self.folder / "s.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        expected = self.cells("s.geojson")
+        self.assertGreater(len(expected), 5600)
+        for name in ("s.gpkg", "s.fgb", "s.shp"):
+            options = {"SPATIAL_INDEX": "NO"} if name == "s.fgb" else {}  # which would sort them
+            frame.to_file(self.folder / name, engine="pyogrio", **options)
+            found = self.cells(name)
+            self.assertEqual([*found], [*expected])
+            for site, feature in expected.items():
+                wanted = dict(feature["properties"])
+                if name == "s.shp":  # its texts have no null, its numbers 15 digits
+                    wanted["value"] = found[site]["properties"]["value"]
+                    wanted["name"] = found[site]["properties"]["name"]
+                self.assertEqual(found[site]["properties"], wanted, (name, site))
+                self.assertEqual(found[site]["geometry"], feature["geometry"], (name, site))
+        self.cells("s.fgb")
+        with open(self.folder / "s.fgb", "rb") as file:
+            done = subprocess.run([TOOL, "voronoi", "-", "--input-format", "fgb", "-o", "c.geojson", "--quiet"], cwd=self.folder,
+                                  env=ENVIRONMENT, stdin=file, capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertEqual((self.folder / "c.geojson").read_bytes(), (self.folder / "cells.geojson").read_bytes())
+
+    def test_values_are_interpolated(self):
+        frame = self.frame(t=[1.5, 2.5, 3.5, np.nan, 5.5])
+        frame.to_file(self.folder / "s.gpkg")
+        table = frame.assign(lon=frame.geometry.x, lat=frame.geometry.y).drop(columns="geometry")
+        table.to_csv(self.folder / "s.csv", index=False)
+        for name in ("s.gpkg", "s.csv"):
+            done = self.run_tool("interpolate", name, "--value", "t", "--to", "grid:30", "-o", f"{name}.npy")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        ours, theirs = (np.load(self.folder / f"{name}.npy") for name in ("s.gpkg", "s.csv"))
+        self.assertTrue(np.array_equal(ours, theirs, equal_nan=True))
+        self.assertGreater(np.isfinite(ours).sum(), 10)
+
+    def test_multipoints_and_features_without_a_place(self):
+        geometry = [shapely.MultiPoint([(0, 0), (90, 0), (0, 90)]), None, shapely.Point(), shapely.Point(-120, -40)]
+        geopandas.GeoDataFrame({"k": [1, 2, 3, 4]}, geometry=geometry, crs="EPSG:4326").to_file(self.folder / "m.gpkg")
+        done = subprocess.run([TOOL, "voronoi", "m.gpkg", "-o", "cells.geojson", "--json"], cwd=self.folder, env=ENVIRONMENT,
+                              text=True, capture_output=True, check=True)
+        report = json.loads(done.stdout)
+        self.assertEqual((report["sites"], report["unlocated"]), (4, 2))
+        features = json.loads((self.folder / "cells.geojson").read_text())["features"]
+        self.assertEqual([feature["properties"]["k"] for feature in features], [1, 1, 1, 4])
+
+    def test_circles(self):
+        frame = self.frame(r=[5.0, 10, 15, 20, 25], t=["5", "10", "15", "20", "x"])
+        frame.to_file(self.folder / "c.fgb", SPATIAL_INDEX="NO")
+        table = frame.assign(lon=frame.geometry.x, lat=frame.geometry.y).drop(columns="geometry")
+        table.to_csv(self.folder / "c.csv", index=False)
+        areas = [[cell["properties"]["area"] for cell in self.cells(name, "--radius", "r").values()] for name in ("c.fgb", "c.csv")]
+        self.assertEqual(*areas)
+        (self.folder / "cells.geojson").unlink()
+        self.refused("c.fgb", "c.fgb: feature 4: radius .x. .*", "--radius", "t")
+        self.refused("c.fgb", 'c.fgb: no field "q"', "--radius", "q")
+
+    def test_what_is_not_sites_is_refused(self):
+        frame = self.frame(k=[1, 2, 3, 4, 5])
+        frame.iloc[:2].to_crs("EPSG:3857").to_file(self.folder / "p.gpkg")
+        self.refused("p.gpkg", r'p.gpkg: the coordinate system "WGS 84 / Pseudo-Mercator" is not longitude and latitude .*')
+        frame.to_crs("EPSG:4807").to_file(self.folder / "paris.gpkg")  # grads from Paris
+        self.refused("paris.gpkg", "paris.gpkg: the coordinate system .* is not longitude and latitude in degrees; .*")
+        for layer in ("a", "b"):
+            frame.to_file(self.folder / "two.gpkg", layer=layer)
+        self.refused("two.gpkg", "two.gpkg: it has several layers: a, b; .*")
+        frame.set_geometry([point.buffer(1) for point in frame.geometry]).to_file(self.folder / "areas.fgb", SPATIAL_INDEX="NO")
+        self.refused("areas.fgb", "areas.fgb: feature 0: it has lines or polygons where a Point is needed")
+        (self.folder / "no.gpkg").write_text("this is no database")
+        self.refused("no.gpkg", "no.gpkg: GDAL: .*")
+        self.refused("nothere.shp", "nothere.shp: No such file or directory")
+        bad = geopandas.GeoDataFrame({"k": [1, 2]}, geometry=[shapely.Point(0, 0), shapely.Point(0, 91)], crs="EPSG:4326")
+        bad.to_file(self.folder / "bad.gpkg")
+        self.refused("bad.gpkg", r"bad.gpkg: feature 1: latitude 91 is outside \[-90, 90\]")
+        frame.iloc[:0].to_file(self.folder / "none.gpkg", geometry_type="Point")
+        self.assertEqual(self.voronoi("none.gpkg", "-o", "cells.geojson").returncode, 0)
+
+    def test_are_written(self):
+        """Points with the digits of the table, and the radii of circles."""
+        for kind, options in (("uniform", ()), ("circles", ("--angle", "20"))):
+            for name in ("w.csv", "w.gpkg", "w.fgb"):
+                done = self.run_tool("generate", kind, "-n", "200", *options, "-o", name)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+            with open(self.folder / "w.csv", encoding="utf-8", newline="") as file:
+                rows = list(csv.DictReader(file))
+            if "lon" not in rows[0]:
+                for name in ("w.gpkg", "w.fgb"):
+                    faces = [self.run_tool("delaunay", f, "-o", f"{f}.npy").returncode for f in ("w.csv", name)]
+                    self.assertEqual(faces, [0, 0])
+                    self.assertEqual(len(np.load(self.folder / f"{name}.npy")), len(np.load(self.folder / "w.csv.npy")))
+                continue
+            expected = sorted((float(row["lon"]), float(row["lat"])) for row in rows)
+            for name in ("w.gpkg", "w.fgb"):
+                found = geopandas.read_file(self.folder / name)
+                self.assertEqual(found.crs, "EPSG:4326")
+                self.assertEqual(set(found.geom_type), {"Point"})
+                self.assertEqual(sorted(zip(found.geometry.x, found.geometry.y)), expected)
+                if options:
+                    self.assertEqual(sorted(found["radius"]), sorted(float(row["radius"]) for row in rows))
 
 
 if __name__ == "__main__":
