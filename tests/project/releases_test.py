@@ -5,6 +5,7 @@
     releases_test.py SOURCE_FOLDER
 """
 
+import configparser
 import hashlib
 import importlib.machinery
 import importlib.util
@@ -17,6 +18,7 @@ import sys
 import tarfile
 import tempfile
 import unittest
+import zipfile
 
 ROOT = pathlib.Path(sys.argv.pop(1))
 VERSION = (ROOT / "VERSION").read_text(encoding="utf-8").strip()
@@ -124,6 +126,19 @@ class Archives(unittest.TestCase):
         port = json.loads(texts["vcpkg.json"])
         self.assertEqual((port["name"], port["version"]), ("rondel", "1.2.3"))
         self.assertRaises(ValueError, release.with_values, "@WHAT@", {"URL": "x"})
+
+    def test_the_plugin_for_qgis_says_which_version_it_is(self):
+        release.write_plugin("https://forge.example/owner/rondel", self.folder, "1.2.3")
+        with zipfile.ZipFile(self.folder / "rondel-1.2.3-qgis.zip") as plugin:
+            names = plugin.namelist()
+            metadata = configparser.ConfigParser()
+            metadata.read_string(plugin.read("rondel_processing/metadata.txt").decode())
+        self.assertTrue({"rondel_processing/__init__.py", "rondel_processing/LICENSE"} <= set(names))
+        self.assertFalse([name for name in names if "__pycache__" in name])
+        general = metadata["general"]
+        self.assertEqual((general["version"], general["repository"]), ("1.2.3", "https://forge.example/owner/rondel"))
+        needed = {"name", "qgisMinimumVersion", "description", "about", "author", "email", "tracker", "hasProcessingProvider"}
+        self.assertTrue({key.lower() for key in needed} <= set(general))
 
     def test_recipes_set_options_that_there_are(self):
         options = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")

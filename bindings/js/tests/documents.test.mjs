@@ -11,7 +11,7 @@ import { test } from "node:test";
 
 const block = /^```js\n([^]*?)^```\n(?:\n^```text\n([^]*?)^```)?/gm;
 
-for (const document of ["docs/guide/javascript.md", "bindings/js/README.md", "README.md"]) {
+for (const document of ["docs/guide/javascript.md", "docs/guide/web-maps.md", "bindings/js/README.md", "README.md"]) {
   const text = readFileSync(join(process.env.RONDEL_SOURCE_DIR, document), "utf8");
   [...text.matchAll(block)].forEach(([, code, expected], i) => {
     test(`example ${i + 1} of ${document}`, () => {
