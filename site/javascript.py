@@ -14,6 +14,7 @@ TITLES = {
     "index": "The module rondel",
     "d3/index": "The module rondel/d3",
     "worker/index": "The module rondel/worker",
+    "surface/index": "The module rondel/surface",
 }
 
 
@@ -41,7 +42,7 @@ def main(modules, package, folder):
         index.write_text(text + listed, encoding="utf-8")
     (folder / "index.md").write_text(
         "# JavaScript\n\nThe npm package `rondel`, from its types; [the guide](/docs/guide/javascript.md) shows how the parts go together.\n\n"
-        "```{toctree}\n:maxdepth: 1\n\nindex/index\nd3/index\nworker/index\n```\n",
+        "```{toctree}\n:maxdepth: 1\n\nindex/index\nd3/index\nworker/index\nsurface/index\n```\n",
         encoding="utf-8",
     )
 
