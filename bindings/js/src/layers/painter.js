@@ -3,7 +3,7 @@
 
 // What layers of all hosts do: ask for what they show, keep it on the graphics card, and draw it.
 
-import { defaultColors, rgba } from "./colors.js";
+import { defaultColors, ramp, rgba } from "./colors.js";
 import { Renderer } from "./renderer.js";
 import { vertexValues } from "../surface/meshes.js";
 
@@ -25,6 +25,23 @@ import { vertexValues } from "../surface/meshes.js";
  * @property {number} [spacing] degrees: sides that are longer are divided, so that they follow the globe; default 2
  */
 
+const shown = ["cells", "triangles", "isolines", "cell-borders", "triangle-borders"];
+
+/**
+ * Returns the options if they can be drawn; otherwise the error comes now, not when the host draws.
+ * @param {LayerOptions} options
+ */
+function checked(options) {
+  const { sites, show = "cells", colors, lineColor, levels, domain } = options;
+  if (typeof sites?.drawn !== "function") throw new TypeError("sites: what SphereSites.open() returns is wanted");
+  if (!shown.includes(show)) throw new TypeError(`show is ${JSON.stringify(show)}, not one of ${shown.join(", ")}`);
+  if (show === "isolines" && !levels) throw new TypeError("levels: isolines need them");
+  if (colors) ramp(colors);
+  if (lineColor) rgba(lineColor);
+  if (domain && !domain.every(Number.isFinite)) throw new TypeError("domain: two numbers are wanted");
+  return options;
+}
+
 /** One layer's drawing. */
 export class Painter {
   /** @type {Renderer | undefined} */
@@ -42,7 +59,7 @@ export class Painter {
    * @param {() => void} redraw asks the host to draw
    */
   constructor(options, redraw) {
-    this.options = options;
+    this.options = checked(options);
     this.redraw = redraw;
     this.listen();
     /** Whether what the layer shows can be drawn. */
@@ -74,7 +91,7 @@ export class Painter {
   /** @param {LayerOptions} options */
   setOptions(options) {
     const before = this.options;
-    this.options = options;
+    this.options = checked(options);
     if (before.sites !== options.sites) this.listen();
     const levels = (/** @type {LayerOptions} */ { levels: list }) => Array.from(list ?? []).join();
     const isSame =
