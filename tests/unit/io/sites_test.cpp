@@ -108,7 +108,7 @@ TEST(read_sites, reads_the_format_and_the_delimiter_that_are_named) {
             }),
             file +
                 ": unknown format \"xlsx\"; sites are read from .csv .tsv .xyz .txt .npy "
-                ".geojson");
+                ".geojson .gpkg .fgb .shp .parquet");
 }
 
 TEST(read_sites, counts_features_without_a_place) {
