@@ -224,7 +224,12 @@ class GdalFile {
     gdal_.set_well_known_reference(reference, "WGS84");
     gdal_.set_axis_mapping(reference, traditional_axes);
     const int type = features.are_single_points ? type_point : common_type(features.geometries);
-    layer_ = gdal_.create_layer(dataset_, layer_name.c_str(), reference, type, nullptr);
+    // FlatGeobuf's index would change the order of the sites, which others count.
+    std::string no_index = "SPATIAL_INDEX=NO";
+    std::array<char*, 2> in_order = {no_index.data(), nullptr};
+    const bool keeps_order = features.are_single_points && name_.ends_with(".fgb");
+    layer_ = gdal_.create_layer(dataset_, layer_name.c_str(), reference, type,
+                                keeps_order ? in_order.data() : nullptr);
     gdal_.destroy_reference(reference);
     require(layer_ != nullptr);
     for (const Measure& measure : features.measures) add_field(measure.name, field_real);
