@@ -27,6 +27,14 @@ test("the package needs no other, and has a licence, types and a version", () =>
   }
 });
 
+test("the examples have the versions that are tested", () => {
+  const read = (...path) => JSON.parse(readFileSync(join(process.env.RONDEL_SOURCE_DIR, ...path), "utf8"));
+  const tested = read("bindings", "js", "package.json").devDependencies;
+  const { rondel, ...others } = read("examples", "web", "package.json").dependencies;
+  assert.equal(rondel, "file:../../build/js/package");
+  for (const [name, version] of Object.entries(others)) assert.equal(version, tested[name], name);
+});
+
 test("the types say what the functions take", () => {
   const tsc = join(folder, "..", "typescript", "bin", "tsc");
   const check = (name, ...more) => {
