@@ -73,11 +73,11 @@ class SiteSource {
       throw FileError(name_ + ": GDAL " + gdal_.version_info("RELEASE_NAME") + " has no driver '" +
                       format.driver + "'");
     }
-    const std::string path = bytes.has_path() ? file.path : placed(bytes, format);
+    path_ = bytes.has_path() ? file.path : placed(bytes, format);
     const std::array<const char*, 2> drivers = {format.driver, nullptr};
     gdal_.reset_error();
     dataset_ =
-        gdal_.open(path.c_str(), open_vector | open_with_errors, drivers.data(), nullptr, nullptr);
+        gdal_.open(path_.c_str(), open_vector | open_with_errors, drivers.data(), nullptr, nullptr);
     if (dataset_ == nullptr) fail();
   }
   ~SiteSource() {
@@ -112,6 +112,7 @@ class SiteSource {
   QuietGdal quiet_;
   std::string name_;
   std::string memory_;  // a name in GDAL's memory
+  std::string path_;    // what GDAL opens
   bool is_in_memory_ = false;
   GdalHandle dataset_ = nullptr;
 };
