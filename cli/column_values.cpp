@@ -7,11 +7,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <string_view>
+#include <system_error>
 
 #include "command.h"
+#include "double_text.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/read_cells.h"
@@ -27,10 +28,9 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
   if (first == std::string_view::npos) return value;
   cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
   if (cell == "NA" || cell == "null") return value;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const auto [end, error] = double_from(cell.data(), cell.data() + cell.size(), value);
   const bool is_number = end == cell.data() + cell.size() && error != std::errc::invalid_argument;
   const bool is_beyond = is_number && error == std::errc::result_out_of_range;
-  if (is_beyond) value = std::strtod(std::string(cell).c_str(), nullptr);  // 0, or infinite
   if (is_number && !std::isinf(value)) return value;
   const char* why = "is not a number";
   if (is_number) why = is_beyond ? "is beyond the largest number" : "is not finite";

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "command.h"
+#include "double_text.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -23,11 +24,11 @@ std::vector<std::string> parts_of(const std::string& text) {
   return parts;
 }
 
-// Returns the number in a text that finite_error() accepts; from_chars does not know a plus sign.
+// Returns the number in a text that finite_error() accepts; double_from() does not know a plus sign.
 double number_of(const std::string& text) {
   double value = 0;
   const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  std::from_chars(begin, text.data() + text.size(), value);
+  double_from(begin, text.data() + text.size(), value);
   return value;
 }
 
@@ -38,7 +39,7 @@ double rounded_to_15_digits(double value) {
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 15)
           .ptr;
   double rounded = value;
-  std::from_chars(text.data(), end, rounded);
+  double_from(text.data(), end, rounded);
   return rounded + 0.0;  // turns -0 into 0
 }
 

@@ -57,9 +57,7 @@ std::vector<Command> add_commands(CLI::App& tool) {
             {add_regrid_command(tool), add_remap_command(tool), add_apply_command(tool),
              add_check_weights_command(tool)});
   add_group(all, "Commands for meshes of models", {add_mesh_command(tool)});
-#if defined(RONDEL_HAS_PLOT)
   add_group(all, "Commands for pictures", {add_plot_command(tool)});
-#endif
   add_group(all, "Commands to begin with",
             {add_info_command(tool), add_generate_command(tool), add_completion_command(tool)});
   return all;

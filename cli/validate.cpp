@@ -9,7 +9,9 @@
 #include <cstdio>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 
+#include "double_text.h"
 #include "rondel/types.h"
 
 namespace rondel::cli {
@@ -19,8 +21,13 @@ namespace {
 template <class Number>
 bool parse(const std::string& text, Number& value) {
   const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
+  if constexpr (std::is_integral_v<Number>) {
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    return error == std::errc() && rest == end;
+  } else {
+    const auto [rest, error] = double_from(text.data(), end, value);
+    return error == std::errc() && rest == end;
+  }
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "double_text.h"
 #include "job.h"
 #include "report.h"
 #include "rondel/delaunay.h"
@@ -240,7 +240,7 @@ std::string earth_radius_error(const std::string& text) {
   if (!error.empty()) return error;
   // The text is a number, as positive_error() accepts it.
   double radius = 0;
-  std::from_chars(text.data(), text.data() + text.size(), radius);
+  double_from(text.data(), text.data() + text.size(), radius);
   if (std::isnormal(4 * std::numbers::pi * (radius * radius))) return {};
   return "'" + text + "' is the radius of a sphere whose area is no number";
 }
