@@ -47,6 +47,8 @@ Modules
 -------
 rondel.mesh
     Meshes of models: arrays, quality, files.
+rondel.data
+    Small samples: weather stations, land and countries.
 rondel.out_of_core
     Triangulations that are larger than the memory, from files to files.
 rondel.distributed
@@ -154,6 +156,7 @@ from ._weights import Weights, read_weights
 from ._zonal import zonal_statistics
 
 if TYPE_CHECKING:
+    from . import data as data
     from . import distributed as distributed
     from . import out_of_core as out_of_core
 
@@ -246,7 +249,7 @@ if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
         """The modules that few programs need, when they are asked for."""
-        if name not in ("distributed", "out_of_core"):
+        if name not in ("data", "distributed", "out_of_core"):
             raise AttributeError(f"module 'rondel' has no attribute {name!r}")
         import importlib
 
@@ -255,4 +258,4 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     """List the names that are for users, and the modules."""
-    return sorted([*__all__, "__version__", "distributed", "mesh", "out_of_core"])
+    return sorted([*__all__, "__version__", "data", "distributed", "mesh", "out_of_core"])

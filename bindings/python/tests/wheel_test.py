@@ -31,7 +31,8 @@ def configure(tmp_path):
             "CMAKE_BUILD_TYPE": "Release",
             "Python_EXECUTABLE": sys.executable,
             "RONDEL_BUILD_PYTHON": "ON",
-            "RONDEL_BUILD_TOOL": "OFF",
+            "RONDEL_BUILD_PLOT": "OFF",
+            "RONDEL_BUILD_TOOL": "ON",
         }
         defined = [f"-D{name}={value}" for name, value in settings.items()]
         ended = subprocess.run(
@@ -94,6 +95,7 @@ def test_what_is_imported_has_all_modules():
 @pytest.mark.parametrize(
     ("package", "debian"),
     [
+        ("CLI11", "libcli11-dev"),
         ("FastFloat", "libfast-float-dev"),
         ("nlohmann_json", "nlohmann-json3-dev"),
         ("ZLIB", "zlib1g-dev"),
