@@ -134,6 +134,19 @@ void add_mesh(nb::module_& module) {
       },
       nb::arg("threads"));
   type.def(
+      "cell_quality",
+      [](const VoronoiMesh& self, unsigned threads) {
+        mesh::CellQuality cells = watched_quietly(
+            self.num_cells(), threads,
+            [&](const Execution& execution) { return mesh::cell_quality(self, execution); });
+        return std::tuple(to_array<double>(std::move(cells.centroid_offset)),
+                          to_array<double>(std::move(cells.edge_ratio)),
+                          to_array<double>(std::move(cells.side_ratio)),
+                          to_array<double>(std::move(cells.distance_ratio)),
+                          to_array<double>(std::move(cells.gradient)));
+      },
+      nb::arg("threads"));
+  type.def(
       "quality_picture",
       [](const VoronoiMesh& self, std::size_t num_worst) {
         return unlocked(

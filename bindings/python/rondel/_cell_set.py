@@ -24,6 +24,7 @@ from ._geometries import (
     read_cells,
 )
 from ._pickled import arrays_of, with_arrays
+from ._plot_cells import plot_cells
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
@@ -555,6 +556,8 @@ class CellSet(Described):
 
         """
         return self._cells.rings().whole
+
+    plot = plot_cells
 
     def repaired(self, *, threads: int | None = None) -> CellSet:
         """Repairs the cells that cross or overlap themselves, which `areas` refuses.

@@ -15,7 +15,7 @@ from . import _core
 from ._arrays import as_fields, as_floats, as_threads, frozen
 from ._geo import written
 from ._pickled import arrays_of, with_arrays
-from ._plot import draw_arcs
+from ._plot_contours import plot_bands, plot_isolines
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, Triangulated
 
@@ -198,26 +198,55 @@ class Isolines(Traced):
             found.append(np.concatenate([line, line[:1]]) if self.is_closed[i] else line)
         return found
 
-    def plot(self, ax: Any = None, *, projection: Any = None, **options: Any) -> Axes:
-        """Draws the lines on axes like those of `SphericalDelaunay.plot`.
+    def plot(
+        self,
+        ax: Any = None,
+        *,
+        projection: Any = None,
+        coast: bool = False,
+        cmap: Any = None,
+        label: str | None = None,
+        colorbar: bool = True,
+        **options: Any,
+    ) -> Axes:
+        """Draws the lines in the colors of their levels.
 
         Parameters
         ----------
         ax, projection
-            As there; by default new axes.
+            As in `SphericalDelaunay.plot`; by default new axes.
+        coast : bool, optional
+            Whether to draw the coasts of the Earth below; by default False, as lines are often
+            drawn on the axes of another picture.
+        cmap : optional
+            The colors of the levels, as everywhere in Matplotlib.
+        label : str, optional
+            What the levels are, with their unit, beside the color bar.
+        colorbar : bool, optional
+            Whether there is a color bar with a mark for each level, by default True.
         **options
-            Options of `matplotlib.collections.LineCollection`.
+            Options of `matplotlib.collections.LineCollection`; with ``colors="black"`` the lines
+            have that color, and there is no color bar.
 
         Returns
         -------
         matplotlib.axes.Axes
-            The axes.
+            The axes. The last one of ``ax.collections`` are the lines.
+
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> x = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+        >>> lines = rondel.delaunay(x).isolines([0, 0, 0, 0, 1, -1], [-0.5, 0, 0.5])
+        >>> ax = lines.plot(label="height (m)", coast=True)
 
         """
-        lines = [line for k in range(len(self.levels)) for line in self.lines(k)]
-        pieces = [np.stack([line[:-1], line[1:]], axis=1) for line in lines]
-        ends = np.concatenate([np.zeros((0, 2, 3)), *pieces])
-        return draw_arcs(ends, ax, projection, {"colors": "black", **options})
+        return plot_isolines(self, ax, projection, coast, cmap, label, colorbar, options)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
@@ -257,6 +286,55 @@ class Bands(Traced):
             ]
             for i in range(*_rows(self.band_offsets, band))
         ]
+
+    def plot(
+        self,
+        ax: Any = None,
+        *,
+        projection: Any = None,
+        coast: bool = True,
+        cmap: Any = None,
+        label: str | None = None,
+        colorbar: bool = True,
+        **options: Any,
+    ) -> Axes:
+        """Fills the bands with the colors of their values.
+
+        Parameters
+        ----------
+        ax, projection
+            As in `SphericalDelaunay.plot`; by default new axes.
+        coast : bool, optional
+            Whether to draw the coasts of the Earth on top, by default True.
+        cmap : optional
+            The colors of the bands, as everywhere in Matplotlib.
+        label : str, optional
+            What the levels are, with their unit, beside the color bar.
+        colorbar : bool, optional
+            Whether there is a color bar, by default True. Its ends are pointed: the first band is
+            below all levels, the last one above.
+        **options
+            Options of the `matplotlib.collections.PathCollection` of the bands.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes. ``ax.collections[0]`` are the bands if the axes are new.
+
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> x = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+        >>> bands = rondel.delaunay(x).bands([0, 0, 0, 0, 1, -1], [-0.5, 0, 0.5])
+        >>> ax = bands.plot(label="height (m)")
+
+        """
+        return plot_bands(self, ax, projection, coast, cmap, label, colorbar, options)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

@@ -1,41 +1,21 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Removed cells, fixed sites and pictures of meshes."""
+"""Removed cells and fixed sites of meshes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_points, as_threads, degrees_of, require_unmasked
+from ._arrays import as_points, as_threads, require_unmasked
 from ._geometries import Edges, Invalid, features_of, is_file
-from ._lonlat import arcs
-from ._plot import draw_cells, draw_coast_lines, limits, line_options, make_map
 from ._regions import as_cell_set
-from ._types import ArrayLike, FloatArray, IntArray, Path
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from ._types import ArrayLike, FloatArray, Path
 
 Lines: TypeAlias = Path | Sequence[ArrayLike] | Any
-
-
-class Drawn(Protocol):
-    """The parts of a `rondel.mesh.Mesh` from which a picture is drawn."""
-
-    _arrays: _core.VoronoiMesh
-
-    @property
-    def radius(self) -> float: ...
-    @property
-    def points(self) -> FloatArray: ...
-    @property
-    def vertex_points(self) -> FloatArray: ...
-    @property
-    def vertices_on_edge(self) -> IntArray: ...
 
 
 def removed_cells(
@@ -111,56 +91,3 @@ def _are_features(lines: Any) -> bool:
 
 def _is_geometry(item: Any) -> bool:
     return isinstance(item, Mapping) or hasattr(item, "__geo_interface__")
-
-
-def plot_mesh(
-    self: Drawn,
-    values: ArrayLike | None = None,
-    ax: Any = None,
-    *,
-    projection: Any = None,
-    sites: bool = False,
-    coast: bool = False,
-    cmap: Any = None,
-    vmin: float | None = None,
-    vmax: float | None = None,
-    **options: Any,
-) -> Axes:
-    """Draws the edges as arcs of great circles, and values as colors of cells.
-
-    Parameters
-    ----------
-    values : array_like, shape (n,), optional
-        A number for each cell, shown as its color; by default cells are not filled.
-    ax, projection, sites, coast, cmap, vmin, vmax, **options
-        As in `SphericalVoronoi.plot`; by default neither sites nor coasts are drawn.
-
-    Returns
-    -------
-    matplotlib.axes.Axes
-
-    Raises
-    ------
-    ImportError
-        If Matplotlib is not installed.
-
-    """
-    drawn = make_map(ax, projection)
-    if values is not None:
-        colors = as_floats(values, "values")
-        if colors.shape != (len(self.points),):
-            raise ValueError(f"values has the shape {colors.shape}, not ({len(self.points)},)")
-
-        def owner_at(degrees: Any) -> int:
-            return int(np.argmax(self.points @ _core.unit_vectors(np.array([degrees], float))[0]))
-
-        polygons = _core.mesh_polygons(self._arrays, 0.1)
-        cells = draw_cells(drawn, polygons, owner_at, colors, cmap)
-        cells.set_clim(*limits(colors, vmin, vmax))
-    if coast:
-        draw_coast_lines(drawn)
-    ends = (self.vertex_points / self.radius)[self.vertices_on_edge]
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-    if sites:
-        drawn.draw_points(degrees_of(self.points))
-    return drawn.ax

@@ -5,16 +5,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core
-from ._arrays import unmasked
+from ._arrays import as_floats, unmasked
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
-from ._projection import LonLatMap, ProjectedMap
-from ._types import ArrayLike, Divided, FloatArray, Triangulated
+from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map
+from ._projection import LonLatMap
+from ._rings import draw_rings, polygon_rings
+from ._types import ArrayLike, Divided, FloatArray, IntArray, Triangulated
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,52 +51,106 @@ class TrianglePictures:
         self: Triangulated,
         ax: Any = None,
         *,
+        values: ArrayLike | None = None,
+        edges: ArrayLike | None = None,
         projection: Any = None,
-        sites: bool = True,
+        sites: bool | None = None,
         coast: bool | None = None,
+        cmap: Any = None,
+        vmin: float | None = None,
+        vmax: float | None = None,
+        label: str | None = None,
+        colorbar: bool = True,
         **options: Any,
     ) -> Axes:
-        """Draws the edges as arcs of great circles, and the sites.
+        """Draws the edges as arcs of great circles, the sites, and values as colors of triangles.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+            They show the globe or, if all sites are within 45 degrees of their middle, the sites.
+        values : array_like, shape (n,), optional
+            A number for each site; a triangle has the color of the mean of its corners, or none if
+            one of them is missing. Edges are then drawn only if `edges` are given.
+        edges : array_like of int, shape (k, 2), optional
+            The edges to draw, for example those of ``graph("mst")``; by default all.
         projection : cartopy.crs.CRS, optional
-            Of new axes; by default Robinson.
+            That of new axes, which then show the globe; by default Robinson, or Lambert's azimuthal
+            one, which keeps areas, for sites within 45 degrees.
         sites : bool, optional
-            Whether to draw the sites.
+            Whether to draw the sites; by default if there are no values.
         coast : bool, optional
             Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below; by default
             where sites were given as longitudes and latitudes.
+        cmap, vmin, vmax
+            The colors of the values and their limits, as everywhere in Matplotlib; by default all
+            values are within the limits.
+        label : str, optional
+            What the values are, with their unit, beside the color bar.
+        colorbar : bool, optional
+            Whether values have a color bar, by default True.
         **options
-            For `matplotlib.collections.LineCollection`.
+            Options of the `matplotlib.collections.LineCollection` of the edges.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The axes. ``ax.collections[0]`` has the colors of the values.
 
         Raises
         ------
         ImportError
             If Matplotlib is not installed.
 
+        Examples
+        --------
+        >>> import rondel
+        >>> tri = rondel.delaunay_lonlat([0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90])
+        >>> ax = tri.plot(values=[15, 20, 18, 22, -20, -40], label="mean temperature (°C)")
+
         """
-        rays = self.points - self.center
-        ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-        drawn = make_map(ax, projection)
+        drawn = make_map(ax, projection, _rays(self))
+        if values is not None:
+            at_sites = as_floats(unmasked(values), "values")
+            if at_sites.shape != (len(self.points),):
+                wanted = f"({len(self.points)},)"
+                raise ValueError(f"values must have the shape {wanted}, not {at_sites.shape}")
+            solid = self.simplices[~self.ghost]
+            shown = at_sites[solid].mean(axis=1)
+            look = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap}
+            rings = polygon_rings(3 * np.arange(len(solid) + 1), solid.ravel(), _rays(self))
+            colored = draw_rings(drawn, rings, shown, look)
+            add_colors(drawn, colored, shown, (vmin, vmax), label, colorbar)
         _draw_coast(self, drawn, coast)
-        drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-        if sites:
-            drawn.draw_points(self.lonlat[self.vertices])
+        if values is None or edges is not None:
+            ends = self.edges if edges is None else _as_edges(edges, len(self.points))
+            chosen = line_options(drawn, len(self.vertices), options)
+            drawn.draw_lines(_arcs_between(self, ends), chosen)
+        if sites if sites is not None else values is None:
+            draw_sites(drawn, self.lonlat[self.vertices])
         return drawn.ax
 
 
-def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
-    """Arcs between unit vectors, shape (k, 2, 3), on axes as `plot_triangles` makes them."""
-    drawn = make_map(ax, projection)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-    return drawn.ax
+def _rays(self: Triangulated) -> FloatArray:
+    """The directions of the sites, unit vectors; (0, 0, 0) for one at the center."""
+    rays = self.points - self.center
+    lengths = np.linalg.norm(rays, axis=1, keepdims=True)
+    return rays / np.where(lengths > 0, lengths, 1)
+
+
+def _arcs_between(self: Triangulated, ends: IntArray) -> list[FloatArray]:
+    rays = _rays(self)[ends]
+    return arcs(rays[:, 0], rays[:, 1])
+
+
+def _as_edges(edges: ArrayLike, num_sites: int) -> IntArray:
+    given = np.asarray(edges)
+    if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
+        raise ValueError(f"edges must be integers of shape (k, 2), not {given.dtype} {given.shape}")
+    if given.size and not (given.min() >= 0 and given.max() < num_sites):
+        raise ValueError(f"edges name sites that are not from 0 to {num_sites - 1}")
+    return given.astype(np.int32)
 
 
 class CellPictures:
@@ -107,11 +162,13 @@ class CellPictures:
         ax: Any = None,
         *,
         projection: Any = None,
-        sites: bool = True,
+        sites: bool | None = None,
         coast: bool | None = None,
         cmap: Any = None,
         vmin: float | None = None,
         vmax: float | None = None,
+        label: str | None = None,
+        colorbar: bool = True,
         **options: Any,
     ) -> Axes:
         """Draws the borders of the cells as arcs of great circles, the sites, and values as colors.
@@ -119,33 +176,41 @@ class CellPictures:
         Parameters
         ----------
         values : array_like, shape (n,), optional
-            A number for each site, shown as the color of its cell.
-        ax, projection, sites, coast
-            As in `SphericalDelaunay.plot`.
-        cmap, vmin, vmax
-            Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
-            ``colorbar`` takes.
+            A number for each site, shown as the color of its cell; missing ones have none.
+        ax, projection, sites, coast, cmap, vmin, vmax, label, colorbar
+            As in `SphericalDelaunay.plot`. New axes always show the globe, as cells do.
         **options
-            For the `matplotlib.collections.LineCollection` of the borders.
+            Options of the `matplotlib.collections.LineCollection` of the borders.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The axes. ``ax.collections[0]`` has the colors of the values.
 
         Raises
         ------
         ImportError
             If Matplotlib is not installed.
 
+        Examples
+        --------
+        >>> import rondel
+        >>> lon, lat = [0, 90, 180, -90, 0, 0], [0, 0, 0, 0, 90, -90]
+        >>> cells = rondel.SphericalVoronoi.from_lonlat(lon, lat)
+        >>> ax = cells.plot(cells.areas, label="area (steradians)", cmap="magma")
+
         """
         drawn = make_map(ax, projection)
         if values is not None:
-            _draw_diagram(self, drawn, np.asarray(unmasked(values)), (vmin, vmax), cmap)
+            colors = (vmin, vmax), label, colorbar
+            _draw_diagram(self, drawn, np.asarray(unmasked(values)), cmap, colors)
         _draw_coast(self.delaunay, drawn, coast)
         ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
-        drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
-        if sites:
-            drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
+        is_filled = values is not None
+        chosen = line_options(drawn, len(self.points), options, over_colors=is_filled)
+        drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), chosen)
+        if sites if sites is not None else values is None:
+            draw_sites(drawn, self.delaunay.lonlat[self.delaunay.vertices])
         return drawn.ax
 
 
@@ -162,6 +227,8 @@ class RegionPictures:
         cmap: Any = None,
         vmin: float | None = None,
         vmax: float | None = None,
+        label: str | None = None,
+        colorbar: bool = True,
         **options: Any,
     ) -> Axes:
         """Draws the regions, and values as colors.
@@ -170,14 +237,15 @@ class RegionPictures:
         ----------
         values : array_like, shape (n,), optional
             A number for each region, shown as its color.
-        ax, projection, coast, cmap, vmin, vmax
-            As in `SphericalVoronoi.plot`; by default the coasts are drawn.
+        ax, projection, coast, cmap, vmin, vmax, label, colorbar
+            As in `SphericalDelaunay.plot`; by default the coasts are drawn.
         **options
-            For the `matplotlib.collections.PathCollection` of the regions.
+            Options of the `matplotlib.collections.PathCollection` of the regions.
 
         Returns
         -------
         matplotlib.axes.Axes
+            The axes. ``ax.collections[0]`` has the colors of the values.
 
         Raises
         ------
@@ -188,69 +256,24 @@ class RegionPictures:
         numbers = None if values is None else np.asarray(unmasked(values))
         if numbers is not None and len(numbers) != len(self):
             raise ValueError(f"{len(numbers)} values for {len(self)} regions")
-        drawn = make_map(ax, projection)
-        drawings = self._rings.polygons(0.1, 0)
-        lines = np.split(drawings.positions, drawings.rings[1:-1])
-        areas = [lines[a:b] for a, b in pairwise(drawings.polygons)]
-        options = {"edgecolors": "white", "linewidths": 0.4, **options}
+        # Corners say where regions are unless they are all but the whole globe.
+        is_small = self.areas.sum() < 2 * np.pi
+        drawn = make_map(ax, projection, self._rings.points if is_small else None)
+        look = {"edgecolors": "white", "linewidths": 0.4}
         if numbers is None:
-            drawn.draw_areas(areas, None, {"facecolors": "tab:blue", **options})
+            draw_rings(drawn, self._rings, None, {"facecolors": "tab:blue", **look, **options})
         else:
-            colored = drawn.draw_areas(areas, numbers[drawings.owners], {"cmap": cmap, **options})
-            colored.set_clim(*limits(numbers, vmin, vmax))
+            colored = draw_rings(drawn, self._rings, numbers, {"cmap": cmap, **look, **options})
+            add_colors(drawn, colored, numbers, (vmin, vmax), label, colorbar)
         if coast:
             draw_coast_lines(drawn)
         return drawn.ax
-
-
-def limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, Any]:
-    """Those of the colors: of all values, also of what the map does not show."""
-    known = values[np.isfinite(values)]
-    if known.size:
-        vmin = known.min() if vmin is None else vmin
-        vmax = known.max() if vmax is None else vmax
-    return vmin, vmax
 
 
 def _draw_coast(self: Triangulated, drawn: LonLatMap, coast: bool | None) -> None:
     """The coasts, if they are wanted, or by default if sites have longitudes and latitudes."""
     if self._degrees is not None if coast is None else coast:
         draw_coast_lines(drawn)
-
-
-def draw_coast_lines(drawn: LonLatMap) -> None:
-    degrees, offsets = _core.coast_lines()
-    points = _core.unit_vectors(degrees)
-    is_last = np.zeros(len(points), bool)
-    is_last[offsets[1:] - 1] = True
-    first = np.flatnonzero(~is_last)
-    drawn.draw_lines(arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5})
-
-
-def line_options(options: dict[str, Any]) -> dict[str, Any]:
-    return {"colors": "tab:blue", "linewidths": 0.6, **options}
-
-
-def make_map(ax: Any, projection: Any) -> LonLatMap:
-    """What draws on the axes."""
-    import matplotlib.pyplot as plt
-
-    try:
-        import cartopy.crs
-    except ImportError:
-        cartopy = None
-    if ax is None and cartopy is not None:
-        ax = plt.figure().add_subplot(projection=projection or cartopy.crs.Robinson())
-        ax.set_global()
-    elif ax is None:
-        if projection is not None:
-            raise ImportError("a projection needs Cartopy, which is not installed")
-        ax = plt.figure().add_subplot()
-    if cartopy is not None and hasattr(ax, "projection"):
-        return ProjectedMap(ax)
-    ax.set(xlim=(-180, 180), ylim=(-90, 90), aspect="equal")
-    ax.set(xlabel="longitude [degrees]", ylabel="latitude [degrees]")
-    return LonLatMap(ax)
 
 
 def draw_cells(
@@ -267,7 +290,7 @@ def draw_cells(
 
 
 def _draw_diagram(
-    self: Divided, drawn: LonLatMap, values: Any, limits_given: tuple[Any, Any], cmap: Any
+    self: Divided, drawn: LonLatMap, values: Any, cmap: Any, colors: tuple[Any, Any, bool]
 ) -> None:
     if len(values) != len(self.points):
         raise ValueError(f"{len(values)} values for {len(self.points)} sites")
@@ -278,4 +301,4 @@ def _draw_diagram(
         return int(self.delaunay.nearest(there[0]))
 
     cells = draw_cells(drawn, polygons, owner_at, values, cmap)
-    cells.set_clim(*limits(values[polygons.owners], *limits_given))
+    add_colors(drawn, cells, values[np.unique(polygons.owners)], *colors)

@@ -31,15 +31,29 @@ class LonLatMap:
         self.ax = ax
         self.options: dict[str, Any] = {}  # what tells Cartopy that coordinates are degrees
 
-    def draw_lines(self, lines: Lines, options: dict[str, Any]) -> None:
-        """Lines, each a list of positions."""
+    def draw_lines(self, lines: Lines, options: dict[str, Any], values: Any = None) -> Any:
+        """Lines, each a list of positions; in the colors of values, if there are any."""
         from matplotlib.collections import LineCollection
 
-        self.ax.add_collection(LineCollection(lines, **options), autolim=False)
+        if values is not None:
+            options = {"array": values, **options}
+        return self.ax.add_collection(LineCollection(lines, **options), autolim=False)
 
-    def draw_points(self, degrees: FloatArray) -> None:
-        """Small black dots."""
-        self.ax.scatter(degrees[:, 0], degrees[:, 1], s=4, color="black", zorder=3, **self.options)
+    def draw_points(self, degrees: FloatArray, size: float) -> None:
+        """Black dots; their size is the square of their width in points."""
+        look = {"s": size, "color": "black", "linewidths": 0, "zorder": 3}
+        self.ax.scatter(degrees[:, 0], degrees[:, 1], **look, **self.options)
+
+    def draw_grid(
+        self, lon: FloatArray, lat: FloatArray, values: FloatArray, options: dict[str, Any]
+    ) -> Any:
+        """The cells between meridians and parallels, values of shape (nlat, nlon)."""
+        # Cells beyond 180 degrees are on the other side of the map, too.
+        for turn in (-360.0, 360.0):
+            moved = lon + turn
+            if moved.max() > -180 and moved.min() < 180:
+                self.ax.pcolormesh(moved, lat, values, **options)
+        return self.ax.pcolormesh(lon, lat, values, **options)
 
     def draw_polygons(
         self,
@@ -81,16 +95,29 @@ class ProjectedMap(LonLatMap):
         self.degrees = cartopy.crs.PlateCarree()
         self.options = {"transform": self.degrees}
 
-    def draw_lines(self, lines: Lines, options: dict[str, Any]) -> None:
-        """Lines, each a list of positions."""
+    def project(self, degrees: FloatArray) -> FloatArray:
+        """Positions on the map, shape (n, 2)."""
+        return self._transform(degrees)
+
+    def draw_grid(
+        self, lon: FloatArray, lat: FloatArray, values: FloatArray, options: dict[str, Any]
+    ) -> Any:
+        """The cells between meridians and parallels, values of shape (nlat, nlon)."""
+        return self.ax.pcolormesh(lon, lat, values, transform=self.degrees, **options)
+
+    def draw_lines(self, lines: Lines, options: dict[str, Any], values: Any = None) -> Any:
+        """Lines, each a list of positions; in the colors of values, if there are any."""
         from shapely.geometry import LineString
 
         drawn, is_whole, is_seen = self._project(lines)
-        parts = [drawn[k] for k in np.flatnonzero(is_whole)]
+        whole = np.flatnonzero(is_whole)
+        parts, whose = [drawn[k] for k in whole], [whole]
         for k in np.flatnonzero(is_seen & ~is_whole):
             found = self.ax.projection.project_geometry(LineString(lines[k]), self.degrees)
-            parts += [np.array(part.coords) for part in found.geoms]
-        super().draw_lines(parts, options)
+            parts += [_positions(part) for part in found.geoms]
+            whose.append(np.full(len(found.geoms), k))
+        of_parts = None if values is None else values[np.concatenate(whose)]
+        return super().draw_lines(parts, options, of_parts)
 
     def draw_polygons(
         self,
@@ -113,17 +140,17 @@ class ProjectedMap(LonLatMap):
         whole = np.flatnonzero(is_whole)
         parts, whose = [Path(drawn[k]) for k in whole], [owners[whole]]
         for k in np.flatnonzero(is_seen & ~is_whole):
-            found = self.ax.projection.project_geometry(Polygon(polygons[k]), self.degrees)
+            found = self._project_area(Polygon(polygons[k]))
             for part in map(orient, found.geoms):
                 rings = (part.exterior, *part.interiors)
-                parts.append(Path.make_compound_path(*(Path(ring.coords) for ring in rings)))
+                parts.append(Path.make_compound_path(*(Path(_positions(ring)) for ring in rings)))
             whose.append(np.full(len(found.geoms), owners[k]))
         if not is_seen.all():
             domain = self.ax.projection.domain
             middle = domain.representative_point()
             owner = owner_at(self.degrees.transform_point(middle.x, middle.y, self.ax.projection))
             if not is_seen[owners == owner].any():
-                parts.append(Path(domain.exterior.coords))
+                parts.append(Path(_positions(domain.exterior)))
                 whose.append(np.array([owner]))
         cells = PathCollection(parts, array=values[np.concatenate(whose)], **options)
         return self.ax.add_collection(cells, autolim=False)
@@ -147,13 +174,39 @@ class ProjectedMap(LonLatMap):
                 parts.append((drawn[own], k))
             elif is_seen[own].any():
                 area = Polygon(rings[0], rings[1:])
-                found = self.ax.projection.project_geometry(area, self.degrees)
+                found = self._project_area(area)
                 for part in map(orient, found.geoms):
                     bounds = (part.exterior, *part.interiors)
-                    parts.append(([np.array(ring.coords) for ring in bounds], k))
+                    parts.append(([_positions(ring) for ring in bounds], k))
             elif Polygon(rings[0], rings[1:]).contains(middle):
-                parts.append(([np.array(domain.exterior.coords)], k))
+                parts.append(([_positions(domain.exterior)], k))
         return self._add_areas(parts, values, options)
+
+    def _project_area(self, area: Any) -> Any:
+        """A polygon of degrees on the map. Of two kinds Cartopy gives what is outside: of polygons
+        around a pole that is infinitely far away, as on maps of one hemisphere, and of slivers
+        that cross themselves there.
+        """
+        from shapely.geometry import MultiPolygon, Point, box
+        from shapely.validation import make_valid
+
+        found = self.ax.projection.project_geometry(area, self.degrees)
+        domain = self.ax.projection.domain
+        pole = np.copysign(90.0, area.bounds[1] + area.bounds[3])
+        is_polar = abs(area.bounds[1 if pole < 0 else 3]) >= 90
+        if is_polar and not _is_in(domain, self._transform(np.array([[0.0, pole]]))[0]):
+            inside = area.intersection(box(-180, -80, 180, 80)).representative_point()
+            if inside.is_empty:
+                return found
+            there = Point(self.ax.projection.transform_point(inside.x, inside.y, self.degrees))
+            is_outside = domain.contains(there) and not make_valid(found).contains(there)
+        else:
+            is_outside = found.area > 0.5 * domain.area and _share_of_sphere(area) < 0.01
+        if not is_outside:
+            return found
+        rest = domain.difference(make_valid(found))
+        parts = getattr(rest, "geoms", [rest])
+        return MultiPolygon([part for part in parts if part.geom_type == "Polygon"])
 
     def _project(self, lines: Lines) -> tuple[Lines, BoolArray, BoolArray]:
         """The lines on the map; whether each is there in one piece, and whether any of it is."""
@@ -182,3 +235,24 @@ class ProjectedMap(LonLatMap):
         return self.ax.projection.transform_points(self.degrees, degrees[:, 0], degrees[:, 1])[
             :, :2
         ]
+
+
+def _positions(line: Any) -> FloatArray:
+    """The positions of a line of shapely; Cartopy gives some of them a height."""
+    return np.asarray(line.coords, np.float64)[:, :2]
+
+
+def _is_in(domain: Any, place: FloatArray) -> bool:
+    """Whether a map has a place, at its border, too, which Cartopy draws a little inside."""
+    west, south, east, north = domain.bounds
+    slack = 1e-3 * max(east - west, north - south)
+    x, y = place
+    return bool(west - slack <= x <= east + slack and south - slack <= y <= north + slack)
+
+
+def _share_of_sphere(area: Any) -> float:
+    """The area of a polygon of degrees, holes filled, as a part of the sphere."""
+    lon, lat = np.radians(_positions(area.exterior)).T
+    heights = np.sin(lat)
+    doubled = np.sum(np.diff(lon) * (heights[1:] + heights[:-1]))
+    return float(abs(doubled) / 2 / (4 * np.pi))

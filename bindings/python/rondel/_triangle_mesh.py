@@ -17,6 +17,7 @@ from ._geometries import Edges, Invalid
 from ._mesh_making import Spacing, raster_of
 from ._operands import operands
 from ._pickled import arrays_of, with_arrays
+from ._plot_mesh import plot_triangle_mesh
 from ._repr import count
 from ._types import ArrayLike, FloatArray, IntArray, Path, Progress
 
@@ -186,6 +187,8 @@ class TriangleMesh:
     def quality(self) -> TriangleQuality:
         """TriangleQuality: the smallest angle and the extreme edges."""
         return TriangleQuality(*self._arrays.quality())
+
+    plot = plot_triangle_mesh
 
     def write(self, path: Path, *, format: str | None = None, threads: int | None = None) -> None:
         """Writes a file, complete or not at all.

@@ -17,8 +17,9 @@ from . import _core
 from ._arrays import as_name, as_threads, frozen
 from ._geometries import Edges, Invalid
 from ._mesh_making import ScvtReport
-from ._mesh_parts import plot_mesh, removed_cells
+from ._mesh_parts import removed_cells
 from ._pickled import arrays_of, with_arrays
+from ._plot_mesh import plot_mesh
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
 if TYPE_CHECKING:
@@ -37,6 +38,32 @@ class EdgeWeights(NamedTuple):
     indptr: npt.NDArray[np.int64]
     indices: IntArray
     data: FloatArray
+
+
+class CellQuality(NamedTuple):
+    """Measures of each cell, which decide whether a model runs on the mesh: `Mesh.cell_quality`.
+
+    Attributes
+    ----------
+    centroid_offset : ndarray of float64, shape (n,)
+        The distance of the center of mass from the site, in spacings.
+    edge_ratio : ndarray of float64, shape (n,)
+        The length of an edge over the distance of the sites on both sides (dv/dc), the least of
+        the cell's edges.
+    side_ratio : ndarray of float64, shape (n,)
+        The shortest edge over the longest.
+    distance_ratio : ndarray of float64, shape (n,)
+        The distance of the farthest neighbor over that of the nearest.
+    gradient : ndarray of float64, shape (n,)
+        The difference of the spacings of two neighbors over their mean, the largest of the cell.
+
+    """
+
+    centroid_offset: FloatArray
+    edge_ratio: FloatArray
+    side_ratio: FloatArray
+    distance_ratio: FloatArray
+    gradient: FloatArray
 
 
 class Culled(NamedTuple):
@@ -214,6 +241,11 @@ class Mesh:
         """
         report: dict[str, Any] = json.loads(self._arrays.quality_json(0))
         return report
+
+    @cached_property
+    def cell_quality(self) -> CellQuality:
+        """CellQuality: measures of each cell, whose extrema are in `quality`."""
+        return CellQuality(*map(frozen, self._arrays.cell_quality(0)))
 
     def quality_picture(self, path: Path, *, num_worst: int = 100) -> None:
         """Draws histograms and a map of the worst cells as an SVG.

@@ -30,10 +30,11 @@ from ._triangle_mesh import (
     triangles,
 )
 from ._types import ArrayLike, Path, Progress
-from ._voronoi_mesh import Culled, EdgeWeights, Mesh
+from ._voronoi_mesh import CellQuality, Culled, EdgeWeights, Mesh
 
 __all__ = [
     "Boundary",
+    "CellQuality",
     "Culled",
     "Defects",
     "EdgeWeights",

@@ -10,7 +10,7 @@ names, as the tool finds them in files; of cells, curvilinear or as the two axes
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import xarray
 
@@ -19,9 +19,13 @@ from ._carried import carried
 from ._errors import warn_caller
 from ._interpolation import Method
 from ._places import Places
+from ._plot_field import plot_field
 from ._regrid import regrid
 from ._regrid_files import FieldMethod
 from ._weights import Weights
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["RondelAccessor"]
 
@@ -156,6 +160,51 @@ class RondelAccessor:
 
         """
         return regrid(self._data, target, method, **options)
+
+    def plot(
+        self,
+        name: Hashable | None = None,
+        ax: Any = None,
+        *,
+        lon: Hashable | None = None,
+        lat: Hashable | None = None,
+        label: str | None = None,
+        **options: Any,
+    ) -> Axes:
+        """Draws a field on its cells, as colors on a map.
+
+        Cells are those of the grid or mesh: by the bounds of the coordinates, half way between
+        longitudes and latitudes along axes, or those of a named grid such as HEALPix. Places
+        without cells, such as stations, have their Voronoi cells.
+
+        Parameters
+        ----------
+        name : str, optional
+            The variable of a Dataset; a DataArray needs none.
+        ax : matplotlib.axes.Axes, optional
+            By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+        lon, lat : str, optional
+            The names of the longitudes and latitudes, if they are not found.
+        label : str, optional
+            The words beside the color bar; by default the attributes `long_name` and `units`.
+        **options
+            Those of `CellSet.plot`, such as `projection`, `coast`, `cmap`, `vmin`, `vmax` and
+            `colorbar`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes.
+
+        Raises
+        ------
+        ImportError
+            If Matplotlib is not installed.
+        ValueError
+            If the field has several times or levels, of which one has to be chosen.
+
+        """
+        return plot_field(self._data, name, ax, lon, lat, label, options)
 
 
 _REGISTERS: tuple[Any, ...] = (

@@ -151,7 +151,7 @@ def test_on_maps_of_cartopy_every_place_has_the_color_of_its_site(name, count):
     projection = getattr(crs, name.split()[0])(**PROJECTIONS[name])
     diagram = rondel.SphericalVoronoi(clouds.uniform(count))
     values = np.arange(count)
-    ax = diagram.plot(values, projection=projection, colors="red", sites=False)
+    ax = diagram.plot(values, projection=projection, colors="red", sites=False, colorbar=False)
     ax.figure.canvas.draw()
     picture = np.asarray(ax.figure.canvas.buffer_rgba())[::-1, :, :3] / 255.0
     lonlat = rondel.lonlat(clouds.uniform(4000, seed=1))
