@@ -14,7 +14,7 @@ from ._lonlat import arcs
 from ._projection import LonLatMap, ProjectedMap
 from ._types import FloatArray
 
-REGIONAL = 45.0  # degrees around the middle of all points: a map of a region shows them larger
+REGIONAL = 60.0  # degrees around the middle of all points: a map of a region shows them larger
 MARGIN = 0.05  # of a map of a region, as a part of its size
 BAND = 0.12  # of the largest width of a line, as a part of the distance of sites on the map
 
@@ -33,7 +33,7 @@ def pyplot() -> Any:
 
 def make_map(ax: Any, projection: Any, points: FloatArray | None = None) -> LonLatMap:
     """What draws on the axes. New ones, and plain ones, show the region of the points, unit
-    vectors of shape (n, 3), if they are within 45 degrees; by default the globe.
+    vectors of shape (n, 3), if they are within 60 degrees; by default the globe.
     """
     plt = pyplot()
     try:
@@ -42,7 +42,9 @@ def make_map(ax: Any, projection: Any, points: FloatArray | None = None) -> LonL
         cartopy = None
     region = _region(points)
     if ax is None and cartopy is not None:
-        ax = plt.figure().add_subplot(projection=projection or _projection_of(region))
+        ax = plt.figure(constrained_layout=True).add_subplot(
+            projection=projection or _projection_of(region)
+        )
         if region is None or projection is not None:
             ax.set_global()
     elif ax is None:
@@ -50,7 +52,7 @@ def make_map(ax: Any, projection: Any, points: FloatArray | None = None) -> LonL
             raise ImportError(
                 "map projections are those of Cartopy, which is not installed: pip install cartopy"
             )
-        ax = plt.figure().add_subplot()
+        ax = plt.figure(constrained_layout=True).add_subplot()
     elif cartopy is not None and hasattr(ax, "projection"):
         region = None  # the caller's map shows what it shows
     if cartopy is not None and hasattr(ax, "projection"):

@@ -69,7 +69,7 @@ class TrianglePictures:
         ----------
         ax : matplotlib.axes.Axes, optional
             By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
-            They show the globe or, if all sites are within 45 degrees of their middle, the sites.
+            They show the globe or, if all sites are within 60 degrees of their middle, the sites.
         values : array_like, shape (n,), optional
             A number for each site; a triangle has the color of the mean of its corners, or none if
             one of them is missing. Edges are then drawn only if `edges` are given.
@@ -77,7 +77,7 @@ class TrianglePictures:
             The edges to draw, for example those of ``graph("mst")``; by default all.
         projection : cartopy.crs.CRS, optional
             That of new axes, which then show the globe; by default Robinson, or Lambert's azimuthal
-            one, which keeps areas, for sites within 45 degrees.
+            one, which keeps areas, for sites within 60 degrees.
         sites : bool, optional
             Whether to draw the sites; by default if there are no values.
         coast : bool, optional

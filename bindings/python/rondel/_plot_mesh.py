@@ -80,7 +80,7 @@ def plot_mesh(
         a name of `CellQuality`, such as 'edge_ratio'.
     ax, projection, sites, coast, cmap, vmin, vmax, label, colorbar
         As in `SphericalVoronoi.plot`; by default neither sites nor coasts are drawn, and new axes
-        show the mesh if all of it is within 45 degrees. A word for `values` has a label.
+        show the mesh if all of it is within 60 degrees. A word for `values` has a label.
     **options
         Options of the `matplotlib.collections.LineCollection` of the edges.
 
@@ -103,7 +103,7 @@ def plot_mesh(
     'spacing of cells (km)'
 
     """
-    drawn = make_map(ax, projection, self.points / self.radius)
+    drawn = make_map(ax, projection, self.vertex_points / self.radius)
     if values is not None:
         if isinstance(values, str):
             values, words = _measured(self, values)
@@ -167,7 +167,7 @@ def plot_triangle_mesh(
         the `depths`, in meters.
     ax : matplotlib.axes.Axes, optional
         By default new axes, as of `SphericalDelaunay.plot`, which show the mesh if all of it is
-        within 45 degrees, otherwise the globe.
+        within 60 degrees, otherwise the globe.
     triangle_values : array_like, shape (m,), or 'angle', optional
         In place of `values` a number for each triangle. 'angle' is its smallest angle in degrees,
         on which the time step of models depends.
