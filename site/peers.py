@@ -25,6 +25,8 @@ def shell(script):
     """Commands as the page shows them, in a folder of their own; `rondel` is the tool."""
     folder = BUILD / "shell"
     folder.mkdir(exist_ok=True)
+    if not (folder / "data").exists():
+        (folder / "data").symlink_to(ROOT / "data")
     print(script)
     path = f"{ROOT / 'build/dev/bin'}{os.pathsep}{os.environ['PATH']}"
     run("sh", "-e", "-c", script, cwd=folder, env={**os.environ, "PATH": path})

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Puts together what Sphinx reads: the documents of the repository and what is made from its sources.
 
-    stage.py REPOSITORY FOLDER
+    stage.py REPOSITORY FOLDER [NOTEBOOKS]
 
 Documents keep their places below FOLDER, those of site/ lie at its top. Links from a document to a file that is
-no document lead to the page that shows it; where no page does, the words stay and the link goes.
+no document lead to the page that shows it; where no page does, the words stay and the link goes. Notebooks for Jupyter
+are made of docs/notebooks in the folder NOTEBOOKS.
 """
 
+import json
 import pathlib
 import re
 import shutil
@@ -36,6 +38,9 @@ def page_of(target, repository):
     """The page that shows a file or folder of the repository, or None."""
     if target in PAGES:
         return PAGES[target]
+    page = re.fullmatch(r"site/([\w/-]+\.md)", target)
+    if page:
+        return f"/{page[1]}"
     header = re.fullmatch(r"include/rondel/(\w+)\.h", target)
     if header:
         return f"/reference/cpp/{header[1]}.md"
@@ -85,9 +90,45 @@ def copy_documents(repository, folder):
             shutil.copyfile(source, copy)
             continue
         text = with_links(source.read_text(encoding="utf-8"), pathlib.PurePath(name), repository, names)
-        if name in ("docs/guide/README.md", "docs/decisions/README.md", "bench/README.md", "bench/history/README.md"):
+        if name in ("docs/guide/README.md", "docs/decisions/README.md", "docs/notebooks/README.md", "bench/README.md", "bench/history/README.md"):
             text = with_contents(text)
+        elif name.startswith("docs/notebooks/"):
+            text = with_download(text, source.stem)
         copy.write_text(text, encoding="utf-8")
+
+
+def with_download(text, name):
+    """A notebook's page, with a link below its title to the notebook for Jupyter, which notebook() makes."""
+    link = f'<p><a href="../../notebooks/{name}.ipynb" download>This page as a notebook for Jupyter</a></p>'
+    return re.sub(r"^(# .*\n)", rf"\1\n```{{raw}} html\n{link}\n```\n", text, count=1, flags=re.M)
+
+
+def notebook(text):
+    """A notebook for Jupyter of a document in MyST's format, without what its cells print."""
+    body = re.sub(r"\A---\n.*?^---\n", "", text, flags=re.M | re.S)
+    parts = re.split(r"^```\{code-cell\} ipython3\n(.*?)^```$", body, flags=re.M | re.S)
+    cells = []
+    for k, part in enumerate(parts):
+        lines = part.strip("\n").splitlines(keepends=True)
+        if k % 2:
+            cells.append({"cell_type": "code", "metadata": {}, "execution_count": None, "outputs": [], "source": lines})
+        elif lines:
+            # Links between documents lead nowhere from a file of its own.
+            words = [re.sub(r"\[([^\]]*)\]\((?!https?:)[^)]*\)", r"\1", line) for line in lines]
+            cells.append({"cell_type": "markdown", "metadata": {}, "source": words})
+    for number, cell in enumerate(cells):
+        cell["id"] = f"cell-{number}"
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    return {"cells": cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def write_notebooks(repository, folder):
+    """The notebooks of docs/notebooks, for Jupyter."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for source in sorted((repository / "docs/notebooks").glob("*.md")):
+        if source.stem != "README":
+            text = json.dumps(notebook(source.read_text(encoding="utf-8")), indent=1, ensure_ascii=False)
+            (folder / f"{source.stem}.ipynb").write_text(text + "\n", encoding="utf-8")
 
 
 def pages_of_headers(repository, folder):
@@ -131,7 +172,7 @@ def page_of_measurements(repository, folder):
 
 def main(repository, folder):
     shutil.rmtree(folder, ignore_errors=True)
-    tools = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules", "play")
+    tools = shutil.ignore_patterns("*.py", "*.json", "*.toml", "*.txt", "Doxyfile*", "__pycache__", "node_modules", "play")
     top = str(repository / "site")
     shutil.copytree(top, folder, ignore=lambda place, names: tools(place, names) if place == top else [])
     copy_documents(repository, folder)
@@ -142,3 +183,5 @@ def main(repository, folder):
 
 if __name__ == "__main__":
     main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve())
+    if len(sys.argv) > 3:
+        write_notebooks(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[3]).resolve())

@@ -9,6 +9,7 @@ never asked for.
 """
 
 import html.parser
+import json
 import pathlib
 import re
 import sys
@@ -31,6 +32,9 @@ KINDS = [
     "sphere.html",
     "coming-from/cgal.html",
     "coming-from/scipy.html",
+    "coming-from/api.html",
+    "coming-from/gmt.html",
+    "docs/notebooks/stations.html",
     "notebook.html",
     "theory.html",
     "search.html",
@@ -178,13 +182,27 @@ class Files(unittest.TestCase):
         self.assertGreater(counted, 100)
 
     def test_every_cell_of_a_notebook_was_run(self):
-        documents = [d for d in (ROOT / "site").rglob("*.md") if "{code-cell}" in d.read_text(encoding="utf-8")]
-        for document in documents:
-            page = (SITE / document.relative_to(ROOT / "site")).with_suffix(".html").read_text(encoding="utf-8")
+        written = [*((ROOT / "site", d) for d in (ROOT / "site").rglob("*.md")), *((ROOT, d) for d in (ROOT / "docs/notebooks").glob("*.md"))]
+        documents = [(top, d) for top, d in written if "{code-cell}" in d.read_text(encoding="utf-8")]
+        self.assertGreater(len(documents), 10)
+        for top, document in documents:
+            page = (SITE / document.relative_to(top)).with_suffix(".html").read_text(encoding="utf-8")
             cells = document.read_text(encoding="utf-8").count("{code-cell}")
             self.assertGreaterEqual(page.count('class="cell docutils container"') + page.count('class="cell '), cells, document)
             self.assertIn("cell_output", page)
             self.assertNotIn("Traceback (most recent call last)", page)
+
+
+    def test_notebooks_have_pictures_and_files_for_jupyter(self):
+        names = sorted(path.stem for path in (ROOT / "docs/notebooks").glob("*.md") if path.stem != "README")
+        for name in names:
+            page = (SITE / f"docs/notebooks/{name}.html").read_text(encoding="utf-8")
+            self.assertGreaterEqual(len(re.findall(r'<img alt="[^"]*" (?:class="[^"]*" )?src="../../_images/', page)), 2, name)
+            self.assertIn(f"../../notebooks/{name}.ipynb", page)
+            book = json.loads((SITE / f"notebooks/{name}.ipynb").read_text(encoding="utf-8"))
+            cells = ["".join(cell["source"]) for cell in book["cells"] if cell["cell_type"] == "code"]
+            self.assertGreaterEqual(len(cells), 3)
+            compile("\n".join(cells), name, "exec")
 
 
 class InTheBrowser(unittest.TestCase):
@@ -210,9 +228,20 @@ class InTheBrowser(unittest.TestCase):
                 page.close()
 
     def test_search_finds_a_word(self):
-        for word, wanted in {"perturbation": "perturbation.html", "Laguerre": "circles.html"}.items():
-            page = self.open(f"{SITE / 'search.html'}?q={word}")
-            page.wait("document.querySelectorAll('#search-results li a').length > 0")
+        wanted_pages = {
+            "perturbation": "perturbation.html",
+            "Laguerre": "circles.html",
+            "Thiessen": "notebooks/stations.html",
+            "Dirichlet": "guide/regions.html",
+            "TIN": "guide/interpolation.html",
+            "natural neighbour": "guide/interpolation.html",
+            "natural neighbor": "guide/interpolation.html",
+            "first-order conservative": "guide/remapping.html",
+            "xESMF": "coming-from/xesmf.html",
+        }
+        for word, wanted in wanted_pages.items():
+            page = self.open(f"{SITE / 'search.html'}?q={urllib.parse.quote(word)}")
+            page.wait("/Search finished/.test(document.getElementById('search-results').textContent)")
             found = page.run("[...document.querySelectorAll('#search-results li a')].map((a) => a.href).join(' ')")
             self.assertIn(wanted, found)
             self.assertEqual(page.errors(), [])
