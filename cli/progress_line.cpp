@@ -12,6 +12,26 @@
 #include "process.h"
 
 namespace rondel::cli {
+namespace {
+
+// Returns ", 2 min 05 s left" for a part of the work that has taken `seconds` so far; nothing while
+// an estimate would be a guess: in the first second, and before a hundredth is done.
+std::string time_left(double seconds, double fraction) {
+  if (seconds < 1 || fraction < 0.01 || fraction >= 1) return {};
+  const double left = std::min(seconds * (1 - fraction) / fraction, 359'999.0);
+  const int whole = static_cast<int>(left) + 1;
+  char text[48];
+  if (whole < 60) {
+    std::snprintf(text, sizeof text, ", %d s left", whole);
+  } else if (whole < 3600) {
+    std::snprintf(text, sizeof text, ", %d min %02d s left", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, ", %d h %02d min left", whole / 3600, whole / 60 % 60);
+  }
+  return text;
+}
+
+}  // namespace
 
 // The copies of the callback share this; the library may call them from several threads.
 struct ProgressLine::Screen {
@@ -20,17 +40,24 @@ struct ProgressLine::Screen {
   std::mutex mutex;
   Clock::time_point next = Clock::now() + std::chrono::milliseconds(300);
   bool is_dirty = false;
+  std::string stage;  // that of the last call, which began at `start`
+  Clock::time_point start;
 
   // Overwrites the line. The first one comes after 0.3 seconds, so that short runs show nothing.
-  void show(std::string_view stage, double fraction) {
+  void show(std::string_view name, double fraction) {
     const std::lock_guard lock(mutex);
     const Clock::time_point now = Clock::now();
+    if (name != stage) {
+      stage = name;
+      start = now;
+    }
     if (now < next) return;
     next = now + std::chrono::milliseconds(100);
     is_dirty = true;
     const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
-    const std::string name(stage);
-    std::fprintf(stderr, "\r\x1b[Krondel: %s %d %%", name.c_str(), percent);
+    const double seconds = std::chrono::duration<double>(now - start).count();
+    std::fprintf(stderr, "\r\x1b[Krondel: %s %d %%%s", stage.c_str(), percent,
+                 time_left(seconds, fraction).c_str());
     std::fflush(stderr);
   }
 

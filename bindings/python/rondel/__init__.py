@@ -80,12 +80,14 @@ Isolines, Bands
     Lines of equal value, and the regions between them.
 Weights
     What carries values from sites to targets, as a sparse matrix.
+ProgressBar
+    Shows how far a long call is, and how long it will take.
 
 Notes
 -----
 No result depends on `threads`, the largest number of threads that a call uses. What is passed as
 `progress` is called some times a second with the name of a stage of the work and the fraction of
-it that is done.
+it that is done; a `ProgressBar` shows that in notebooks and terminals.
 
 """
 
@@ -122,6 +124,7 @@ from ._polygons import (
     union_all,
 )
 from ._power import PowerDiagram, power_diagram
+from ._progress import ProgressBar
 from ._queries import Location, Where
 from ._regions import Regions, feature_cells
 from ._regrid import regrid
@@ -184,6 +187,7 @@ __all__ = [
     "Location",
     "LonLatTriangles",
     "PowerDiagram",
+    "ProgressBar",
     "Regions",
     "RegridReport",
     "Regridder",

@@ -371,8 +371,8 @@ def triangles(
         What becomes of polygons that are not valid.
     threads : int, optional
         The largest number of threads; by default one for each core. It changes no result.
-    progress : callable or bool, optional
-        As in `rondel.delaunay`.
+    progress : callable, optional
+        Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
 
     Returns
     -------
