@@ -177,10 +177,11 @@ class Merge {
     for (;;) {
       const Edge next = is_left ? rings[edge].next : rings[edge].previous;
       const Index y = targets[next];
-      if (!step.is_in_conflict(face, y)) return true;
+      const auto to_y = step.step_to(y);
+      if (!step.is_in_conflict(face, y, to_y)) return true;
       graph_.remove(edge);
       edge = next;
-      face = step.face(y);
+      face = step.face(y, to_y);
     }
   }
 
@@ -202,7 +203,8 @@ class Merge {
       const bool has_right =
           find_candidate<false>(step, base ^ 1, right, right_face, rings, targets);
       if (!has_left && !has_right) return;
-      if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
+      if (!has_left ||
+          (has_right && step.is_in_conflict(left_face, right_face.apex, right_face.side))) {
         const Edge across = rings[right ^ 1].previous;
         r = right_face.apex;
         base = graph_.add(l, r, {left, base}, {right ^ 1, across});

@@ -45,9 +45,14 @@ class MergeStep {
   // The step of another edge.
   [[nodiscard]] MergeStep from_to(Index l, Index r) const { return {sites_, limits_, l, r}; }
 
-  [[nodiscard, gnu::always_inline]] ApexFace face(Index x) const {
-    const Vector side = sites_.coordinates(x) - origin_;
-    return {x, cross(edge_, side), side};
+  // The step from l to a site.
+  [[nodiscard, gnu::always_inline]] Vector step_to(Index x) const {
+    return sites_.coordinates(x) - origin_;
+  }
+
+  [[nodiscard, gnu::always_inline]] ApexFace face(Index x) const { return face(x, step_to(x)); }
+  [[nodiscard, gnu::always_inline]] ApexFace face(Index x, const Vector& to_x) const {
+    return {x, cross(edge_, to_x), to_x};
   }
 
   // Positive if the apex lies to the left of the edge, seen from outside; zero if it is l or r.
@@ -59,7 +64,10 @@ class MergeStep {
 
   // Whether y is in conflict with the face. An end of the edge, l or r, is not.
   [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y) const {
-    const Vector to_y = sites_.coordinates(y) - origin_;
+    return is_in_conflict(face, y, step_to(y));
+  }
+  [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y,
+                                                        const Vector& to_y) const {
     const Sign sign = Sites::certain_side(limits_, dot(face.normal, to_y), edge_, face.side, to_y);
     if (sign != Sign::zero) {
       sites_.count_filtered();
