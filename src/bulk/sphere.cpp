@@ -133,9 +133,10 @@ class SphereTriangulation {
 
   void write(std::span<const order::Renamed> renamed, TriangulationArrays& arrays) {
     PlaneGraph& graph = pieces_[0].graph();
-    Index* const targets = graph.targets();
-    for (PlaneGraph::Edge e = 0; e < graph.edge_limit(); ++e) {
-      targets[e] = ranks_[std::min(targets[e], num_sites_)];
+    const Index* const ranks = ranks_.data();
+    const Index none = num_sites_;
+    for (Index& target : std::span(graph.targets(), graph.edge_limit())) {
+      target = ranks[std::min(target, none)];
     }
     arrays.faces.resize(2 * std::size_t{num_sites_});
     arrays.neighbors.resize(2 * std::size_t{num_sites_});
