@@ -20,6 +20,7 @@
 #include <span>
 
 #include "bulk/few_sites.h"
+#include "bulk/leaf_plan.h"
 #include "bulk/merge.h"
 #include "bulk/square_sites.h"
 #include "order/hilbert.h"
@@ -40,11 +41,13 @@ class Divide {
 
   // Apart from the misplaced ones the positions of the sites tell, exactly, on which side of a
   // split they lie.
-  Divide(SquareSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
+  Divide(SquareSites<T>& sites, std::span<const Misplaced> misplaced, LeafPlan& plan,
+         PlaneGraph& graph)
       : sites_(sites),
         positions_(sites.positions()),
         down_{1, -1, -sites.hand(), sites.hand()},
         misplaced_(misplaced),
+        plan_(plan),
         graph_(graph),
         sewing_(sites, graph) {
     for (const Misplaced& m : misplaced) misplaced_bits_ |= std::uint64_t{1} << m.bit;
@@ -60,6 +63,12 @@ class Divide {
   [[nodiscard]] bool has_failed() const { return sewing_.has_failed(); }
 
  private:
+  // Leaves of one size that a group has.
+  struct Waiting {
+    std::array<std::size_t, num_leaf_lanes> leaves;
+    std::size_t num = 0;
+  };
+
   // The first of the sites begin ... end-1 whose bit is `last`; those before have the other value.
   // Few are counted, as nothing would predict a search.
   [[nodiscard]] Index split(Index begin, Index end, unsigned axis, int bit, unsigned last) const {
@@ -86,6 +95,14 @@ class Divide {
   Part solve(Index begin, Index end, unsigned state, int bit) {
     Part part;
     if (solve_few(begin, end, bit, part)) return part;
+    const Index size = end - begin;
+    if (size > max_leaf_sites && size <= LeafPlan::max_sites && are_leaves_certain()) {
+      return solve_by_plan(begin, end, state, bit);
+    }
+    return divide(begin, end, state, bit);
+  }
+
+  Part divide(Index begin, Index end, unsigned state, int bit) {
     if (bit < min_bit || is_misplaced(begin, end, bit)) return sewing_.fail();
     const Index middle = split(begin, end, state & 1U, bit, 1 - turn_of(state));
     const Part before = solve_half(begin, middle, state, bit, 0);
@@ -106,6 +123,118 @@ class Divide {
     const Part after = child(middle, end, 2 * half + 1);
     return merge(before, after, bit, 1 - (state & 1U), 1 - (turn_of(state) ^ half));
   }
+
+  // --- the same, planned before ---
+
+  Part solve_by_plan(Index begin, Index end, unsigned state, int bit) {
+    plan_.clear();
+    plan(begin, end, state, bit);
+    for (std::size_t size = 3; size <= max_leaf_sites; ++size) solve_waiting(size);
+    if (has_failed()) return {};
+    return plan_.run([this](const Part& before, const Part& after, const PlannedMerge& planned) {
+      return merge(before, after, planned.bit, planned.axis, planned.last);
+    });
+  }
+
+  // Plans for the sites of such a square. Returns whether there are any.
+  bool plan(Index begin, Index end, unsigned state, int bit) {
+    if (plan_leaf({begin, end, static_cast<std::uint8_t>(state), static_cast<std::int8_t>(bit),
+                   whole_square})) {
+      return begin != end;
+    }
+    if (bit < min_bit || is_misplaced(begin, end, bit)) {
+      sewing_.fail();
+      return false;
+    }
+    const unsigned axis = state & 1U;
+    const unsigned last = 1 - turn_of(state);
+    const Index middle = split(begin, end, axis, bit, last);
+    const bool has_first = plan_half(begin, middle, state, bit, 0);
+    const bool has_second = plan_half(middle, end, state, bit, 1);
+    plan_merge(has_first && has_second, bit, axis, last);
+    return has_first || has_second;
+  }
+
+  bool plan_half(Index begin, Index end, unsigned state, int bit, unsigned half) {
+    if (plan_leaf({begin, end, static_cast<std::uint8_t>(state), static_cast<std::int8_t>(bit),
+                   static_cast<std::int8_t>(half)})) {
+      return begin != end;
+    }
+    const unsigned axis = 1 - (state & 1U);
+    const unsigned last = 1 - (turn_of(state) ^ half);
+    const Index middle = split(begin, end, axis, bit, last);
+    const auto plan_child = [&](Index b, Index e, unsigned rank) {
+      return plan(b, e, state ^ order::hilbert_table::state_change[rank], bit - 1);
+    };
+    const bool has_first = plan_child(begin, middle, 2 * half);
+    const bool has_second = plan_child(middle, end, 2 * half + 1);
+    plan_merge(has_first && has_second, bit, axis, last);
+    return has_first || has_second;
+  }
+
+  void plan_merge(bool is_needed, int bit, unsigned axis, unsigned last) {
+    if (!is_needed) return;
+    plan_.add_merge({static_cast<std::int8_t>(bit), static_cast<std::uint8_t>(axis),
+                     static_cast<std::uint8_t>(last)});
+  }
+
+  // Returns whether there is nothing to divide, or an error.
+  bool plan_leaf(const Cell& cell) {
+    const Index size = cell.end - cell.begin;
+    if (size > max_leaf_sites) return has_failed();
+    if (size == 0) return true;
+    const std::size_t leaf = plan_.add_leaf(cell);
+    if (size < 3) {
+      plan_.set_part(leaf, size == 1 ? Part{cell.begin} : solve_two(cell.begin));
+      return true;
+    }
+    Waiting& waiting = waiting_[size];
+    LeafGroup& group = groups_[size];
+    group.num_sites = size;
+    group.set(waiting.num, sites_.points() + cell.begin, limits_of(cell.bit + 1));
+    waiting.leaves[waiting.num] = leaf;
+    if (++waiting.num == num_leaf_lanes) solve_waiting(size);
+    return true;
+  }
+
+  void solve_waiting(std::size_t size) {
+    Waiting& waiting = waiting_[size];
+    if (waiting.num == 0) return;
+    LeafGroup& group = groups_[size];
+    for (std::size_t lane = waiting.num; lane < num_leaf_lanes; ++lane) group.repeat(lane);
+    find_leaf_faces(group);
+    for (std::size_t lane = 0; lane < waiting.num; ++lane) {
+      const std::size_t leaf = waiting.leaves[lane];
+      const Cell& cell = plan_.leaf_at(leaf);
+      if (group.certain[lane] != 0) {
+        ++num_certain_;
+        sites_.count_filtered(num_volumes(size));
+        plan_.set_part(leaf, draw_leaf(graph_, group, lane, cell.begin));
+      } else {
+        ++num_unsure_;
+        plan_.set_part(leaf, solve_unsure(cell));
+      }
+    }
+    waiting.num = 0;
+  }
+
+  Part solve_unsure(const Cell& cell) {
+    if (cell.half != whole_square) {
+      return solve_half(cell.begin, cell.end, cell.state, cell.bit,
+                        static_cast<unsigned>(cell.half));
+    }
+    Part part;
+    if (solve_few(cell.begin, cell.end, cell.bit, part)) return part;
+    return divide(cell.begin, cell.end, cell.state, cell.bit);
+  }
+
+  // Where sites are in regular places, leaves cost more than they save.
+  [[nodiscard]] bool are_leaves_certain() const {
+    constexpr std::size_t enough = 32;
+    return num_unsure_ < enough + num_certain_;
+  }
+
+  // --- parts ---
 
   // Two parts of which the second one has the bit `last` along this axis.
   Part merge(const Part& before, const Part& after, int bit, unsigned axis, unsigned last) {
@@ -235,6 +364,11 @@ class Divide {
   std::array<double, 4> down_;
   std::span<const Misplaced> misplaced_;
   std::uint64_t misplaced_bits_ = 0;
+  LeafPlan& plan_;
+  std::array<LeafGroup, max_leaf_sites + 1> groups_;  // by number of sites
+  std::array<Waiting, max_leaf_sites + 1> waiting_{};
+  std::size_t num_certain_ = 0;  // leaves
+  std::size_t num_unsure_ = 0;
   PlaneGraph& graph_;
   Merge<SquareSites<T>> sewing_;
 };

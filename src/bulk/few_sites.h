@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Triangulations of three and four points in the plane, without degeneracies: where divide and
-// conquer ends. With four, the orientations of the triples tell which are on the boundary:
+// conquer ends if a leaf is not certain (leaves.h). With four, the orientations of the triples tell
+// which are on the boundary:
 //
 //      3-----2         0, 1, 2, 3 counterclockwise          2
 //      |   / |         around a quadrilateral with         /|\        or with 3 inside

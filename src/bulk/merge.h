@@ -27,18 +27,6 @@
 
 namespace rondel::bulk {
 
-// A vertex of the outer boundary and the edge that leaves it there, with the outer face on its
-// right; no edge for a single vertex, no vertex for no sites.
-struct Part {
-  Index vertex = no_index;
-  PlaneGraph::Edge edge = no_index;
-};
-
-// The part by the next vertex of its boundary, counterclockwise.
-inline Part next_on_boundary(const PlaneGraph& graph, const Part& p) {
-  return {graph.target(p.edge), graph.next(p.edge ^ 1)};
-}
-
 // An edge that leaves l into the face below `base` leads to a site that this face hides. It lies
 // between `base` and the lower side q of that face, but comes after `base` in its ring. Deletes
 // such edges, but for `kept`. Returns whether there were any. At r, where the other halfedge of the

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -150,7 +151,7 @@ class Piece {
     misplaced_.clear();
     if (!std::ranges::all_of(sites_.doubtful(), [&](Index i) { return correct(i, block.square); }))
       return std::nullopt;
-    Divide<T> divide(sites_, misplaced_, graph_);
+    Divide<T> divide(sites_, misplaced_, *plan_, graph_);
     const Part part = divide.run(block.begin, block.end, block.square.state, block.square.bits - 1);
     if (divide.has_failed()) return std::nullopt;
     return part;
@@ -182,6 +183,7 @@ class Piece {
   GivenSites<T> given_;
   SquareSites<T> sites_;
   PlaneGraph graph_;
+  std::unique_ptr<LeafPlan> plan_ = std::make_unique<LeafPlan>();
   std::vector<Misplaced> misplaced_;  // of the square that was entered
   Part part_;
   std::vector<Index> hidden_;

@@ -125,6 +125,27 @@ class PlaneGraph {
     }
   }
 
+  // The first of so many new pairs, one behind the other and in no ring yet; no_index if there are deleted
+  // ones, which are to be used first.
+  Edge new_pairs_in_row(std::size_t num) {
+    if (free_ != limit_) return no_index;
+    const std::size_t e = limit_;
+    free_ = limit_ += 2 * num;
+    rings_[limit_].next = static_cast<Edge>(limit_ + 2);
+    return static_cast<Edge>(e);
+  }
+  // The ends of a pair, the halfedge e from a to b.
+  void set_ends(Edge e, Index a, Index b) {
+    targets_[e] = b;
+    targets_[e + 1] = a;
+  }
+
+  // Makes f the halfedge after e in the ring of their vertex.
+  void link(Edge e, Edge f) {
+    rings_[e].next = f;
+    rings_[f].previous = e;
+  }
+
   // A new pair from a to b, each alone in its ring. Returns the halfedge from a.
   Edge add(Index a, Index b) {
     const Edge e = new_pair();
@@ -196,6 +217,18 @@ class PlaneGraph {
   std::size_t limit_ = 0;
   std::size_t free_ = 0;  // at most limit_
 };
+
+// A part of a graph, by a vertex of its outer boundary and the edge that leaves it there,
+// with the outer face on its right; no edge for a single vertex, no vertex for no sites.
+struct Part {
+  Index vertex = no_index;
+  PlaneGraph::Edge edge = no_index;
+};
+
+// The part by the next vertex of its boundary, counterclockwise.
+inline Part next_on_boundary(const PlaneGraph& graph, const Part& p) {
+  return {graph.target(p.edge), graph.next(p.edge ^ 1)};
+}
 
 // Lists the vertices without a path to this edge, and deletes their edges.
 std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, Index num_vertices);

@@ -147,7 +147,7 @@ class SquareSites {
 
   // The tally counts all conflict tests, provided that count_filtered() is called for those that
   // the limits decided.
-  void count_filtered() { ++tally_.filter; }
+  void count_filtered(std::uint64_t num = 1) { tally_.filter += num; }
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:

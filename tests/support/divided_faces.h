@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <set>
 #include <type_traits>
 #include <vector>
@@ -103,7 +104,8 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
     }
   }
   bulk::PlaneGraph graph = memory.graph(0, 0, num_sites);
-  bulk::Divide<T> divide(sites, {}, graph);
+  const auto plan = std::make_unique<bulk::LeafPlan>();
+  bulk::Divide<T> divide(sites, {}, *plan, graph);
   const auto all = divide.run(0, num_sites, 0, order::position_bits - 1);
   if (divide.has_failed()) return Divided::left_to_seam;
   return faces_of(graph, all.edge) == solid_faces(set, order, model) ? Divided::same
