@@ -35,12 +35,16 @@ PHASES = (
     ("memory", r"(?:^|[ /])(_int_|malloc|free|mem(set|move|cpy)|operator (new|delete)|__mem|munmap|mmap)"
                r"|memset|memmove|memcpy"),
 )
-OTHER = "validation and the rest"
+OTHER = "sphere, validation, the rest"
 EVENTS = ("Ir", "Bcm", "Bim", "D1mr", "D1mw", "DLmr", "DLmw")
 
 
 def phase_of(file, function):
-    """By function and file, where the function has the last word if the file says nothing."""
+    """By file, then by function; the arithmetic that is compiled into merges is theirs."""
+    if re.search(r"Merge<.*>::(sew|find_tangent)", function):
+        return "splits, merges"
+    if "triangulate_sphere" in function and "/order/" not in file:
+        return OTHER
     for words in (f"{file} ", f" {function}"):
         for name, pattern in PHASES:
             if re.search(pattern, words):
