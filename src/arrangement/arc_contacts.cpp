@@ -50,6 +50,14 @@ class ContactFinder {
     const NodedArc s = input_.arcs[i];
     const NodedArc t = input_.arcs[j];
     const SidedArc& first = sided_[i - first_of_block_];
+    if (t.from == t.to) {
+      if (first.side(point(t.from)) == 0) add_if_near(i, t.from);
+      return;
+    }
+    if (s.from == s.to) {
+      if (SidedArc(point(t.from), point(t.to)).side(point(s.from)) == 0) add_if_near(j, s.from);
+      return;
+    }
     const bool is_from_shared = t.from == s.from || t.from == s.to;
     const bool is_to_shared = t.to == s.from || t.to == s.to;
     const int from = is_from_shared ? 0 : first.side(point(t.from));
@@ -77,7 +85,8 @@ class ContactFinder {
   [[nodiscard]] const Point& point(Index node) const { return input_.nodes[node]; }
   void add_if_near(Index arc, Index node) {
     const NodedArc ends = input_.arcs[arc];
-    if (node == ends.from || node == ends.to) return;
+    // An arc in one place has no inside.
+    if (node == ends.from || node == ends.to || ends.from == ends.to) return;
     if (is_near(point(ends.from), point(ends.to), point(node))) found_.near.push_back({arc, node});
   }
 

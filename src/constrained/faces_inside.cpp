@@ -39,14 +39,16 @@ class PolygonFlood {
         net_(result.edges.size()),
         ascending_(result.edges.size()),
         descending_(result.edges.size()),
-        is_reached_(faces_.size()) {
+        is_reached_(faces_.size()),
+        has_ghosts_(result.triangulation.num_ghost_faces() > 0),
+        edges_of_sides_(faces_.size()) {
     list_edges();
     list_faces();
     list_chains(constraints);
   }
 
-  // Returns the faces in a polygon, ascending.
-  std::vector<Index> faces_in(std::span<const Index> sides, std::size_t polygon);
+  // Returns the faces in a polygon, ascending, until the next call.
+  std::span<const Index> faces_in(std::span<const Index> sides, std::size_t polygon);
 
  private:
   [[nodiscard]] Index edge_of(const SideOfFace& side) const;
@@ -55,8 +57,15 @@ class PolygonFlood {
   void list_chains(std::span<const Ends> constraints);
   [[nodiscard]] Index name_of(Index site) const;
   [[nodiscard]] bool append_chain(std::span<const Index> edges, const Ends& ends);
-  void visit(Index face, std::vector<Index>& reached);
+  void visit(Index face);
+  template <class Work>
+  void for_edges(std::span<const Index> sides, std::size_t polygon, const Work& work) const;
+  [[nodiscard]] bool is_covered_from(std::span<const Index> sides, std::size_t polygon);
+  [[nodiscard]] bool spread(bool& is_closed);
 
+  [[nodiscard]] bool is_ghost(Index face) const {
+    return has_ghosts_ && result_.triangulation.is_ghost(face);
+  }
   // True if the face has the interior of the polygon, which this edge of it bounds.
   [[nodiscard]] bool is_left(Index edge, const SideOfFace& side) const {
     const Index from = faces_[side.face][(side.corner + 1) % 3];
@@ -70,8 +79,11 @@ class PolygonFlood {
   std::vector<int> net_;  // for each edge, how many more sides of the polygon ascend than descend
   std::vector<SideOfFace> ascending_;   // the solid faces on the left of the ascending edges
   std::vector<SideOfFace> descending_;  // and on their right
-  std::vector<bool> is_reached_;
+  std::vector<std::uint8_t> is_reached_;
+  bool has_ghosts_;
+  std::vector<Triple> edges_of_sides_;   // by face: the edges that its constrained sides are
   CompressedRows<DirectedEdge> chains_;  // of each constraint
+  std::vector<Index> reached_;           // the faces in the polygon
 };
 
 Index PolygonFlood::edge_of(const SideOfFace& side) const {
@@ -95,10 +107,11 @@ void PolygonFlood::list_edges() {
 
 void PolygonFlood::list_faces() {
   for (Index f = 0; f < faces_.size(); ++f) {
-    if (result_.sides[f] == 0 || result_.triangulation.is_ghost(f)) continue;
+    if (result_.sides[f] == 0 || is_ghost(f)) continue;
     for (unsigned i = 0; i < 3; ++i) {
       if ((result_.sides[f] >> i & 1U) == 0) continue;
       const Index edge = edge_of({f, i});
+      edges_of_sides_[f][i] = edge;
       const bool is_ascending = faces_[f][(i + 1) % 3] == result_.edges[edge][0];
       (is_ascending ? ascending_ : descending_)[edge] = {f, i};
     }
@@ -166,64 +179,89 @@ bool PolygonFlood::append_chain(std::span<const Index> edges, const Ends& ends) 
   return site == ends[1];
 }
 
-void PolygonFlood::visit(Index face, std::vector<Index>& reached) {
-  if (is_reached_[face]) return;
-  is_reached_[face] = true;
-  reached.push_back(face);
+void PolygonFlood::visit(Index face) {
+  if (is_reached_[face] != 0) return;
+  is_reached_[face] = 1;
+  reached_.push_back(face);
 }
 
-std::vector<Index> PolygonFlood::faces_in(std::span<const Index> sides, std::size_t polygon) {
-  const auto for_edges = [&](const auto& work) {
-    for (const Index side : sides) {
-      if (side >= chains_.size()) {
-        throw InvalidInput("polygon " + std::to_string(polygon) + " has constraint " +
-                               std::to_string(side) + ", but there are " +
-                               std::to_string(chains_.size()) + " constraints",
-                           polygon);
-      }
-      for (const DirectedEdge& e : chains_[side]) work(e);
+// Calls work(edge) for the edges of all sides of a polygon.
+template <class Work>
+void PolygonFlood::for_edges(std::span<const Index> sides, std::size_t polygon,
+                             const Work& work) const {
+  for (const Index side : sides) {
+    if (side >= chains_.size()) {
+      throw InvalidInput("polygon " + std::to_string(polygon) + " has constraint " +
+                             std::to_string(side) + ", but there are " +
+                             std::to_string(chains_.size()) + " constraints",
+                         polygon);
     }
-  };
-  std::vector<Index> reached;
-  bool is_closed = true;
+    for (const DirectedEdge& e : chains_[side]) work(e);
+  }
+}
+
+// Reaches the faces on the left of the sides. Returns false if a side has no face there.
+bool PolygonFlood::is_covered_from(std::span<const Index> sides, std::size_t polygon) {
   bool is_covered = true;
-  for_edges([&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
-  for_edges([&](const DirectedEdge& e) {
+  for_edges(sides, polygon, [&](const DirectedEdge& e) {
     if (net_[e.edge] == 0) return;
     const SideOfFace& left = (net_[e.edge] > 0 ? ascending_ : descending_)[e.edge];
     if (left.face == no_index) {
       is_covered = false;
     } else {
-      visit(left.face, reached);
+      visit(left.face);
     }
   });
-  for (std::size_t k = 0; k < reached.size(); ++k) {
+  return is_covered;
+}
+
+// Reaches what can be reached without a crossing of sides. Returns false if a ghost face can, and
+// lets is_closed be false if a side is reached from its right.
+bool PolygonFlood::spread(bool& is_closed) {
+  bool is_covered = true;
+  for (std::size_t k = 0; k < reached_.size(); ++k) {
+    const Index face = reached_[k];
+    const Triple& neighbors = neighbors_[face];
+    const auto bits = static_cast<unsigned>(result_.sides[face]);
     for (unsigned i = 0; i < 3; ++i) {
-      const SideOfFace side = {reached[k], i};
-      const bool is_constrained = (result_.sides[side.face] >> i & 1U) != 0;
-      const Index edge = is_constrained ? edge_of(side) : no_index;
+      const bool is_constrained = (bits >> i & 1U) != 0;
+      const Index edge = is_constrained ? edges_of_sides_[face][i] : no_index;
       if (is_constrained && net_[edge] != 0) {
-        is_closed = is_closed && is_left(edge, side);
+        is_closed = is_closed && is_left(edge, {face, i});
         continue;
       }
-      const Index next = neighbors_[side.face][i];
-      if (result_.triangulation.is_ghost(next)) {
+      const Index next = neighbors[i];
+      if (is_reached_[next] != 0) continue;
+      if (is_ghost(next)) {
         is_covered = false;
       } else {
-        visit(next, reached);
+        visit(next);
       }
     }
   }
-  for_edges([&](const DirectedEdge& e) { net_[e.edge] = 0; });
-  for (const Index face : reached) is_reached_[face] = false;
-  const std::string name = "polygon " + std::to_string(polygon);
-  if (!is_closed) throw InvalidInput(name + " has sides that do not divide in and out", polygon);
+  return is_covered;
+}
+
+std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std::size_t polygon) {
+  reached_.clear();
+  bool is_closed = true;
+  for_edges(sides, polygon,
+            [&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
+  bool is_covered = is_covered_from(sides, polygon);
+  is_covered = spread(is_closed) && is_covered;
+  for_edges(sides, polygon, [&](const DirectedEdge& e) { net_[e.edge] = 0; });
+  for (const Index face : reached_) is_reached_[face] = 0;
+  if (!is_closed) {
+    throw InvalidInput(
+        "polygon " + std::to_string(polygon) + " has sides that do not divide in and out", polygon);
+  }
   if (!is_covered) {
-    throw InvalidInput(name + " leaves the hull of the sites, outside of which there are no faces",
+    throw InvalidInput("polygon " + std::to_string(polygon) +
+                           " leaves the hull of the sites, outside of which there are no faces",
                        polygon);
   }
-  std::ranges::sort(reached);
-  return reached;
+  std::ranges::sort(reached_);
+  return reached_;
 }
 
 }  // namespace

@@ -202,9 +202,23 @@ bool has_met(const std::vector<map::LonLatRing>& before,
   return false;
 }
 
+// True if there is one feature, without lines, and it is far from the antimeridian: then all corners
+// near its sides are its own.
+bool is_alone(const map::PolygonFeatures& features) {
+  if (features.rings.size() != 1) return false;
+  const bool has_lines =
+      std::ranges::any_of(features.lines, [](const auto& lines) { return !lines.empty(); });
+  constexpr double far_deg = 179;
+  const auto is_far = [](const LonLat& p) { return std::abs(p.lon_deg) < far_deg; };
+  return !has_lines && std::ranges::all_of(features.rings.front(), [&](const auto& ring) {
+    return !ring.is_shorter && std::ranges::all_of(ring.positions, is_far);
+  });
+}
+
 // Inserts corners of others into the sides on which they lie. Returns the features in which sides
 // meet there.
 std::vector<FeatureBefore> insert_corners(map::PolygonFeatures& features, unsigned threads) {
+  if (is_alone(features)) return {};
   const std::size_t size = features.rings.size();
   // Corners of lines belong to none of the features, as no exact sign has judged them.
   const auto of_lines = static_cast<Index>(size);
