@@ -51,9 +51,9 @@ struct ConstrainedSnapshot {
 ///    expected time to find its place; and the edges on the way to it, where a constraint is
 ///    between it and the closest site in the spatial order. The removal of a site with d neighbors
 ///    takes O(d) expected time. A constraint takes the time that constrained_delaunay() takes for
-///    it; its removal takes a flip for each pair of edges that replace each other, as a rule, and
-///    at worst the square of their number. A change may take as long as constrained_delaunay()
-///    while all sites lie on one great circle. Whenever the number of sites has doubled or halved,
+///    it; its removal takes time in proportion to the faces that change with each of its edges,
+///    also at worst. A change may take as long as constrained_delaunay() while all sites lie on one
+///    great circle. Whenever the number of sites has doubled or halved,
 ///    one change takes O(n) to bring close sites together in memory.
 /// 7. Const functions may be called from several threads at once.
 /// 8. A triangulation that was moved from can only be assigned to or destroyed.

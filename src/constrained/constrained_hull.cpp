@@ -142,56 +142,13 @@ std::vector<Index> ConstrainedHull::chain(Index a, Index b) const {
   return from_first;
 }
 
-// Lets an edge be free, and makes edges locally Delaunay by flips (Lawson), each of which raises
-// the surface.
+// Lets an edge be free, and replaces it and what is around it if it is not locally Delaunay.
 void ConstrainedHull::release(Halfedge h) {
   set_sides(h, false);
-  to_flip_.assign(1, h);
-  while (!to_flip_.empty()) {
-    const Halfedge edge = to_flip_.back();
-    to_flip_.pop_back();
-    const Halfedge beyond = opposite(edge);
-    if (is_constrained(edge) || !is_solid(face_of(edge)) || !is_solid(face_of(beyond))) continue;
-    const Index apex = mesh_[face_of(beyond)].vertex[edge_of(beyond)];
-    if (is_in_conflict(face_of(edge), apex)) flip(edge);
-  }
-}
-
-//            c                   c
-//          / | \               /   \         The edge of h and its opposite goes from b to c; after
-//         a f|g d     ->      a-----d        the flip from a to d.
-//          \ | /               \   /
-//            b                   b
-void ConstrainedHull::flip(Halfedge h) {
-  const Halfedge o = opposite(h);
-  const Index f = face_of(h);
-  const Index g = face_of(o);
-  const topology::Face& left = mesh_[f];
-  const topology::Face& right = mesh_[g];
-  const Index a = left.vertex[edge_of(h)];
-  const Index d = right.vertex[edge_of(o)];
-  const auto [b, c] = ends_of(h);
-  struct Outer {
-    Halfedge inside;
-    Halfedge outside;
-    bool is_constrained;
-  };
-  const auto outer = [this](Halfedge inside, Halfedge old) {
-    return Outer{inside, opposite(old), is_constrained(old)};
-  };
-  const std::array<Outer, 4> around = {
-      outer(halfedge(f, 0), halfedge(g, next_corner[edge_of(o)])),
-      outer(halfedge(f, 2), halfedge(f, previous_corner[edge_of(h)])),
-      outer(halfedge(g, 0), halfedge(g, previous_corner[edge_of(o)])),
-      outer(halfedge(g, 1), halfedge(f, next_corner[edge_of(h)]))};
-  replace(f, {a, b, d});
-  replace(g, {a, d, c});
-  mesh_.link(halfedge(f, 1), halfedge(g, 2));
-  for (const Outer& edge : around) {
-    mesh_.link(edge.inside, edge.outside);
-    if (edge.is_constrained) set_side(edge.inside, true);
-    to_flip_.push_back(edge.inside);
-  }
+  const Halfedge beyond = opposite(h);
+  if (!is_solid(face_of(h)) || !is_solid(face_of(beyond))) return;
+  const Index apex = mesh_[face_of(beyond)].vertex[edge_of(beyond)];
+  if (is_in_conflict(face_of(h), apex)) removal_.run(*this, h);
 }
 
 }  // namespace rondel::constrained

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "constrained/arc_insertion.h"
+#include "constrained/arc_removal.h"
 #include "constrained/place_directions.h"
 #include "dynamic/link_triangulation.h"
 #include "dynamic/renumbering.h"
@@ -188,9 +189,7 @@ class ConstrainedHull {
   topology::Halfedge fill(bool is_closed);
   void close_up();
 
-  // Flips.
   void release(topology::Halfedge h);
-  void flip(topology::Halfedge h);
 
   PlaceDirections& sites_;
   topology::Mesh mesh_;
@@ -204,6 +203,7 @@ class ConstrainedHull {
 
   // The rest belongs to one change.
   ArcInsertion<ConstrainedHull> insertion_;
+  ArcRemoval<ConstrainedHull> removal_;
   topology::Halfedge forced_ = no_index;  // the edge that has p, seen from beyond the first face
   std::vector<Index> region_;
   std::vector<topology::HorizonEdge> horizon_;
@@ -218,7 +218,6 @@ class ConstrainedHull {
   std::vector<Index> corners_;  // of the hole
   std::vector<Index> slots_;    // of the faces that fill it
   std::vector<std::size_t> chain_;
-  std::vector<topology::Halfedge> to_flip_;
 };
 
 }  // namespace rondel::constrained

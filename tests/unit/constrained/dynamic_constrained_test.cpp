@@ -373,6 +373,49 @@ TEST(dynamic_constrained, the_order_of_changes_does_not_matter) {
   }
 }
 
+// Sites on both sides of a long arc, which bend towards it, away from it, or are random; and
+// constraints that end near to it, along which the corridor of its removal touches itself.
+TEST(dynamic_constrained, a_long_constraint_goes_and_comes_back) {
+  Random random(17);
+  for (const int form : {0, 1, 2}) {
+    SCOPED_TRACE("form " + std::to_string(form));
+    std::vector<Point> sites = {{1, -1, 0}, {1, 1, 0}};
+    for (int i = 0; i < 300; ++i) {
+      const double y = 1.9 * random.unit() - 0.95;
+      const double height = form == 0   ? 1e-3 + y * y
+                            : form == 1 ? 1.2 - y * y
+                                        : 1e-3 + 0.1 * random.unit();
+      sites.push_back({1, y, i % 2 == 0 ? height : -height});
+    }
+    DynamicConstrainedTriangulation changing(sites, {});
+    std::vector<Ends> others;
+    for (int i = 0; i < 100; ++i) {
+      const auto first = static_cast<Index>(2 + random.below(300));
+      const auto second = static_cast<Index>(2 + random.below(300));
+      if (sites[first].z * sites[second].z < 0) continue;
+      try {
+        changing.insert_constraint(first, second);
+        others.push_back({first, second});
+      } catch (const InvalidInput&) {
+        continue;
+      }
+    }
+    EXPECT_GT(others.size(), 10U);
+    const auto free = constrained_delaunay(sites, others);
+    for (int times = 0; times < 2; ++times) {
+      const Index arc = changing.insert_constraint(0, 1);
+      std::size_t num_crossed = 0;
+      for (const Triple& face : free.triangulation.faces()) {
+        const auto is_left = [&](Index v) { return sites[v].z > 0; };
+        num_crossed += is_left(face[0]) != is_left(face[1]) ? 1 : 0;
+      }
+      EXPECT_GT(num_crossed, 30U);
+      changing.remove_constraint(arc);
+      ASSERT_NO_FATAL_FAILURE(expect_equal(changing.snapshot().result, free));
+    }
+  }
+}
+
 TEST(dynamic_constrained, equals_a_build_with_thousands_of_sites) {
   const SiteSet set = generator("uniform").make(4'000, 3);
   Random random(3);
