@@ -186,6 +186,8 @@ Execution Job::execution() const {
   return {.threads = state_->options.threads, .progress = state_->line.callback()};
 }
 
+const Sphere& Job::sphere() const { return state_->options.build.sphere; }
+
 Seconds Job::seconds() const {
   Seconds seconds = state_->seconds;
   seconds.total = seconds_since(state_->start);

@@ -79,6 +79,8 @@ class Job {
   void time(Stage stage, const std::function<void()>& work);
   /// Returns the wanted number of threads, and a progress, which is empty if none is shown.
   [[nodiscard]] Execution execution() const;
+  /// Returns the sphere that the options say.
+  [[nodiscard]] const Sphere& sphere() const;
   /// Returns the times up to now.
   [[nodiscard]] Seconds seconds() const;
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A constrained Delaunay triangulation: a coast of three arcs among a few stations. Where two
-// constraints cross, an error says which and where, or the crossing becomes a site.
+// constraints cross, an error says which and where, or the crossing becomes a site. Values at the
+// stations are interpolated on either side of the coast.
 
 #include "rondel/constrained.h"
 
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "rondel/constrained_interpolate.h"
 #include "rondel/delaunay.h"
 
 int main() {
@@ -31,6 +33,13 @@ int main() {
     const auto [a, b] = result.edges[i];
     std::printf("edge %u-%u comes from constraint %u\n", a, b, result.sources[i][0]);
   }
+
+  const std::vector<double> warmth = {15, 15, 15, 15, 9, 21, 10, 24, 8};  // cold at sea
+  const std::vector<rondel::Point> places =
+      rondel::unit_vectors(std::vector<rondel::LonLat>{{8, 53.4}, {10, 53.9}, {10, 54.2}});
+  const rondel::ConstrainedInterpolator interpolator(result);
+  for (const double value : interpolator.values(warmth, places))
+    std::printf("%.1f degrees\n", value);
 
   coast.push_back({4, 7});  // a border
   try {

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "column_values.h"
+#include "edge_table.h"
 #include "extrapolate_options.h"
 #include "field_carrier.h"
 #include "process.h"
@@ -44,6 +45,7 @@ struct InterpolateOptions {
   std::string target;                  // --to; "-": standard input
   std::string weights;                 // --weights; empty: values
   std::string weight_format;           // --weight-format
+  std::string constraints;             // --constraints; empty: faces are Delaunay
   std::vector<std::string> columns;    // --value
   InterpolationOptions interpolation;  // --method, unless it is one of `regrid`
   std::optional<RegridMethod> regrid;  // --method bilinear, nearest_d2s or native
@@ -96,15 +98,22 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
   job.report(json.dump(2) + '\n', text);
 }
 
+// Returns the edges of --constraints, if there are any. Throws FileError.
+std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteTable& table) {
+  if (options.constraints.empty()) return {};
+  return read_edge_table(options.constraints, table.sites.size());
+}
+
 // Interpolates the columns that --value names, and writes them as fields of those names. The index
 // of `table` counts sites; `weights` are those of bilinear or nearest_d2s. All columns are in
 // memory at once, as a table was.
-void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
+void interpolate_columns(Job& job, const InterpolateOptions& options,
+                         const InterpolateMethod& method, const SiteTable& table,
                          const Targets& targets, const std::optional<Weights>& weights,
                          Extrapolator* extrapolator, InterpolateCounts& counts) {
   FieldSet fields;
   fields.num_points = targets.table.sites.size();
-  FieldCarrier carrier(job, options.interpolation, table, targets, weights, extrapolator, counts);
+  FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (const std::string& name : options.columns) {
     FieldArray array;
     array.name = name;
@@ -117,7 +126,8 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
 
 // Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
 // a time is in memory.
-void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+void interpolate_fields(Job& job, const InterpolateOptions& options,
+                        const InterpolateMethod& method, const NetcdfSites& grid,
                         const Targets& targets, const std::optional<Weights>& weights,
                         Extrapolator* extrapolator, InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
@@ -134,7 +144,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
-  FieldCarrier carrier(job, options.interpolation, table, targets, weights, extrapolator, counts);
+  FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
       std::vector<double> values(table.sites.size());
@@ -163,22 +173,29 @@ void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFil
 }
 
 // Adds the weights and the areas of the sites, by a triangulation of the cells that are not masked.
-void interpolate_weights(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
+void interpolate_weights(Job& job, const InterpolateMethod& method, const NetcdfSites& grid,
                          const Targets& targets, InterpolateCounts& counts, WeightFile& file) {
   const SiteTable& table = grid.table;
   const std::vector<Index> numbers = unmasked_sites(grid);
   const bool has_masked = numbers.size() < table.sites.size();
   SiteTable kept;  // the triangulation refers to it
   if (has_masked) kept = table.selection(grid.unmasked());
-  const Triangulation triangulation =
-      triangulated(job, options.interpolation, has_masked ? kept : table, counts);
-  const Interpolator interpolator(triangulation);
+  EdgeTable edges;
+  if (has_masked && method.edges != nullptr) {
+    edges = kept_edges(*method.edges, table, grid.unmasked());
+  }
+  const bool has_fewer = has_masked && method.edges != nullptr;
+  const TableInterpolator interpolator(job, {method.options, has_fewer ? &edges : method.edges},
+                                       has_masked ? kept : table, counts);
   job.time(Stage::query, [&] {
-    file.weights = with_places(targets.table, [&] {
-      return interpolator.weights(targets.table.sites, options.interpolation, job.execution());
-    });
+    file.weights = with_places(
+        targets.table, [&] { return interpolator.weights(targets.table.sites, job.execution()); });
   });
-  job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
+  // A site has the area of its cell, whatever edges are given.
+  const Triangulation delaunay = method.edges == nullptr
+                                     ? interpolator.delaunay()
+                                     : job.triangulate(has_masked ? kept : table);
+  job.time(Stage::dual, [&] { file.source.areas = areas(delaunay, job.execution()); });
   if (has_masked) spread(numbers, table, file);
 }
 
@@ -193,15 +210,15 @@ std::size_t num_rows_with_entries(const Weights& weights) {
 // Writes the file of --weights: the matrix, both sides and the name of the method. Columns count
 // the sites of the file, rows the targets. `counts.missing` becomes the number of targets without
 // an entry. `weights` and the targets' side are moved into the file.
-void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
-                      Targets& targets, std::optional<Weights>& weights, Extrapolator* extrapolator,
-                      InterpolateCounts& counts) {
+void write_weights_of(Job& job, const InterpolateOptions& options, const InterpolateMethod& method,
+                      const NetcdfSites& grid, Targets& targets, std::optional<Weights>& weights,
+                      Extrapolator* extrapolator, InterpolateCounts& counts) {
   WeightFile file;
   if (weights) {
     file.weights = std::move(*weights);
     file.method = name_of(*options.regrid);
   } else {
-    interpolate_weights(job, options, grid, targets, counts, file);
+    interpolate_weights(job, method, grid, targets, counts, file);
     file.method = name_of(options.interpolation.method);
   }
   if (extrapolator != nullptr) {
@@ -235,8 +252,14 @@ void require_options(const InterpolateOptions& options, bool has_values) {
   if (!has_values && options.weights.empty()) {
     throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
   }
-  require_separate_files({{"INPUT", common.input}, {"--to", options.target}},
-                         {{"--output", common.output}, {"--weights", options.weights}});
+  if (!options.constraints.empty()) require_edge_table(options.constraints);
+  const bool is_linear = !options.regrid && options.interpolation.method == Method::linear;
+  if (!options.constraints.empty() && !is_linear) {
+    throw UsageError("--constraints: no method but linear keeps to edges; add --method linear");
+  }
+  require_separate_files(
+      {{"INPUT", common.input}, {"--to", options.target}, {"--constraints", options.constraints}},
+      {{"--output", common.output}, {"--weights", options.weights}});
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }
@@ -266,6 +289,8 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   read.keep_columns = has_values && !is_netcdf;
   const NetcdfSites grid = job.read_grid(options.source_file(), read, options.columns);
   const SiteTable& table = grid.table;
+  const std::optional<EdgeTable> edges = edges_of(options, table);
+  const InterpolateMethod method = {options.interpolation, edges ? &*edges : nullptr};
   Targets targets = read_targets(options.target_file(), common.read);
   const SiteTable* const tables[] = {&table, &targets.table};
   require_angles(common.read, tables);
@@ -288,13 +313,13 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   }
   Extrapolator* const filler = extrapolator ? &*extrapolator : nullptr;
   if (has_values && is_netcdf) {
-    interpolate_fields(job, options, grid, targets, weights, filler, counts);
+    interpolate_fields(job, options, method, grid, targets, weights, filler, counts);
   } else if (has_values) {
-    interpolate_columns(job, options, table, targets, weights, filler, counts);
+    interpolate_columns(job, options, method, table, targets, weights, filler, counts);
   }
   // With --weights the report counts rows without entries instead of missing values.
   if (!options.weights.empty()) {
-    write_weights_of(job, options, grid, targets, weights, filler, counts);
+    write_weights_of(job, options, method, grid, targets, weights, filler, counts);
   }
   report(job, options, counts);
   return done;
@@ -341,6 +366,15 @@ void add_methods(CLI::App& parser, InterpolateOptions& options) {
   add_extrapolate_options(parser, options.common, options.extrapolate);
 }
 
+// Adds the edges between sites to which linear interpolation keeps.
+void add_constraints(CLI::App& parser, InterpolateOptions& options) {
+  parser
+      .add_option("--constraints", options.constraints,
+                  "Edges between sites, across which --method linear mixes no values: .csv, two\n"
+                  "columns of indices of sites from 0, as for rondel triangulate")
+      ->type_name("FILE");
+}
+
 // Returns the outputs that are netCDF: values, weights.
 std::vector<FileName> netcdf_outputs(const InterpolateOptions& options) {
   std::vector<FileName> written = if_of_format(options.common.target(), {"nc", "nc4"});
@@ -381,6 +415,8 @@ constexpr const char* end_of_help =
     "Examples:\n"
     "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
     "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
+    "  rondel interpolate soundings.csv --value depth --to grid:0.1 --method linear \\\n"
+    "      --constraints dikes.csv -o depth.nc\n"
     "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
     "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
     "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4\n"
@@ -420,6 +456,7 @@ Command add_interpolate_command(CLI::App& tool) {
   add_netcdf_options(*parser, options->common, options->netcdf,
                      [given = options.get()] { return netcdf_outputs(*given); });
   add_methods(*parser, *options);
+  add_constraints(*parser, *options);
   add_build_options(*parser, options->common);
   // bilinear follows the axes of a grid, native the cells of a mesh; they need no triangulation, no
   // model and no center.

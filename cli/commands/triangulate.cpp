@@ -8,18 +8,13 @@
 //       that are added where constraints cross come after them
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "edge_table.h"
 #include "job.h"
 #include "report.h"
 #include "rondel/constrained.h"
@@ -44,10 +39,9 @@ struct TriangulateOptions {
 // What is triangulated.
 struct Plan {
   SiteTable table;
-  std::vector<std::array<Index, 2>> constraints;
-  std::vector<std::string> places;  // of each constraint, for messages: "coast.geojson: feature 3"
-  CompressedRows<Index> polygons;   // the sides of each feature's, which are constraints
-  std::vector<std::string> names;   // of each feature, for messages
+  EdgeTable edges;                 // whose places are "coast.geojson: feature 3" or those of lines
+  CompressedRows<Index> polygons;  // the sides of each feature's, which are constraints
+  std::vector<std::string> names;  // of each feature, for messages
 };
 
 // Reads features. Throws FileError.
@@ -67,81 +61,20 @@ Plan plan_of_features(const TriangulateOptions& options, const Execution& execut
   } catch (const InvalidInput& error) {
     throw FileError(plan.table.name + ": " + error.what());
   }
-  for (const Index feature : made.features) plan.places.push_back(place(feature));
+  for (const Index feature : made.features) plan.edges.places.push_back(place(feature));
   for (std::size_t f = 0; f < made.polygons.size(); ++f) plan.names.push_back(place(f));
   plan.table.sites = std::move(made.sites);
-  plan.table.positions = lonlats(plan.table.sites);
-  plan.constraints = std::move(made.constraints);
+  plan.table.positions = short_lonlats(plan.table.sites);
+  plan.edges.constraints = std::move(made.constraints);
   plan.polygons = std::move(made.polygons);
   return plan;
-}
-
-// Returns the site in a cell. Throws FileError, which begins with the place.
-Index site_in(std::string_view text, std::size_t num_sites, const std::string& place) {
-  const std::string shown = place + ": '" + std::string(text) + "' ";
-  const auto first = text.find_first_not_of(" \t");
-  if (first != std::string_view::npos) {
-    text = text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-  }
-  std::uint64_t site = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), site);
-  if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
-    throw FileError(shown + "is no index of a site");
-  }
-  if (error != std::errc() || site >= num_sites) {
-    throw FileError(shown + "is no site; there are " + count(num_sites, "site", "sites") +
-                    ", counted from 0");
-  }
-  return static_cast<Index>(site);
-}
-
-// Reads pairs of sites, a line each; the first line may have names.
-void read_constraints(const std::string& path, const std::string& text, Plan& plan) {
-  const std::size_t num_sites = plan.table.sites.size();
-  std::size_t begin = 0;
-  for (std::size_t number = 1; begin < text.size(); ++number) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-    const std::string place = path + ":" + std::to_string(number);
-    const auto comma = line.find(',');
-    if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos) {
-      throw FileError(place + ": '" + std::string(line) + "' is not two columns");
-    }
-    const bool has_digits = line.find_first_of("0123456789") != std::string_view::npos;
-    if (number == 1 && !has_digits) continue;
-    plan.constraints.push_back({site_in(line.substr(0, comma), num_sites, place),
-                                site_in(line.substr(comma + 1), num_sites, place)});
-    plan.places.push_back(place);
-  }
-}
-
-// Calls the library; what it says of a constraint or a polygon becomes a FileError with its place.
-template <class Work>
-auto with_plan(const Plan& plan, Work&& work) {
-  try {
-    return work();
-  } catch (const CrossingConstraints& error) {
-    const auto [first, second] = error.constraints();
-    char place[80];
-    std::snprintf(place, sizeof place, "longitude %.9g, latitude %.9g", error.place().lon_deg,
-                  error.place().lat_deg);
-    throw FileError(plan.places[second] + " crosses " + plan.places[first] + " at " + place +
-                    "; --split makes a site there");
-  } catch (const InvalidInput& error) {
-    const std::string text = error.what();
-    const bool has_place = text.starts_with("constraint ") && error.index() < plan.places.size();
-    throw FileError((has_place ? plan.places[error.index()] : plan.table.name) + ": " + text);
-  }
 }
 
 // Returns the faces that are in any polygon, ascending.
 std::vector<Index> faces_in_polygons(const ConstrainedTriangulation& result, const Plan& plan) {
   std::vector<Index> faces;
   try {
-    faces = faces_inside(result, plan.constraints, plan.polygons).values;
+    faces = faces_inside(result, plan.edges.constraints, plan.polygons).values;
   } catch (const InvalidInput& error) {
     const bool has_name = error.index() < plan.names.size();
     throw FileError((has_name ? plan.names[error.index()] : plan.table.name) + ": " + error.what());
@@ -151,19 +84,11 @@ std::vector<Index> faces_in_polygons(const ConstrainedTriangulation& result, con
   return faces;
 }
 
-// Reads the whole of a file. Throws FileError.
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file && !std::filesystem::is_directory(path)) return text;
-  throw FileError(path + ": the file cannot be read");
-}
-
 Plan plan_of(const TriangulateOptions& options, Job& job) {
   if (options.constraints.empty()) return plan_of_features(options, job.execution());
   Plan plan;
   plan.table = job.read();
-  read_constraints(options.constraints, text_of(options.constraints), plan);
+  plan.edges = read_edge_table(options.constraints, plan.table.sites.size());
   return plan;
 }
 
@@ -172,14 +97,15 @@ ConstrainedTriangulation triangulated(const TriangulateOptions& options, Plan& p
                                       const Execution& execution) {
   const auto crossings =
       options.is_split ? ConstraintCrossings::split : ConstraintCrossings::refuse;
-  ConstrainedTriangulation result = with_plan(plan, [&] {
-    return constrained_delaunay(Sites(plan.table.sites), plan.constraints, {.crossings = crossings},
-                                execution);
-  });
+  ConstrainedTriangulation result =
+      with_edges(plan.edges, plan.table.name, "; --split makes a site there", [&] {
+        return constrained_delaunay(Sites(plan.table.sites), plan.edges.constraints,
+                                    {.crossings = crossings}, execution);
+      });
   const auto sites = result.triangulation.sites().points();
   const auto added = sites.subspan(plan.table.sites.size());
   if (!plan.table.positions.empty()) {
-    const std::vector<LonLat> positions = lonlats(added);
+    const std::vector<LonLat> positions = short_lonlats(added);
     plan.table.positions.insert(plan.table.positions.end(), positions.begin(), positions.end());
   }
   plan.table.sites.insert(plan.table.sites.end(), added.begin(), added.end());
@@ -201,9 +127,7 @@ void require_input(const TriangulateOptions& options) {
     throw UsageError("INPUT: without --constraints '" + common.input +
                      "' must be a .geojson file, whose lines and polygons are the constraints");
   }
-  if (!options.constraints.empty() && format_of({options.constraints, {}}) != "csv") {
-    throw UsageError("--constraints: '" + options.constraints + "' must be a .csv file");
-  }
+  if (!options.constraints.empty()) require_edge_table(options.constraints);
 }
 
 // Writes solid faces as a mesh: those in `inside`, or all. Edges that are constraints are coast.
@@ -257,7 +181,7 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
   const double seconds = job.seconds().total;
   job.report(nlohmann::ordered_json{{"sites", num_sites},
                                     {"added_sites", num_added},
-                                    {"constraints", plan.constraints.size()},
+                                    {"constraints", plan.edges.constraints.size()},
                                     {"edges", result.edges.size()},
                                     {"faces", num_faces},
                                     {"ghost_faces",
@@ -267,7 +191,7 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
                  '\n',
              count(num_sites, "site", "sites") + ", " + std::to_string(num_added) +
                  " of them added where constraints cross\n" +
-                 count(plan.constraints.size(), "constraint", "constraints") + ": " +
+                 count(plan.edges.constraints.size(), "constraint", "constraints") + ": " +
                  count(result.edges.size(), "edge", "edges") + "\nwrote " +
                  count(num_faces, "face", "faces") + " to " + options.common.output + " in " +
                  text_of_seconds(seconds) + '\n');

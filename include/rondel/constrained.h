@@ -91,7 +91,8 @@ struct ConstrainedTriangulation {
 ///
 /// A Locator, an Interpolator and a DynamicTriangulation, which rely on Delaunay faces, refuse the
 /// triangulation unless all its faces are those of delaunay(); and its dual is no Voronoi diagram.
-/// A ConstrainedLocator locates points in it, and a DynamicConstrainedTriangulation changes it.
+/// A ConstrainedLocator locates points in it, a ConstrainedInterpolator interpolates values, and a
+/// DynamicConstrainedTriangulation changes it.
 ///
 /// A constraint takes time in proportion to the edges that it crosses, times their logarithm on
 /// average, also where sites lie along smooth curves, and their square at worst. The proof is in docs/theory/constrained.md (Chew,

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "rondel/cell_rings.h"
@@ -40,5 +41,11 @@ struct FeatureConstraints {
 ///         which has no sides
 RONDEL_API FeatureConstraints constraints_of_features(const FeatureLines& lines,
                                                       const CellRings& polygons);
+
+/// Returns longitudes and latitudes of unit vectors as a file has them: those with the fewest
+/// decimals of which unit_vectors() makes the same points bit by bit, 10.5 in place of
+/// 10.499999999999998. For points that no longitude and latitude of up to 13 decimals gives it
+/// returns what lonlats() returns.
+RONDEL_API std::vector<LonLat> short_lonlats(std::span<const Point> points);
 
 }  // namespace rondel

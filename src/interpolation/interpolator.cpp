@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "api/triangulation_impl.h"
-#include "api/validation.h"
 #include "interpolation/collected_rows.h"
 #include "interpolation/cubic.h"
 #include "interpolation/gradient.h"
@@ -19,6 +18,7 @@
 #include "interpolation/prepared_triangulation.h"
 #include "interpolation/rows.h"
 #include "interpolation/sinks.h"
+#include "interpolation/target_checks.h"
 #include "interpolation/vertex_fields.h"
 #include "interpolation/vertex_gradients.h"
 #include "rondel/error.h"
@@ -54,9 +54,6 @@ class Interpolator::Impl {
            prepared_.triangulation().dimension() == 2;
   }
 
-  void validate(std::span<const Point> targets, const InterpolationOptions& options) const;
-  // Returns how many fields an array of `size` values has.
-  [[nodiscard]] std::size_t num_fields(std::string_view name, std::size_t size) const;
   static void require_normalization(const InterpolationOptions& options);
 
   [[nodiscard]] std::shared_ptr<const GradientRows> gradient_rows(const GradientOptions& options,
@@ -92,44 +89,12 @@ class Interpolator::Impl {
   mutable std::shared_ptr<const GradientRows> gradients_;
 };
 
-void Interpolator::Impl::validate(std::span<const Point> targets,
-                                  const InterpolationOptions& options) const {
-  const Triangulation& triangulation = prepared_.triangulation();
-  if (targets.size() >= no_index) {
-    throw InvalidInput(std::to_string(targets.size()) + " targets are too many for one call",
-                       no_index);
-  }
-  api::validate_queries(targets, prepared_.center(), true, "target");
-  if (options.method > Method::cubic) throw InvalidInput("there is no such method");
-  if (prepared_.model() == Model::weighted && options.method != Method::nearest) {
-    throw InvalidInput("weighted sites have no method but nearest");
-  }
-  if (options.shared_place == SharedPlace::error && !triangulation.duplicates().empty()) {
-    const auto& [site, representative] = triangulation.duplicates().front();
-    throw InvalidInput("site " + std::to_string(site) + " is in the place of site " +
-                           std::to_string(representative),
-                       site);
-  }
-}
-
 void Interpolator::Impl::require_normalization(const InterpolationOptions& options) {
   const bool has_gradients = options.method == Method::hermite || options.method == Method::cubic;
   if (!has_gradients || options.normalization == Normalization::unity) return;
   throw InvalidInput(std::string(options.method == Method::cubic ? "cubic" : "hermite") +
                          " has no homogeneous normalization: linear, laplace and sibson have",
                      0);
-}
-
-std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t size) const {
-  const std::size_t num_sites = prepared_.num_sites();
-  if (num_sites == 0 && size == 0) return 1;
-  if (num_sites == 0 || size == 0 || size % num_sites != 0) {
-    throw InvalidInput(std::string(name) + " has " + std::to_string(size) +
-                           " values, which are no multiple of the " + std::to_string(num_sites) +
-                           " sites",
-                       size);
-  }
-  return size / num_sites;
 }
 
 std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
@@ -176,7 +141,8 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
   const auto visit = [&](const auto& make_kernel) {
     interpolation::for_each_row(
         prepared_, targets, execution,
-        [&] { return KernelRows(prepared_, options, outside, make_kernel()); }, make_sink);
+        [&] { return KernelRows(prepared_, prepared_.engine(), options, outside, make_kernel()); },
+        make_sink);
   };
   if (prepared_.num_vertices() == 0) {
     if (options.outside == Outside::error && !targets.empty()) outside.add(0);
@@ -194,11 +160,7 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
   } else {
     visit([&] { return CubicKernel(prepared_, has_gradient, options.normalization); });
   }
-  if (outside.get() != no_index) {
-    throw InvalidInput(
-        "target " + std::to_string(outside.get()) + " is outside of the sites' faces",
-        outside.get());
-  }
+  refuse_outside(outside.get());
 }
 
 Interpolator::Interpolator(const Triangulation& triangulation)
@@ -214,7 +176,7 @@ Interpolator& Interpolator::operator=(Interpolator&& other) noexcept = default;
 Weights Interpolator::weights(std::span<const Point> targets, const InterpolationOptions& options,
                               const Execution& execution) const {
   const system::Call call(execution);
-  impl_->validate(targets, options);
+  require_targets(impl_->prepared(), targets, options);
   Impl::require_normalization(options);
   CollectedRows rows(impl_->prepared(), options.shared_place);
   std::shared_ptr<const GradientRows> gradients;
@@ -262,9 +224,10 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                                          const InterpolationOptions& options,
                                          const Execution& execution) const {
   const system::Call call(execution);
-  impl_->validate(targets, options);
+  require_targets(impl_->prepared(), targets, options);
   Impl::require_normalization(options);
-  std::vector<double> values(impl_->num_fields("field", field.size()) * targets.size(), nan);
+  std::vector<double> values(
+      num_fields_of(impl_->prepared(), "field", field.size()) * targets.size(), nan);
   const Fields fields = impl_->fields(scalar_fields(field, impl_->prepared().num_sites()),
                                       targets.size(), options, execution);
   impl_->for_each_row(targets, options, execution, fields.has_gradient,
@@ -282,13 +245,13 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                                          const InterpolationOptions& options,
                                          const Execution& execution) const {
   const system::Call call(execution);
-  impl_->validate(targets, options);
+  require_targets(impl_->prepared(), targets, options);
   Impl::require_normalization(options);
   if (options.method != Method::hermite && options.method != Method::cubic) {
     throw InvalidInput("only hermite and cubic take gradients");
   }
   const PreparedTriangulation& prepared = impl_->prepared();
-  const std::size_t num_fields = impl_->num_fields("field", field.size());
+  const std::size_t num_fields = num_fields_of(impl_->prepared(), "field", field.size());
   if (gradients.size() != field.size()) {
     throw InvalidInput("there are " + std::to_string(gradients.size()) + " gradients for " +
                            std::to_string(field.size()) + " values",
@@ -326,9 +289,10 @@ std::vector<Point> Interpolator::vectors(std::span<const Point> field,
                                          const InterpolationOptions& options,
                                          const Execution& execution) const {
   const system::Call call(execution);
-  impl_->validate(targets, options);
-  std::vector<Point> vectors(impl_->num_fields("field", field.size()) * targets.size(),
-                             Point{nan, nan, nan});
+  require_targets(impl_->prepared(), targets, options);
+  std::vector<Point> vectors(
+      num_fields_of(impl_->prepared(), "field", field.size()) * targets.size(),
+      Point{nan, nan, nan});
   const Fields fields = impl_->fields(vector_fields(field, impl_->prepared().num_sites()),
                                       targets.size(), options, execution);
   InterpolationOptions homogeneous = options;

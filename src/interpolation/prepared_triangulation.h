@@ -35,6 +35,8 @@ class PreparedTriangulation {
   // Returns the engine for locate and nearest. It answers with ranks and breaks ties by the lowest
   // rank.
   [[nodiscard]] const query::Engine& engine() const { return engine_; }
+  // Returns what the engine runs on, for other walks; vertices have their ranks as names.
+  [[nodiscard]] query::AnyGraph graph() const { return built_.graph(ranks_); }
   // Returns a vertex near the point, from which a walk may begin.
   [[nodiscard]] Index near(const Point& p) const { return built_.near(p); }
 

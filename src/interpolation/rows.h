@@ -98,15 +98,21 @@ inline constexpr std::size_t group_of = 1;
 template <GroupKernel K>
 inline constexpr std::size_t group_of<K> = K::group;
 
-template <class K>
+// The rows of a kernel. `Finder` has locate(point, cursor) and nearest(point, cursor), which answer
+// with ranks, as the engine of the triangulation has.
+template <class K, class Finder = query::Engine>
 class KernelRows {
  public:
   using RowType = std::conditional_t<Kernel<K>, Row, GradientRow>;
   static constexpr std::size_t group = group_of<K>;
 
-  KernelRows(const PreparedTriangulation& prepared, const InterpolationOptions& options,
-             FirstOutside& outside, K kernel)
-      : prepared_(prepared), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
+  KernelRows(const PreparedTriangulation& prepared, const Finder& finder,
+             const InterpolationOptions& options, FirstOutside& outside, K kernel)
+      : prepared_(prepared),
+        finder_(finder),
+        options_(options),
+        outside_(outside),
+        kernel_(std::move(kernel)) {}
 
   // Call begin(), then expect() for up to `group` targets, then operator() for each of them.
   void begin() {
@@ -114,7 +120,7 @@ class KernelRows {
   }
   void expect(std::size_t lane, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor) {
     LocatedTarget& place = places_[lane];
-    place = {p, u, prepared_.engine().locate(p, cursor)};
+    place = {p, u, finder_.locate(p, cursor)};
     if constexpr (GroupKernel<K>) {
       if (has_weights(place)) kernel_.expect(lane, place);
     }
@@ -161,13 +167,14 @@ class KernelRows {
 
   void answer_outside(Index target, const Point& p, query::Cursor& cursor, RowType& row) {
     if (options_.outside == Outside::nearest) {
-      row.push_back({prepared_.engine().nearest(p, cursor), 1});
+      row.push_back({finder_.nearest(p, cursor), 1});
     } else if (options_.outside == Outside::error) {
       outside_.add(target);
     }
   }
 
   const PreparedTriangulation& prepared_;
+  const Finder& finder_;
   const InterpolationOptions& options_;
   FirstOutside& outside_;
   K kernel_;

@@ -4,6 +4,7 @@
 // rondel/constrained.h: what it promises of any sites and any pairs of them.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -14,6 +15,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/constrained.h"
 #include "rondel/constrained_features.h"
+#include "rondel/constrained_interpolate.h"
 #include "rondel/constrained_locator.h"
 #include "rondel/delaunay.h"
 #include "rondel/polygon_triangles.h"
@@ -71,6 +73,35 @@ void test_location(const ConstrainedTriangulation& result, const std::vector<Poi
   }
 }
 
+// Weights are those of corners of the face in which a query is found, none is negative, and their
+// sum is 1.
+void test_interpolation(const ConstrainedTriangulation& result, const std::vector<Point>& queries) {
+  const Triangulation& t = result.triangulation;
+  const ConstrainedInterpolator interpolator(result);
+  const Weights weights = interpolator.weights(queries);
+  const std::vector<double> field(t.num_sites(), 1.0);
+  const std::vector<double> values = interpolator.values(field, queries);
+  const std::vector<Location> found = ConstrainedLocator(result).locate(queries);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    const std::uint64_t begin = weights.offsets[k];
+    const std::uint64_t end = weights.offsets[k + 1];
+    require((begin == end) == (found[k].where == Where::outside), "weights exist in faces alone");
+    require((begin == end) == !(std::abs(values[k] - 1) <= 1e-12), "the weights have the sum 1");
+    for (std::uint64_t e = begin; e < end; ++e) {
+      require(weights.values[e] >= 0, "no weight is negative");
+      if (t.dimension() < 2) continue;
+      const Triple& face = t.faces()[found[k].face];
+      const Point& site = t.sites()[weights.columns[e]];
+      require(std::ranges::any_of(face,
+                                  [&](Index v) {
+                                    return is_same_site(t.sites()[v], site, Model::projected,
+                                                        t.sphere());
+                                  }),
+              "weights are those of corners");
+    }
+  }
+}
+
 void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
                const Sphere& sphere) {
   const ConstrainedTriangulation result = without_refused(sites, constraints, sphere);
@@ -84,6 +115,7 @@ void test_laws(const std::vector<Point>& sites, std::vector<Edge> constraints,
   for (const Point& p : sites) queries.push_back({p.y, p.z, p.x});
   std::erase(queries, sphere.center);
   test_location(result, queries);
+  test_interpolation(result, queries);
   const auto again = constrained_delaunay(sites, result.edges, {.sphere = sphere});
   require(std::ranges::equal(again.triangulation.faces(), t.faces()), "edges are constraints");
   std::ranges::reverse(constraints);
@@ -184,6 +216,13 @@ void test_features(const std::vector<Point>& points) {
   }
   for (const Point& p : made.sites) {
     require(std::ranges::count(made.sites, p) == 1, "each place is one site");
+  }
+  const std::vector<LonLat> usual = lonlats(made.sites);
+  const std::vector<LonLat> shortest = short_lonlats(made.sites);
+  const std::vector<Point> back = unit_vectors(shortest);
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    require(shortest[i] == usual[i] || back[i] == made.sites[i],
+            "short degrees are those of a site");
   }
   test_triangles(polygons);
 }

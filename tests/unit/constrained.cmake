@@ -7,6 +7,7 @@ rondel_add_test(constrained_test
   constrained/constrained_features_test.cpp
   constrained/constrained_graphs_test.cpp
   constrained/constrained_laws_test.cpp
+  constrained/constrained_interpolator_test.cpp
   constrained/constrained_locator_test.cpp
   constrained/constrained_oracle_test.cpp
   constrained/constrained_proof_test.cpp

@@ -100,6 +100,12 @@ void add_constrained(nb::module_& module) {
              nb::arg("constraints").noconvert(), nb::arg("offsets").noconvert(),
              nb::arg("sides").noconvert());
   module.def("constraints_of_geometries", &constraints_of_geometries, nb::arg("geometries"));
+  module.def(
+      "short_lonlats",
+      [](const PointsIn& points) {
+        return to_array<double>(unlocked([&] { return short_lonlats(points_of(points)); }));
+      },
+      nb::arg("points").noconvert());
   module.def("check_constrained", &check_constrained_faces, nb::arg("points").noconvert(),
              nb::arg("constraints").noconvert(), nb::arg("faces").noconvert(), nb::arg("center"),
              nb::arg("threads"));

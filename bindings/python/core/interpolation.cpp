@@ -15,6 +15,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "named.h"
+#include "rondel/constrained_interpolate.h"
 #include "rondel/interpolate.h"
 #include "rondel/regrid.h"
 #include "rondel/weights.h"
@@ -167,11 +168,51 @@ void add_options(nb::module_& module) {
           nb::arg("duplicates").none(), nb::arg("normalization").none(), nb::arg("rings"));
 }
 
+LinearOptions linear(const InterpolationOptions& options) {
+  return {.outside = options.outside,
+          .shared_place = options.shared_place,
+          .normalization = options.normalization};
+}
+
+void add_constrained_interpolator(nb::module_& module) {
+  nb::class_<ConstrainedInterpolator>(module, "ConstrainedInterpolator")
+      .def(
+          "__init__",
+          [](ConstrainedInterpolator* self, const ConstrainedTriangulation& result) {
+            new (self)
+                ConstrainedInterpolator(unlocked([&] { return ConstrainedInterpolator(result); }));
+          },
+          nb::arg("result"))
+      .def(
+          "weights",
+          [](const ConstrainedInterpolator& self, const PointsIn& targets,
+             const InterpolationOptions& options, unsigned threads, const nb::object& listener) {
+            return watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
+              return self.weights(points_of(targets), linear(options), execution);
+            });
+          },
+          nb::arg("targets").noconvert(), nb::arg("options"), nb::arg("threads"),
+          nb::arg("progress").none())
+      .def(
+          "values",
+          [](const ConstrainedInterpolator& self, const FieldsIn& fields, const PointsIn& targets,
+             const InterpolationOptions& options, unsigned threads, const nb::object& listener) {
+            return to_array<double>(
+                watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
+                  return self.values(numbers_of(fields), points_of(targets), linear(options),
+                                     execution);
+                }));
+          },
+          nb::arg("fields").noconvert(), nb::arg("targets").noconvert(), nb::arg("options"),
+          nb::arg("threads"), nb::arg("progress").none());
+}
+
 }  // namespace
 
 void add_interpolation(nb::module_& module) {
   add_weights(module);
   add_options(module);
+  add_constrained_interpolator(module);
   module.def(
       "point_set_hash",
       [](const PointsIn& points) {

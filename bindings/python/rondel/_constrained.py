@@ -18,6 +18,7 @@ from ._delaunay import CheckReport
 from ._errors import CrossingConstraints, InvalidInput
 from ._geo import TriangleShapes
 from ._geometries import Edges, Invalid
+from ._linear import LinearInterpolation
 from ._mesh import Lists, Mesh
 from ._operands import Operand, operands
 from ._pickled import arrays_of, with_arrays
@@ -34,6 +35,7 @@ Crossings: TypeAlias = Literal["refuse", "split"]
 class ConstrainedDelaunay(
     Mesh,  # faces and who is next to whom
     FaceLocations,  # locate, find_simplex
+    LinearInterpolation,  # interpolate, weights
     TriangleShapes,  # to_geojson, to_geopandas, to_xarray
     TriangleTables,  # to_netcdf, to_parquet
     TrianglePictures,  # lonlat_triangles, plot
@@ -123,7 +125,11 @@ class ConstrainedDelaunay(
 
     @cached_property
     def lonlat(self) -> FloatArray:
-        """Ndarray of float64, shape (n, 2): longitudes and latitudes of the points in degrees."""
+        """Ndarray of float64, shape (n, 2): longitudes and latitudes of the points in degrees; of
+        geometries as they have them, where doubles tell.
+        """
+        if self._geometries is not None:
+            return frozen(_core.short_lonlats(self.points))
         return frozen(degrees_of(self.points, self._triangulation.center))
 
     @property
@@ -175,6 +181,13 @@ class ConstrainedDelaunay(
 
     def _locator(self) -> _core.ConstrainedLocator:
         return self._lazy_locator
+
+    @cached_property
+    def _lazy_interpolator(self) -> _core.ConstrainedInterpolator:
+        return _core.ConstrainedInterpolator(self._built)
+
+    def _linear_interpolator(self) -> _core.ConstrainedInterpolator:
+        return self._lazy_interpolator
 
     def faces_inside(self, polygons: Lists | Iterable[ArrayLike] | None = None) -> Lists:
         """Finds the faces in polygons whose sides are constraints, exactly.

@@ -448,3 +448,53 @@ def test_location():
     assert tri.locate(points[7]).sites.tolist() == [7, -1, -1]
     copy = pickle.loads(pickle.dumps(tri))
     assert copy.find_simplex(queries[0, 0]) == faces[0, 0]
+
+
+def test_linear_interpolation_in_the_own_faces():
+    rng = np.random.default_rng(6)
+    points = rng.normal(size=(200, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    edges = [[0, 1]]
+    for pair in rng.integers(0, 200, (100, 2)).tolist():
+        try:
+            rondel.constrained_delaunay(points, [*edges, pair])
+        except rondel.InvalidInput:
+            continue
+        edges.append(pair)
+    tri = rondel.constrained_delaunay(points, edges)
+    targets = rng.normal(size=(30, 40, 3))
+    values = rng.normal(size=(2, 200))
+    corners = tri.simplices[tri.find_simplex(targets)]
+    shares = np.linalg.solve(np.swapaxes(points[corners], -1, -2), targets[..., None])[..., 0]
+    shares /= shares.sum(axis=-1, keepdims=True)
+    expected = (values[:, corners] * shares).sum(axis=-1)
+    found = tri.interpolate(values, targets)
+    assert found.shape == (2, 30, 40)
+    np.testing.assert_allclose(found, expected, atol=1e-10)
+    weights = tri.weights(targets)
+    np.testing.assert_array_equal(weights.apply(values).reshape(found.shape), found)
+    copy = pickle.loads(pickle.dumps(tri))
+    np.testing.assert_array_equal(copy.interpolate(values, targets), found)
+    plain = rondel.delaunay(points)
+    assert (found != plain.interpolate(values, targets, "linear")).any()
+    unconstrained = rondel.constrained_delaunay(points)
+    np.testing.assert_array_equal(
+        unconstrained.interpolate(values, targets), plain.interpolate(values, targets, "linear")
+    )
+
+
+def test_linear_interpolation_outside_and_of_what_is_missing():
+    points = rondel.unit_vectors([0, 10, 10, 0, 5], [0, 0, 10, 10, 5])
+    tri = rondel.constrained_delaunay(points, [[0, 2]])
+    outside = rondel.unit_vectors(-20, 4)
+    assert np.isnan(tri.interpolate([1, 2, 3, 4, 5], outside))
+    assert tri.interpolate([1, 2, 3, 4, 5], outside, outside="nearest") == 1
+    with pytest.raises(rondel.InvalidInput, match="target 0"):
+        tri.interpolate([1, 2, 3, 4, 5], outside, outside="error")
+    assert np.isnan(tri.interpolate([1, np.nan, 3, 4, 5], rondel.unit_vectors(9, 2)))
+    assert tri.interpolate([1, np.nan, 3, 4, 5], rondel.unit_vectors(2, 8)) > 3
+    assert tri.interpolate(np.zeros((0, 5)), outside).shape == (0,)
+    with pytest.raises(ValueError, match="values"):
+        tri.interpolate([1, 2], outside)
+    with pytest.raises(rondel.InvalidInput):
+        tri.weights([0, 0, 0])

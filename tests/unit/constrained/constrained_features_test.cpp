@@ -7,11 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "rondel/constrained.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "support/generators.h"
 
 namespace rondel::test::of_constrained_features {
 namespace {
@@ -77,6 +80,34 @@ TEST(constrained_features, whole_spheres_and_arrays_that_do_not_fit_are_refused)
   Features infinite;
   infinite.lines.rows.values.back().x = std::numeric_limits<double>::infinity();
   EXPECT_EQ(refused(infinite), 1U);
+}
+
+// Numbers of a file, with few decimals, come back; others give what lonlats() gives.
+TEST(constrained_features, short_degrees_are_those_of_the_file) {
+  Random random(31);
+  double power = 1;
+  for (int decimals = 0; decimals <= 11; ++decimals, power *= 10) {
+    std::vector<LonLat> given;
+    for (int i = 0; i < 300; ++i) {
+      given.push_back({std::rint(179 * random.signed_unit() * power) / power,
+                       std::rint(80 * random.signed_unit() * power) / power});
+    }
+    EXPECT_EQ(short_lonlats(unit_vectors(given)), given) << decimals;
+  }
+  std::vector<Point> points;
+  for (int i = 0; i < 300; ++i) points.push_back(random_direction(random));
+  const std::vector<LonLat> found = short_lonlats(points);
+  const std::vector<LonLat> usual = lonlats(points);
+  const std::vector<Point> back = unit_vectors(found);
+  std::size_t num_usual = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    num_usual += found[i] == usual[i] ? 1 : 0;
+    EXPECT_TRUE(found[i] == usual[i] || back[i] == points[i]);
+  }
+  EXPECT_GT(num_usual, 200U);
+  const std::vector<LonLat> edges = {{-180, 10.5}, {0, 90}, {0, -90}, {180, 0}};
+  const std::vector<Point> at_edges = unit_vectors(edges);
+  EXPECT_EQ(unit_vectors(short_lonlats(at_edges)), at_edges);
 }
 
 }  // namespace
