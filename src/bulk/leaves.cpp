@@ -221,18 +221,18 @@ void find_leaf_faces(LeafGroup& group) {
 }
 
 Part draw_leaf(PlaneGraph& graph, const LeafGroup& group, std::size_t lane, Index first) {
-  using Edge = PlaneGraph::Edge;
   const std::uint64_t faces = group.faces[lane];
   const std::uint64_t clockwise = group.clockwise[lane];
   std::uint64_t left = 0;  // ways with a face on their left
   for_bits(faces, [&](std::size_t i) { left |= sides_by_triple[i][clockwise >> i & 1U].bits; });
   const std::uint64_t right = transposed(left);
-  std::array<Edge, std::size_t{max_leaf_sites} * max_leaf_sites> edges;
+  std::array<PlaneGraph::Edge, std::size_t{max_leaf_sites} * max_leaf_sites> edges;
   const std::uint64_t pairs = (left | right) & upward;
-  const Edge row = graph.new_pairs_in_row(static_cast<std::size_t>(std::popcount(pairs)));
-  Edge next_pair = row;
+  const PlaneGraph::Edge row =
+      graph.new_pairs_in_row(static_cast<std::size_t>(std::popcount(pairs)));
+  PlaneGraph::Edge next_pair = row;
   for_bits(pairs, [&](std::size_t w) {
-    const Edge e = row == no_index ? graph.new_pairs<1>()[0] : next_pair;
+    const PlaneGraph::Edge e = row == no_index ? graph.new_pairs<1>()[0] : next_pair;
     next_pair += 2;
     graph.set_ends(e, first + static_cast<Index>(origin_of(w)),
                    first + static_cast<Index>(target_of(w)));
@@ -241,9 +241,9 @@ Part draw_leaf(PlaneGraph& graph, const LeafGroup& group, std::size_t lane, Inde
   });
   for_bits(faces, [&](std::size_t i) {
     const auto& ways = sides_by_triple[i][clockwise >> i & 1U].ways;
-    const Edge ab = edges[ways[0]];
-    const Edge bc = edges[ways[1]];
-    const Edge ca = edges[ways[2]];
+    const PlaneGraph::Edge ab = edges[ways[0]];
+    const PlaneGraph::Edge bc = edges[ways[1]];
+    const PlaneGraph::Edge ca = edges[ways[2]];
     graph.link(ab, ca ^ 1);
     graph.link(bc, ab ^ 1);
     graph.link(ca, bc ^ 1);
@@ -254,7 +254,7 @@ Part draw_leaf(PlaneGraph& graph, const LeafGroup& group, std::size_t lane, Inde
   for_bits(outer, [&](std::size_t w) {
     const std::size_t site = target_of(w);
     const auto next = static_cast<std::size_t>(std::countr_zero(outer >> (max_leaf_sites * site)));
-    const Edge back = edges[w] ^ 1;
+    const PlaneGraph::Edge back = edges[w] ^ 1;
     graph.link(edges[way(site, 0) + next], back);
     part = {first + static_cast<Index>(site), back};
   });
