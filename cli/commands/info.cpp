@@ -290,10 +290,11 @@ void require_known_ending(const CommonOptions& common) {
   const std::string what = format.empty()                   ? "the name has no ending"
                            : common.source().format.empty() ? "unknown ending \"." + format + '"'
                                                             : "unknown format \"" + format + '"';
-  throw FileError(common.input + ": " + what +
-                  "; sites are read from .csv .tsv .xyz .txt .npy .geojson, fields and meshes from "
-                  "netCDF, triangles from .msh .14 .gr3 .ll .2dm, features from .geojson, weights "
-                  "from .nc .npz");
+  throw FileError(
+      common.input + ": " + what +
+      "; sites are read from .csv .tsv .xyz .txt .npy .geojson .gpkg .fgb .shp .parquet, "
+      "fields and meshes from netCDF, triangles from .msh .14 .gr3 .ll .2dm, features "
+      "from .geojson, weights from .nc .npz");
 }
 
 // Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and

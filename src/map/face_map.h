@@ -37,8 +37,6 @@ class FaceMap {
   // Returns the polygons of a solid face, empty if the face is no wider than rounding. The
   // reference is valid until the pen is used again.
   [[nodiscard]] const std::vector<LonLatPolygon>& polygons(Index face, Pen& pen) const;
-  // Returns where a site is drawn.
-  [[nodiscard]] const LonLat& position(Index site) const { return positions_[site]; }
 
  private:
   using Corners = std::array<Point, 3>;

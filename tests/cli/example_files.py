@@ -177,6 +177,8 @@ def makers(root):
     """Makers of the files, by name."""
     return {
         "stations.csv": stations,
+        "soundings.csv": stations,
+        "dikes.csv": table("from,to", ["0,1"]),
         "ships.csv": table("name,lon,lat", ["Fram,12.5,81", "Beagle,-70.25,-54.5", "Vega,178.9,66.1"]),
         "cities.csv": table("name,lon,lat,population",
                             ["Lagos,3.4,6.5,15", "Lima,-77,-12,11", "Delhi,77.2,28.6,33", "Paris,2.3,48.9,11"]),

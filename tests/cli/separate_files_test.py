@@ -50,7 +50,7 @@ COMMANDS = {
     "nearest": ("{INPUT} {QUERIES}", ["INPUT", "QUERIES"], {"--output": ".csv"}),
     "interpolate": (
         "{INPUT} --value v --to {--to}",
-        ["INPUT", "--to"],
+        ["INPUT", "--to", "--constraints"],
         {"--output": ".nc", "--weights": ".nc"},
     ),
     "regrid": ("{INPUT} {TARGET}", ["INPUT", "TARGET"], {"--output": ".nc"}),
@@ -90,7 +90,7 @@ COMMANDS = {
     "mesh quality": ("{INPUT}", ["INPUT"], {"--report": ""}),
 }
 # Options that exclude those which the arguments above have.
-INSTEAD = {"--density": "-n 12", "--start": ""}
+INSTEAD = {"--density": "-n 12", "--start": "", "--constraints": "{INPUT} --value v --to {--to} --method linear"}
 # Files that are told apart elsewhere: a folder of the command's own.
 APART = {"delaunay": {"--scratch"}}
 FILE = re.compile(r"^  (?:-\w,)?(--[\w-]+)(?:,--[\w-]+)? (FILE|TARGET|KM\|FILE|FILE:KM|DIR)\b")

@@ -14,7 +14,7 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1))
-CODE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
+CODE = re.compile(r"^```(\S*)[^\n]*\n(.*?)^```$", re.M | re.S)
 FORMULA = re.compile(r"\$([^$]*)\$")
 # What code hosts set, too: \operatorname, for one, they refuse.
 MACROS = set("""
