@@ -162,6 +162,7 @@ std::unordered_map<std::string, Value> named_values() {
 template <class Value>
 std::vector<std::string> keys_of(const std::unordered_map<std::string, Value>& choices) {
   std::vector<std::string> words;
+  words.reserve(choices.size());
   for (const auto& choice : choices) words.push_back(choice.first);
   std::ranges::sort(words);
   return words;

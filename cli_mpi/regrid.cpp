@@ -200,7 +200,10 @@ std::string common_part(const RegridArguments& arguments) {
   add(name_of(options.cells.invalid));
   add(name_of(options.cells.corners));
   add(options.is_limited ? "bounds" : "");
-  for (const auto& [east, north] : options.vectors) add(east + ',' + north);
+  for (const auto& [east, north] : options.vectors) {
+    add(east);
+    add(north);
+  }
   add(name_of(options.netcdf.kind));
   add(std::to_string(options.netcdf.deflate));
   if (const auto& filling = options.extrapolation) {

@@ -252,14 +252,14 @@ void require_options(const InterpolateOptions& options, bool has_values) {
   if (!has_values && options.weights.empty()) {
     throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
   }
+  require_separate_files(
+      {{"INPUT", common.input}, {"--to", options.target}, {"--constraints", options.constraints}},
+      {{"--output", common.output}, {"--weights", options.weights}});
   if (!options.constraints.empty()) require_edge_table(options.constraints);
   const bool is_linear = !options.regrid && options.interpolation.method == Method::linear;
   if (!options.constraints.empty() && !is_linear) {
     throw UsageError("--constraints: no method but linear keeps to edges; add --method linear");
   }
-  require_separate_files(
-      {{"INPUT", common.input}, {"--to", options.target}, {"--constraints", options.constraints}},
-      {{"--output", common.output}, {"--weights", options.weights}});
   if (has_values) {
     require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }

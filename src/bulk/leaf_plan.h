@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -79,7 +80,7 @@ class LeafPlan {
 
   std::array<Cell, max_sites> leaves_;
   std::array<Part, max_sites> parts_;  // by leaf
-  std::array<PlannedMerge, 2 * max_sites> steps_;
+  std::array<PlannedMerge, std::size_t{2} * max_sites> steps_;
   std::size_t num_leaves_;
   std::size_t num_steps_;
 };

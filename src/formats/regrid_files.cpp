@@ -524,7 +524,9 @@ class RegridJob {
     facts.push_back({"extrapolation", text_of(options_.extrapolation)});
     facts.push_back({"invalid", std::string(name_of(options_.cells.invalid))});
     std::string vectors;
-    for (const auto& [east, north] : options_.vectors) vectors += east + ',' + north + ' ';
+    for (const auto& [east, north] : options_.vectors) {
+      vectors.append(east).append(",").append(north).append(" ");
+    }
     facts.push_back({"vectors", vectors});
     return facts;
   }

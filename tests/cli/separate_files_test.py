@@ -90,7 +90,7 @@ COMMANDS = {
     "mesh quality": ("{INPUT}", ["INPUT"], {"--report": ""}),
 }
 # Options that exclude those which the arguments above have.
-INSTEAD = {"--density": "-n 12", "--start": "", "--constraints": "{INPUT} --value v --to {--to} --method linear"}
+INSTEAD = {"--density": "-n 12", "--start": ""}
 # Files that are told apart elsewhere: a folder of the command's own.
 APART = {"delaunay": {"--scratch"}}
 FILE = re.compile(r"^  (?:-\w,)?(--[\w-]+)(?:,--[\w-]+)? (FILE|TARGET|KM\|FILE|FILE:KM|DIR)\b")

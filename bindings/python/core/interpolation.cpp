@@ -207,18 +207,22 @@ void add_constrained_interpolator(nb::module_& module) {
           nb::arg("threads"), nb::arg("progress").none());
 }
 
-}  // namespace
-
-void add_interpolation(nb::module_& module) {
-  add_weights(module);
-  add_options(module);
-  add_constrained_interpolator(module);
+void add_hash(nb::module_& module) {
   module.def(
       "point_set_hash",
       [](const PointsIn& points) {
         return unlocked([&] { return point_set_hash(points_of(points)); });
       },
       nb::arg("points").noconvert());
+}
+
+}  // namespace
+
+void add_interpolation(nb::module_& module) {
+  add_weights(module);
+  add_options(module);
+  add_constrained_interpolator(module);
+  add_hash(module);
   nb::class_<Interpolator>(module, "Interpolator")
       .def(
           "__init__",

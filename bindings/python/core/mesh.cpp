@@ -95,6 +95,15 @@ WeightsOfEdges weights_of_edges(const VoronoiMesh& arrays, unsigned threads) {
           to_array<double>(std::move(found.weights))};
 }
 
+// What a mesh comes from.
+void add_makers(nb::module_& module) {
+  module.def("mesh_of", &mesh_of, nb::arg("triangulation"), nb::arg("radius"),
+             nb::arg("density").noconvert(), nb::arg("allow_zero_edges"), nb::arg("threads"),
+             nb::arg("listener").none());
+  module.def("read_mesh", &mesh_of_file, nb::arg("path"), nb::arg("radius"),
+             nb::arg("allow_zero_edges"), nb::arg("threads"));
+}
+
 }  // namespace
 
 void add_mesh(nb::module_& module) {
@@ -153,11 +162,7 @@ void add_mesh(nb::module_& module) {
             [&] { return mesh::quality_picture(self, mesh::quality(self), num_worst); });
       },
       nb::arg("num_worst"));
-  module.def("mesh_of", &mesh_of, nb::arg("triangulation"), nb::arg("radius"),
-             nb::arg("density").noconvert(), nb::arg("allow_zero_edges"), nb::arg("threads"),
-             nb::arg("listener").none());
-  module.def("read_mesh", &mesh_of_file, nb::arg("path"), nb::arg("radius"),
-             nb::arg("allow_zero_edges"), nb::arg("threads"));
+  add_makers(module);
 }
 
 }  // namespace rondel::python
