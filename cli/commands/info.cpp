@@ -279,22 +279,33 @@ ExitStatus run_info_of_triangles(const CommonOptions& common) {
   return done;
 }
 
+// What is read, for a message.
+constexpr std::string_view read_formats =
+    "sites are read from .csv .tsv .xyz .txt .npy .geojson .gpkg .fgb .shp .parquet, fields and "
+    "meshes from netCDF, triangles from .msh .14 .gr3 .ll .2dm, features from .geojson, weights "
+    "from "
+    ".nc .npz";
+
+// Returns whether an ending says what a file holds: the message has it, or it is another one of
+// netCDF or GeoJSON.
+bool is_known_ending(const std::string& ending) {
+  static constexpr std::string_view others[] = {"nc4", "cdf", "ncf", "json"};
+  const std::string text = std::string(read_formats) + ' ';
+  return text.find(" ." + ending + ' ') != std::string::npos ||
+         text.find(" ." + ending + ',') != std::string::npos ||
+         std::ranges::count(others, ending) > 0;
+}
+
 // Throws FileError for a file whose name does not say what it holds, with all that it may hold.
 void require_known_ending(const CommonOptions& common) {
-  static constexpr std::string_view endings[] = {"csv", "tsv", "xyz", "txt",     "npy",  "nc",
-                                                 "nc4", "cdf", "ncf", "geojson", "json", "npz"};
   const std::string format = format_of(common.source());
   std::error_code error;
   if (common.input == "-" || !std::filesystem::exists(common.input, error)) return;
-  if (std::ranges::count(endings, format) > 0 || is_netcdf_file(common.source())) return;
+  if (is_known_ending(format) || is_netcdf_file(common.source())) return;
   const std::string what = format.empty()                   ? "the name has no ending"
                            : common.source().format.empty() ? "unknown ending \"." + format + '"'
                                                             : "unknown format \"" + format + '"';
-  throw FileError(
-      common.input + ": " + what +
-      "; sites are read from .csv .tsv .xyz .txt .npy .geojson .gpkg .fgb .shp .parquet, "
-      "fields and meshes from netCDF, triangles from .msh .14 .gr3 .ll .2dm, features "
-      "from .geojson, weights from .nc .npz");
+  throw FileError(common.input + ": " + what + "; " + std::string(read_formats));
 }
 
 // Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and

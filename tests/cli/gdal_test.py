@@ -213,6 +213,14 @@ class SitesOfGdal(Folder):
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         self.assertEqual((self.folder / "c.geojson").read_bytes(), (self.folder / "cells.geojson").read_bytes())
 
+    def test_info_says_what_gdal_says_of_a_damaged_file(self):
+        for name in ("s.gpkg", "s.fgb", "s.shp"):
+            (self.folder / name).write_bytes(b"no such file")
+            done = self.run_tool("info", name)
+            self.assertEqual((done.returncode, done.stdout), (1, ""), name)
+            self.assertIn("GDAL", done.stderr)
+            self.assertNotIn("unknown ending", done.stderr)
+
     def test_values_are_interpolated(self):
         frame = self.frame(t=[1.5, 2.5, 3.5, np.nan, 5.5])
         frame.to_file(self.folder / "s.gpkg")
