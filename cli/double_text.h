@@ -16,7 +16,7 @@
 
 namespace rondel::cli {
 
-/// Where a number ends in the text, and whether it is one.
+/// The place where a number ends in the text, and whether there is a number.
 struct DoubleEnd {
   const char* ptr;
   /// invalid_argument if the text begins with no number; result_out_of_range if the digits are

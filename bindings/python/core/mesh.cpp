@@ -95,7 +95,7 @@ WeightsOfEdges weights_of_edges(const VoronoiMesh& arrays, unsigned threads) {
           to_array<double>(std::move(found.weights))};
 }
 
-// What a mesh comes from.
+// Adds the functions that make a mesh, of a triangulation or of a file.
 void add_makers(nb::module_& module) {
   module.def("mesh_of", &mesh_of, nb::arg("triangulation"), nb::arg("radius"),
              nb::arg("density").noconvert(), nb::arg("allow_zero_edges"), nb::arg("threads"),

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Callable
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -65,6 +66,16 @@ def as_vectors(values: ArrayLike, num_sites: int, name: str) -> FloatArray:
     if array.ndim < 2 or array.shape[-2:] != (num_sites, 3):
         raise ValueError(f"{name} must have shape (..., {num_sites}, 3), not {array.shape}")
     return array
+
+
+def at_targets(
+    fields: FloatArray, shape: tuple[int, ...], values_of: Callable[[FloatArray], FloatArray]
+) -> FloatArray:
+    """The values of fields (..., n) at targets of a shape, from a function of fields (k, n)."""
+    leading = fields.shape[:-1]
+    if not fields.size:
+        return np.full((*leading, *shape), np.nan)
+    return values_of(fields.reshape(-1, fields.shape[-1])).reshape((*leading, *shape))[()]
 
 
 class Interpolation:
@@ -216,19 +227,19 @@ class Interpolation:
         require_finite_or_nan(fields, "values")
         rays, shape = as_targets(targets)
         options = options_of(method, outside, duplicates, normalization, rings)
-        leading = fields.shape[:-1]
         slopes = None
         if gradients is not None:
             slopes = np.broadcast_to(
                 as_vectors(gradients, self.npoints, "gradients"), (*fields.shape, 3)
             )
             slopes = np.ascontiguousarray(slopes.reshape(-1, self.npoints, 3))
-        if not fields.size:
-            return np.full((*leading, *shape), np.nan)
-        found = self._interpolator().values(
-            fields.reshape(-1, self.npoints), slopes, rays, options, as_threads(threads), progress
+        return at_targets(
+            fields,
+            shape,
+            lambda flat: self._interpolator().values(
+                flat, slopes, rays, options, as_threads(threads), progress
+            ),
         )
-        return found.reshape((*leading, *shape))[()]
 
     def gradient(
         self,

@@ -4,16 +4,19 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from . import _core
 from ._arrays import as_fields, as_threads, require_finite_or_nan
-from ._interpolation import Normalization, Outside, SharedPlace, as_targets, options_of
+from ._interpolation import (
+    USUAL_RINGS,
+    Normalization,
+    Outside,
+    SharedPlace,
+    as_targets,
+    at_targets,
+    options_of,
+)
 from ._types import ArrayLike, FloatArray, Progress
 from ._weights import Weights
-
-# This decides nothing: the method is linear.
-NO_RINGS = 2
 
 
 class LinearInterpolation:
@@ -83,7 +86,7 @@ class LinearInterpolation:
 
         """
         rays, _ = as_targets(targets)
-        options = options_of("linear", outside, duplicates, normalization, NO_RINGS)
+        options = options_of("linear", outside, duplicates, normalization, USUAL_RINGS)
         return Weights._of(
             self._linear_interpolator().weights(rays, options, as_threads(threads), progress)
         )
@@ -145,11 +148,11 @@ class LinearInterpolation:
         fields = as_fields(values, self.npoints)
         require_finite_or_nan(fields, "values")
         rays, shape = as_targets(targets)
-        options = options_of("linear", outside, duplicates, normalization, NO_RINGS)
-        leading = fields.shape[:-1]
-        if not fields.size:
-            return np.full((*leading, *shape), np.nan)
-        found = self._linear_interpolator().values(
-            fields.reshape(-1, self.npoints), rays, options, as_threads(threads), progress
+        options = options_of("linear", outside, duplicates, normalization, USUAL_RINGS)
+        return at_targets(
+            fields,
+            shape,
+            lambda flat: self._linear_interpolator().values(
+                flat, rays, options, as_threads(threads), progress
+            ),
         )
-        return found.reshape((*leading, *shape))[()]

@@ -14,7 +14,7 @@ from ._arrays import as_floats, unmasked
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
 from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map
 from ._projection import LonLatMap
-from ._rings import draw_rings, polygon_rings
+from ._rings import FILLED, draw_rings, draw_triangles
 from ._types import ArrayLike, Divided, FloatArray, IntArray, Triangulated
 
 if TYPE_CHECKING:
@@ -118,9 +118,7 @@ class TrianglePictures:
                 raise ValueError(f"values must have the shape {wanted}, not {at_sites.shape}")
             solid = self.simplices[~self.ghost]
             shown = at_sites[solid].mean(axis=1)
-            look = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap}
-            rings = polygon_rings(3 * np.arange(len(solid) + 1), solid.ravel(), _rays(self))
-            colored = draw_rings(drawn, rings, shown, look)
+            colored = draw_triangles(drawn, solid, _rays(self), shown, cmap)
             add_colors(drawn, colored, shown, (vmin, vmax), label, colorbar)
         _draw_coast(self, drawn, coast)
         if values is None or edges is not None:
@@ -285,8 +283,8 @@ def draw_cells(
 ) -> Any:
     """The collection of polygons, in the colors of their owners' values."""
     lines = np.split(polygons.positions, polygons.rings[1:-1])
-    options = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap}
-    return drawn.draw_polygons(lines, polygons.owners, owner_at, options, values)
+    look = {**FILLED, "cmap": cmap}
+    return drawn.draw_polygons(lines, polygons.owners, owner_at, look, values)
 
 
 def _draw_diagram(

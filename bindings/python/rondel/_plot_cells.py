@@ -12,7 +12,7 @@ from . import _core
 from ._arrays import as_floats, unmasked
 from ._map_axes import add_colors, draw_coast_lines, limits, line_options, make_map
 from ._projection import LonLatMap
-from ._rings import draw_rings
+from ._rings import FILLED, draw_rings
 from ._types import ArrayLike, FloatArray
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ def plot_cells(
         pieces = _grid_lines(*lines[:2])
         drawn.draw_lines(pieces, line_options(drawn, self.num_cells, options))
     elif numbers is not None:
-        look = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap, **options}
+        look = {**FILLED, "cmap": cmap, **options}
         colored = draw_rings(drawn, self._cells.rings(), numbers, look)
     else:
         _draw_borders(self, drawn, options)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._lonlat import arcs
 from ._map_axes import add_bar, draw_coast_lines, make_map
-from ._rings import draw_rings, polygon_rings
+from ._rings import FILLED, draw_rings, polygon_rings
 from ._types import FloatArray
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def plot_bands(
             for a, b in zip(self.band_offsets, self.band_offsets[1:], strict=False)
         ]
     ).astype(np.int32)
-    look = {"cmap": colors, "norm": norm, "edgecolors": "face", "linewidths": 0.2, **options}
+    look = {**FILLED, "cmap": colors, "norm": norm, **options}
     draw_rings(drawn, rings, middles, look)
     if coast:
         draw_coast_lines(drawn)

@@ -14,13 +14,13 @@ from ._lonlat import arcs
 from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map
 from ._plot import draw_cells
 from ._projection import LonLatMap
-from ._rings import draw_rings, polygon_rings
+from ._rings import draw_triangles
 from ._types import ArrayLike, FloatArray, IntArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# What the words for values mean, as labels say it.
+# Each word for `values` has a label, which says what it measures.
 QUALITIES = {
     "centroid_offset": "distance of the center of mass from the site (spacings)",
     "edge_ratio": "dv/dc, the worst of each cell's edges",
@@ -207,10 +207,7 @@ def plot_triangle_mesh(
     drawn = make_map(ax, projection, points)
     shown, words = _triangle_colors(self, values, triangle_values)
     if shown is not None:
-        look = {"edgecolors": "face", "linewidths": 0.2, "cmap": cmap}
-        corners = self.triangles.ravel()
-        rings = polygon_rings(3 * np.arange(len(self.triangles) + 1), corners, points)
-        colored = draw_rings(drawn, rings, shown, look)
+        colored = draw_triangles(drawn, self.triangles, points, shown, cmap)
         add_colors(drawn, colored, shown, (vmin, vmax), label or words, colorbar)
     if coast:
         draw_coast_lines(drawn)

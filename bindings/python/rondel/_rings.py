@@ -12,9 +12,11 @@ import numpy as np
 from . import _core
 from ._pickled import with_arrays
 from ._projection import LonLatMap
-from ._types import ArrayLike, FloatArray
+from ._types import ArrayLike, FloatArray, IntArray
 
 BEND = 0.1  # degrees: the largest distance of what is drawn from arcs
+# Filled areas hide the seams between them.
+FILLED: dict[str, Any] = {"edgecolors": "face", "linewidths": 0.2}
 
 
 def polygon_rings(
@@ -43,3 +45,11 @@ def draw_rings(
     areas = [lines[a:b] for a, b in pairwise(drawings.polygons)]
     numbers = None if values is None else np.asarray(values)[drawings.owners]
     return drawn.draw_areas(areas, numbers, options)
+
+
+def draw_triangles(
+    drawn: LonLatMap, triangles: IntArray, points: FloatArray, values: Any, cmap: Any
+) -> Any:
+    """The collection of triangles of unit vectors, in the colors of values, one each."""
+    rings = polygon_rings(3 * np.arange(len(triangles) + 1), triangles.ravel(), points)
+    return draw_rings(drawn, rings, values, {**FILLED, "cmap": cmap})

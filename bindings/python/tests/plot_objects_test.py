@@ -56,7 +56,7 @@ def box_mesh():
 
 TRI = rondel.delaunay_lonlat(LON, LAT)
 CELLS = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
-# What draws one number for each of its parts, and the numbers.
+# Each object here draws one number for each of its parts; the numbers stand beside it.
 COLORED = {
     "triangles": (
         lambda **more: TRI.plot(values=HEIGHTS, **more),

@@ -83,7 +83,7 @@ def test_the_integral_in_space_is_kept(winds):
     vectors = np.moveaxis(parts, 0, -1)
     np.testing.assert_allclose(found.u.values, (vectors * to_east).sum(-1), rtol=0, atol=1e-14)
     np.testing.assert_allclose(found.v.values, (vectors * to_north).sum(-1), rtol=0, atol=1e-14)
-    # What is left out is the part across the sphere, of second order in the size of the cells.
+    # The formula leaves out the part across the sphere, of second order in the size of the cells.
     assert np.abs((vectors * to_up).sum(-1)).max() < 0.1
 
 

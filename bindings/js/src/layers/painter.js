@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What layers of all hosts do: ask for what they show, keep it on the graphics card, and draw it.
+// A painter serves the layers of all hosts: it asks for what they show, keeps it on the graphics card, and draws it.
 
 import { defaultColors, ramp, rgba } from "./colors.js";
 import { Renderer } from "./renderer.js";

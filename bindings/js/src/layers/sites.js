@@ -97,7 +97,7 @@ export class SphereSites {
   }
 
   /**
-   * What a layer draws; layers that show the same share it.
+   * Returns the arrays that a layer draws; layers that show the same share them.
    * @param {DrawnOptions} options
    * @returns {Promise<Mesh | Lines>}
    */

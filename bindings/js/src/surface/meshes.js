@@ -14,8 +14,8 @@ import { refineTriangles } from "./refine.js";
  * Vertices 0 ... numSites - 1 are the sites. The last `numCrossing` triangles cross the antimeridian, or have a pole in
  * them.
  *
- * Of cells (`show` is "cells") the last corner of each triangle says whose cell it is in: `sites` has the site of each
- * vertex that may be last, and noIndex for those on the border of cells. Of triangles (`show` is "triangles") vertices
+ * Where cells are shown (`show` is "cells"), the last corner of each triangle says whose cell it is in: `sites` has the
+ * site of each vertex that may be last, and noIndex for those on the border of cells. Where triangles are shown, vertices
  * behind the sites are middles: `parents` has two vertices for each.
  * @typedef {object} Mesh
  * @property {"cells" | "triangles"} show

@@ -14,7 +14,7 @@ import { meshOfCells, meshOfTriangles } from "./meshes.js";
 /** @typedef {"cells" | "triangles" | "isolines" | "cell-borders" | "triangle-borders"} Show */
 
 /**
- * What is drawn.
+ * The arrays of a surface.
  * @typedef {object} DrawnOptions
  * @property {Show} [show] "cells" (the default), "triangles", "isolines", "cell-borders" or "triangle-borders"
  * @property {number} [spacing] degrees: sides that are longer are divided, so that flat pieces follow the globe (default
