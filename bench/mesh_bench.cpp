@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <vector>
 
 #include "measure.h"
@@ -29,7 +30,7 @@ Point at_one(const Point& p) {
 }
 
 std::vector<Point> icosahedral_sites(int bisections, const rondel::Execution& execution) {
-  const double golden = (1 + std::sqrt(5.0)) / 2;
+  const double golden = std::numbers::phi;
   std::vector<Point> sites;
   for (const double s : {-1.0, 1.0}) {
     for (const double t : {-golden, golden}) {

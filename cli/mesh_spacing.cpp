@@ -88,6 +88,7 @@ struct LinesOfFiles {
       const SiteTable table = read_sites({file, {}}, {});
       if (table.sites.size() == *end - begin) return table.where(line - begin);
     } catch (const FileError&) {
+      // The table has gone since; what is counted of it still says where.
     }
     return file + ": line " + std::to_string(line - begin);
   }

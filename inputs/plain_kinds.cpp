@@ -116,7 +116,7 @@ Input paper_s(const Recipe& recipe) {
     const double colatitude = (t * t + inverse_pi_squared) * degrees_per_radian;
     input.sites.push_back(unit_vector({180 * t, 90 - colatitude}));
   }
-  const double c = -1 / std::sqrt(3.0);
+  const double c = -1 / std::numbers::sqrt3;
   for (const Point& p : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{c, c, c}}) {
     input.sites.push_back(p);
   }

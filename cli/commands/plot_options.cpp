@@ -39,7 +39,9 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
   }
   parser
       .add_option_function<std::string>(
-          name, [&target, find](const std::string& text) { target = find(text).value(); }, help)
+          name, [&target, find](const std::string& text) {
+            if (const auto value = find(text)) target = *value;
+          }, help)
       ->check(one_of(names, "is not one of " + words))
       ->type_name("WHAT");
 }

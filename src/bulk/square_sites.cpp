@@ -275,7 +275,8 @@ bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p) {
     return sign == Sign::positive;
   }
   predicates::Decision decision;
-  if (num_unsure_ <= num_sites_ / many && ++num_unsure_ <= num_sites_ / many) {
+  if (num_unsure_ <= num_sites_ / many) ++num_unsure_;
+  if (num_unsure_ <= num_sites_ / many) {
     decision = predicates::conflict_above_filter(*given_, a, b, c, p);
   } else {
     if (all_.size() == 0) all_.assign(sites_, order_.subspan(first_, num_sites_), center());

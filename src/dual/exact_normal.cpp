@@ -102,7 +102,7 @@ IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
 
 std::optional<IntegerVector> plane_normal(const IntegerVector& a, const IntegerVector& b,
                                           const IntegerVector& c) {
-  const IntegerVector n = cross(b - a, c - a);
+  IntegerVector n = cross(b - a, c - a);
   if (is_zero(n)) return std::nullopt;
   return n;
 }

@@ -100,7 +100,7 @@ class GmshReader {
       const std::int64_t group = lines_.integer(1, "number of a group");
       std::string name;
       for (std::size_t w = 2; w < lines_.words().size(); ++w) {
-        if (w > 2) name += " ";
+        if (w > 2) name += ' ';
         name += lines_.words()[w];
       }
       std::erase(name, '"');

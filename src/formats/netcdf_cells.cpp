@@ -209,6 +209,9 @@ void require_values(const io::VariableInFile& variable, std::uint64_t wanted) {
                  std::to_string(wanted));
 }
 
+// A variable that nobody keeps has no place to be referred to.
+void require_rank(io::VariableInFile&& variable, std::size_t rank) = delete;
+
 const io::VariableInFile& require_rank(const io::VariableInFile& variable, std::size_t rank) {
   if (variable.shape.size() == rank) return variable;
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
@@ -309,7 +312,7 @@ void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_
     mesh.mask.clear();
   } else {
     mesh.remarks.push_back(cells_in_words(num_masked, mesh.mask.size()) + " are masked by " +
-                           io::in_quotes(std::string(name)));
+                           io::in_quotes(name));
   }
 }
 

@@ -104,7 +104,7 @@ void RegridJournal::require_head(const std::vector<JournalFact>& about) {
   std::string found(std::min(size, longest_head), '\0');
   read_bytes(0, found.data(), found.size());
   const std::string_view begin = std::string_view(found).substr(0, journal_first_line.size());
-  if (begin != journal_first_line.substr(0, begin.size())) {
+  if (!journal_first_line.starts_with(begin)) {
     throw FileError(path_ + ": it is not what a run of regrid has left; the name is taken");
   }
   if (found.starts_with(head)) {

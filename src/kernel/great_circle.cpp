@@ -94,7 +94,7 @@ std::vector<Index> convex_polygon(Index size, const PlaneView& view) {
   for (Index i = 0; i < size; ++i) sorted[i] = i;
   std::ranges::sort(sorted, [&view](Index i, Index j) { return view.is_before(i, j); });
   std::vector<Index> ring;
-  const auto append_chain = [&](auto begin, auto end) {
+  const auto append_chain = [&](const auto& begin, const auto& end) {
     const std::size_t base = ring.size();
     for (auto it = begin; it != end; ++it) {
       while (ring.size() >= base + 2 &&

@@ -4,6 +4,7 @@
 #include "meshing/edge_springs.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "system/parallel.h"
 #include "system/row_assembly.h"
@@ -55,7 +56,7 @@ void EdgeSprings::measure(const KineticDelaunay& surface, std::span<const Point>
         const double square = dot(d, d);
         const Vector wall = next - last;
         const double product = std::sqrt(dot(wall, wall) * square);
-        const double k = (0.5 / std::sqrt(3.0)) * (of_site + density(j)) * product;
+        const double k = (0.5 / std::numbers::sqrt3) * (of_site + density(j)) * product;
         const Vector e = std::sqrt(k / square) * d;
         *spring++ = {j, static_cast<float>(e.x), static_cast<float>(e.y), static_cast<float>(e.z)};
         stiffness += k;

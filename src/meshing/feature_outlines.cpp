@@ -219,7 +219,7 @@ std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
       ring.push_back(cells.points[cells.corners[k]]);
     }
     if (ring.empty()) continue;
-    ring.push_back(Point(ring.front()));
+    ring.emplace_back(ring.front());
     closed.push_back(std::move(ring));
   }
   const AntimeridianCut cut(closed);

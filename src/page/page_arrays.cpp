@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -66,7 +67,7 @@ double radius_of_circle(double length) {
 // from the site's distance. Duplicates get 0.
 std::vector<double> radii(const SiteTable& table, const Triangulation& triangulation,
                           const std::vector<double>& lengths) {
-  constexpr double degree = 3.14159265358979323846 / 180;
+  constexpr double degree = std::numbers::pi / 180;
   std::vector<double> result(lengths.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] =

@@ -4,8 +4,8 @@
 // Libraries that are loaded while a program runs.
 #pragma once
 
+#include <bit>
 #include <cstdlib>
-#include <cstring>
 #include <initializer_list>
 #include <string>
 
@@ -55,7 +55,7 @@ class SymbolLoader {
   void get(Function& function, const char* name) {
     void* const address = symbol_of(library_, name);
     has_all_ = has_all_ && address != nullptr;
-    std::memcpy(&function, &address, sizeof function);
+    function = std::bit_cast<Function>(address);
   }
   [[nodiscard]] bool has_all() const { return has_all_; }
 

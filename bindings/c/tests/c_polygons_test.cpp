@@ -210,14 +210,14 @@ TEST_F(CPolygons, relate_as_in_cpp) {
     rondel::CompressedRows<Index> wanted;
     for (std::size_t i = 0; i < cells_.num_cells(); ++i) {
       for (std::size_t k = 0; k < cells_.num_cells(); ++k) {
-        const std::vector<std::array<Index, 2>> pair = {{Index(i), Index(k)}};
+        const std::vector<std::array<Index, 2>> pair = {{static_cast<Index>(i), static_cast<Index>(k)}};
         const rondel::Relation how = rondel::relate_pairs(cells_, cells_, pair)[0];
         std::int32_t matches = -1;
         ASSERT_EQ(rondel_relation_matches(std::string(how.text()).c_str(), pattern, &matches),
                   RONDEL_OK);
         EXPECT_EQ(matches, how.matches(pattern) ? 1 : 0);
         if (matches == 1 && how.is(rondel::SpatialPredicate::intersects)) {
-          wanted.values.push_back(Index(k));
+          wanted.values.push_back(static_cast<Index>(k));
         }
       }
       wanted.end_row();
