@@ -25,11 +25,10 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 template <class Value, class Target>
 void add_choice(CLI::App& parser, const std::string& name, Target& target,
                 const Choices<Value>& choices, const std::string& help) {
-  const auto find = [choices](const std::string& text) -> std::optional<Value> {
+  const auto set_target = [&target, choices](const std::string& text) {
     for (const auto& [word, value] : choices) {
-      if (word == text) return value;
+      if (word == text) target = value;
     }
-    return std::nullopt;
   };
   std::string words;
   std::vector<std::string> names;
@@ -37,11 +36,7 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
     words += (words.empty() ? "" : ", ") + choice.first;
     names.push_back(choice.first);
   }
-  parser
-      .add_option_function<std::string>(
-          name, [&target, find](const std::string& text) {
-            if (const auto value = find(text)) target = *value;
-          }, help)
+  parser.add_option_function<std::string>(name, set_target, help)
       ->check(one_of(names, "is not one of " + words))
       ->type_name("WHAT");
 }
