@@ -62,6 +62,26 @@ bool is_known_name(std::string_view name, CoordinateKind kind) {
   });
 }
 
+bool is_named_like_degrees(const VariableHeader& variable) {
+  const std::string name = lower_case(variable.name);
+  if (name.ends_with('_') || !degrees_per_unit(variable.text("units"))) return false;
+  constexpr std::array<std::string_view, 9> words = {
+      "lon", "lat", "long", "longitude", "latitude", "lons", "lats", "longitudes", "latitudes"};
+  const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (auto begin = name.begin(); begin != name.end();) {
+    begin = std::find_if(begin, name.end(), is_letter);
+    const auto end = std::find_if_not(begin, name.end(), is_letter);
+    const std::string_view run(name.data() + (begin - name.begin()),
+                               static_cast<std::size_t>(end - begin));
+    if (run.starts_with("lon") || run.starts_with("lat")) return true;
+    if (std::ranges::any_of(words, [&](std::string_view word) { return run.ends_with(word); })) {
+      return true;
+    }
+    begin = end;
+  }
+  return false;
+}
+
 bool is_name_of_part(std::string_view name, CoordinateKind kind) {
   constexpr std::array names = {KnownNames{"lonVertex", "latVertex"},
                                 KnownNames{"lonEdge", "latEdge"}, KnownNames{"vlon", "vlat"},
@@ -115,8 +135,11 @@ std::vector<std::string> words_of(const std::string& text) {
 bool is_connectivity(const VariableHeader& variable) {
   const std::string_view name = variable.name;
   const bool is_of_mpas = name.ends_with("OnCell") || name.ends_with("OnVertex") ||
-                          name.ends_with("OnEdge") || name.starts_with("indexTo");
-  const bool is_of_icon = name.ends_with("_of_cell") || name.ends_with("_index");
+                          name.ends_with("OnEdge") ||
+                          (name.starts_with("indexTo") && name.ends_with("ID"));
+  // Fields such as leaf_area_index have the ending of parent_cell_index, too.
+  const bool is_of_icon = name.ends_with("_of_cell") || name.ends_with("cell_index") ||
+                          name.ends_with("edge_index") || name.ends_with("vertex_index");
   return is_of_mpas || is_of_icon || variable.text("cf_role").ends_with("_connectivity");
 }
 

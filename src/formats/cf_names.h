@@ -30,6 +30,10 @@ enum class CoordinateKind { lon, lat };
 // True if models give this name to longitudes, or latitudes, of places. It decides if no attribute
 // does.
 bool is_known_name(std::string_view name, CoordinateKind kind);
+// True if the units are angles and a word of the name begins or ends as longitudes and latitudes do:
+// `u_lon`, `geolat_c`, `lonCell`, but not `platform_zenith_angle`. A name that ends with an underscore
+// has given way to that of a coordinate, and is none.
+bool is_named_like_degrees(const VariableHeader& variable);
 // True if MPAS or ICON give this name to longitudes, or latitudes, of vertices or edges.
 bool is_name_of_part(std::string_view name, CoordinateKind kind);
 // Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its

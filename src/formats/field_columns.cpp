@@ -51,9 +51,24 @@ std::string take_name(const std::string& name, std::set<std::string>& taken) {
   return *taken.insert(free_names({name}, taken).front()).first;
 }
 
-void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken) {
+std::vector<VariableHeader> ColumnsOut::headers() const {
+  std::vector<VariableHeader> headers;
+  headers.reserve(columns_.size());
   for (const Column& column : columns_) {
-    const std::string name = take_name(name_of_variable(column), taken);
+    headers.push_back({.name = name_of_variable(column),
+                       .is_number = column.is_numeric && !column.has_wide_integers(),
+                       .dimensions = {"point"},
+                       .shape = {1},
+                       .texts = {}});
+  }
+  return headers;
+}
+
+void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
+                        std::span<const std::string> names, std::set<std::string> taken) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Column& column = columns_[c];
+    const std::string& name = names[c];
     is_number_.push_back(column.is_numeric && !column.has_wide_integers());
     // A dimension of length 0 would be a record dimension.
     std::size_t longest = 1;

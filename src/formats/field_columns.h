@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "io/netcdf_writer.h"
+#include "rondel/conventions.h"
 #include "rondel/io.h"
 
 namespace rondel::formats {
@@ -32,9 +33,12 @@ class ColumnsOut {
   // Columns have a cell for each point.
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
 
+  // Returns headers with the names that programs accept for variables, one for each column.
+  [[nodiscard]] std::vector<VariableHeader> headers() const;
   // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of
-  // the points, `taken` the names of other variables and dimensions.
-  void define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> taken);
+  // the points, `names` the names of the variables, `taken` those of all variables and dimensions.
+  void define(io::NetcdfWriter& out, std::size_t points, std::span<const std::string> names,
+              std::set<std::string> taken);
   // Writes the values, after NetcdfWriter::begin().
   void write(io::NetcdfWriter& out) const;
 

@@ -224,11 +224,7 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
-  const std::string name = lower_case(header.name);
-  const bool is_called_so =
-      name.find("lon") != std::string::npos || name.find("lat") != std::string::npos;
-  if (is_called_so && degrees_per_unit(header.text("units"))) return true;
-  if (parts_of_grids_[index]) return true;
+  if (is_named_like_degrees(header) || parts_of_grids_[index]) return true;
   if (coordinate_evidence(header, CoordinateKind::lon) > 0 ||
       coordinate_evidence(header, CoordinateKind::lat) > 0) {
     return true;

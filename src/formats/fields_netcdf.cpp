@@ -6,11 +6,13 @@
 // `_FillValue`, and `coordinates` where the points are no grid along axes.
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <set>
 
 #include "formats/field_columns.h"
 #include "formats/field_formats.h"
 #include "formats/weight_formats.h"
+#include "formats/written_names.h"
 #include "io/netcdf_writer.h"
 
 namespace rondel::formats {
@@ -203,15 +205,32 @@ class NetcdfSink : public FieldSink {
                          std::move(dimensions), with_attributes(other)});
     }
     points_.define(out_);
-    std::vector<std::string> names;
-    for (const FieldArray& array : fields.arrays)
-      names.push_back(take_name(netcdf_name(array.name), taken_));
-    columns_.define(out_, points_.dimensions().front(), taken_);
+    define_values(fields, leading);
+  }
+
+  // Defines the arrays and the columns. `leading` has the dimensions of each array before those of
+  // the points.
+  void define_values(const FieldSet& fields, const std::vector<std::vector<std::size_t>>& leading) {
+    std::vector<VariableHeader> headers;
+    std::vector<std::vector<io::NetcdfAttribute>> attributes_of_all;
+    for (const FieldArray& array : fields.arrays) {
+      attributes_of_all.push_back(with_attributes(array));
+      remove_marks_of_coordinates(attributes_of_all.back());
+      headers.push_back(
+          {.name = netcdf_name(array.name), .dimensions = {"point"}, .shape = {1}, .texts = {}});
+      for (const io::NetcdfAttribute& attribute : attributes_of_all.back()) {
+        headers.back().texts.emplace_back(attribute.name, attribute.text);
+      }
+    }
+    std::ranges::move(columns_.headers(), std::back_inserter(headers));
+    const std::vector<std::string> names = take_names_of_fields(std::move(headers), taken_);
+    columns_.define(out_, points_.dimensions().front(), std::span(names).subspan(leading.size()),
+                    taken_);
     for (std::size_t a = 0; a < leading.size(); ++a) {
       const FieldArray& array = fields.arrays[a];
       std::vector<std::size_t> dimensions = leading[a];
       dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
-      std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
+      std::vector<io::NetcdfAttribute>& attributes = attributes_of_all[a];
       if (fields.is_fill_marked) {
         attributes.push_back({"_FillValue", type_of(array), {}, {fields.fill}});
       }
