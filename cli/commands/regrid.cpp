@@ -301,7 +301,9 @@ Command add_regrid_command(CLI::App& tool) {
   parser->footer(
       "Grids: grid:0.25 and grid:1440x720 (between meridians and parallels), healpix:7 and\n"
       "healpix:7:ring (12 * 4^7 pixels), F320, N320, O320 (Gaussian: regular, reduced,\n"
-      "octahedral), C384 (cubed sphere), R2B6 (triangles of an icosahedron).\n\n"
+      "octahedral), C384 (cubed sphere), R2B6 (triangles of an icosahedron), hexagons:R2B6 "
+      "(around\n"
+      "their corners), tripolar:0.25 (an ocean with two poles on land).\n\n"
       "All times and levels are carried, with attributes, axes, and variables without places. A\n"
       "target of which sources with values cover less than half is missing (--max-missing).\n\n"
       "Examples:\n"

@@ -181,8 +181,8 @@ Command add_remap_command(CLI::App& tool) {
   parser->footer(
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the\n"
       "library netCDF-C. Cells that the file masks take no part. Grids: grid:0.25,\n"
-      "grid:1440x720, healpix:7, healpix:7:ring, F320, N320, O320, C384, R2B6 (see rondel\n"
-      "regrid).\n\n"
+      "grid:1440x720, healpix:7, healpix:7:ring, F320, N320, O320, C384, R2B6,\n"
+      "hexagons:R2B6, tripolar:0.25 (see rondel regrid).\n\n"
       "Examples:\n"
       "  rondel remap ocean.nc grid:1 -o weights.nc\n"
       "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"

@@ -41,7 +41,8 @@ struct GridMapping {
 /// `grid_attribute` says; an empty text if they say neither.
 RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 
-/// A grid of the whole sphere that is given by its name:
+/// A grid that is given by its name; all cover the sphere but `tripolar:`, which has no cells in the
+/// Antarctic:
 ///
 /// | name | cells |
 /// | --- | --- |
@@ -54,6 +55,8 @@ RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 /// | `O320` | ECMWF's octahedral reduced Gaussian grid: 20, 24, 28 ... cells in a row |
 /// | `C384` | the equiangular cubed sphere with 6 * 384^2 cells, face by face |
 /// | `R2B6` | triangles of an icosahedron whose sides are divided by 2 and then 6 times by halves: ICON's grid before it is optimized |
+/// | `hexagons:R2B6` | the dual of these triangles: 12 pentagons and hexagons around their corners, between the circumcenters of the triangles |
+/// | `tripolar:DEG` | an ocean grid of 360 / DEG columns, a multiple of 4: Mercator's rows from 78 degrees south, and from about 65 degrees north on a cap with two poles on land |
 ///
 /// 1. Sides of cells are arcs of great circles, except for the parallels of `grid:` and `F`
 ///    (GridSides::parallels). In `N` and `O`, what is between two corners of a parallel is an arc,
@@ -63,6 +66,10 @@ RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 ///    rounding of corners. With GridSides::great_circles each side is one arc, which changes areas.
 /// 3. Gaussian latitudes are the roots of a Legendre polynomial; rows end half way between them.
 /// 4. Coordinates are the same bits on every machine.
+/// 5. Tripolar grids are those of Murray (J. Comput. Phys. 126, 1996). Rows count from the south and
+///    columns eastward from longitude 80, where one pole of the cap is; the other one is at -100. The
+///    cap begins at the row whose border is nearest to 65 degrees north. Its last row is folded: cell
+///    i of n shares its northern side with cell n - 1 - i. No row or column is there twice.
 class RONDEL_API NamedGrid {
  public:
   /// True if a text has the form of a name of a grid, such as "N7", which is none.
@@ -75,8 +82,10 @@ class RONDEL_API NamedGrid {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
   /// Returns the lengths of the dimensions of the cells, the last one varying fastest: nlat, nlon
-  /// for `grid:` and `F`; 6, n, n for `C`; otherwise the number of cells.
+  /// for `grid:` and `F`; rows, columns for `tripolar:`; 6, n, n for `C`; otherwise the number of cells.
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
+  /// True unless the cells leave a part of the sphere out.
+  [[nodiscard]] bool covers_sphere() const;
   /// Returns the attributes by which files say that points are those of this grid.
   [[nodiscard]] GridMapping mapping() const;
   /// Returns the axes of the centers of `grid:` and `F`, else null.

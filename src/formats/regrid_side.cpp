@@ -178,7 +178,10 @@ bool RegridSide::has_tiles(const Execution& execution) const {
   return data.whole() == no_index && data.overlaps(execution).empty();
 }
 
-bool RegridSide::is_walked() const { return named_ || lines_ || cells_->covers_sphere(); }
+bool RegridSide::is_walked() const {
+  if (named_) return has_parallels() || named_->covers_sphere();
+  return lines_ || cells_->covers_sphere();
+}
 
 bool RegridSide::has_parallels() const {
   return options_.sides == GridSides::parallels && (lines_ || (named_ && axes_));

@@ -38,6 +38,8 @@ class GridFormula {
   [[nodiscard]] virtual const CellRings* stored() const { return nullptr; }
   // Returns the area of a stored cell in steradians, and otherwise 0.
   [[nodiscard]] virtual double area(Index /*cell*/) const { return 0; }
+  // False if the cells leave a part of the sphere out.
+  [[nodiscard]] virtual bool covers_sphere() const { return true; }
   // Returns the lengths of the dimensions of an array of the cells; the last one varies fastest.
   [[nodiscard]] virtual std::vector<std::uint64_t> shape() const { return {num_cells()}; }
 };
@@ -67,5 +69,15 @@ std::unique_ptr<GridFormula> cubed_sphere_grid(unsigned side);
 // `bisections` times into halves, as ICON's grid R`root`B`bisections` before its points are moved.
 // The triangles within one of the division before are consecutive: the middle one comes first.
 std::unique_ptr<GridFormula> triangle_grid(unsigned root, unsigned bisections);
+
+// Returns the cells around the corners of triangle_grid(): 12 pentagons, then hexagons along the
+// edges of the icosahedron, then those inside of its faces. Their corners are the circumcenters of
+// the triangles.
+std::unique_ptr<GridFormula> hexagon_grid(unsigned root, unsigned bisections);
+
+// Returns a tripolar grid of the ocean (Murray 1996) with `columns` cells around the globe, a multiple
+// of 4 that is at least 12: rows at Mercator's latitudes from the south, and a bipolar cap around the
+// north pole. The Antarctic south of the first row is in no cell.
+std::unique_ptr<GridFormula> tripolar_grid(unsigned columns);
 
 }  // namespace rondel::grids

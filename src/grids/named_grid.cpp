@@ -29,6 +29,14 @@ constexpr std::uint64_t max_healpix_order = 13;
 constexpr std::uint64_t max_gaussian = 8000;
 constexpr std::uint64_t max_cube_side = 20'000;
 constexpr std::uint64_t max_root = 100;
+constexpr double min_tripolar_columns = 12;
+constexpr double max_tripolar_columns = 60'000;
+
+// The names of kinds of grids, before what says which one.
+constexpr std::string_view global_kind = "grid:";
+constexpr std::string_view healpix_kind = "healpix:";
+constexpr std::string_view hexagon_kind = "hexagons:";
+constexpr std::string_view tripolar_kind = "tripolar:";
 
 [[noreturn]] void refuse(std::string_view name, const std::string& why) {
   throw InvalidInput("'" + std::string(name) + "' is no grid: " + why);
@@ -51,6 +59,21 @@ std::uint64_t number_in(std::string_view text, std::uint64_t least, std::uint64_
          std::string(what) + " is from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
+// Returns how many steps, as a text has them, an angle consists of; 0 if they are no whole number. The
+// quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the division.
+double whole_steps(double angle, std::string_view text) {
+  double step = 0;
+  try {
+    step = io::parse_number(text, "the step");
+  } catch (const io::BadValue&) {
+    return 0;
+  }
+  if (!(step > 0)) return 0;
+  const double count = angle / step;
+  const double whole = std::round(count);
+  return std::abs(count - whole) <= count * 0x1p-50 ? whole : 0;
+}
+
 // Returns the grid that the text after "grid:" describes.
 GlobalGrid global_grid(std::string_view text, std::string_view name) {
   constexpr const char* why =
@@ -63,21 +86,8 @@ GlobalGrid global_grid(std::string_view text, std::string_view name) {
     if (!is_good) refuse(name, why);
     return {*num_lon, *num_lat};
   }
-  double step = 0;
-  try {
-    step = io::parse_number(text, "the step");
-  } catch (const io::BadValue&) {
-    refuse(name, why);
-  }
-  if (!(step > 0)) refuse(name, why);
-  const double count = 180 / step;
-  const double whole = std::round(count);
-  // The quotient may be off by one ulp of the step, such as 0.1, and by the rounding of the
-  // division.
-  if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
-      whole > static_cast<double>(max_parallels)) {
-    refuse(name, why);
-  }
+  const double whole = whole_steps(180, text);
+  if (whole < 1 || whole > static_cast<double>(max_parallels)) refuse(name, why);
   const auto num_lat = static_cast<std::uint64_t>(whole);
   return {2 * num_lat, num_lat};
 }
@@ -109,15 +119,31 @@ std::unique_ptr<grids::GridFormula> healpix(std::string_view text, std::string_v
   return grids::healpix_grid(order, scheme == "ring", sides);
 }
 
-// Returns the triangles of "R2B6".
-std::unique_ptr<grids::GridFormula> triangles(std::string_view name) {
-  const std::size_t b = name.find('B');
+// How the sides of an icosahedron are divided.
+struct IcosahedronParts {
+  unsigned root;
+  unsigned bisections;
+};
+
+// Returns what "R2B6" says; the text may be a part of the name.
+IcosahedronParts icosahedron_parts(std::string_view text, std::string_view name) {
+  const std::size_t b = text.find('B');
   const std::uint64_t root =
-      number_in(name.substr(1, b - 1), 1, max_root, name, "the division of the sides");
+      number_in(text.substr(1, b - 1), 1, max_root, name, "the division of the sides");
   const std::uint64_t bisections =
-      number_in(name.substr(b + 1), 0, 15, name, "the number of bisections");
+      number_in(text.substr(b + 1), 0, 15, name, "the number of bisections");
   if (20 * root * root << (2 * bisections) >= no_index) refuse(name, "it has too many cells");
-  return grids::triangle_grid(static_cast<unsigned>(root), static_cast<unsigned>(bisections));
+  return {static_cast<unsigned>(root), static_cast<unsigned>(bisections)};
+}
+
+// Returns the tripolar grid that the text after "tripolar:" describes.
+std::unique_ptr<grids::GridFormula> tripolar(std::string_view text, std::string_view name) {
+  const double columns = whole_steps(360, text);
+  if (!(columns >= min_tripolar_columns) || columns > max_tripolar_columns ||
+      std::fmod(columns, 4) != 0) {
+    refuse(name, "tripolar:DEG divides 360 degrees into 12 to 60000 columns, a multiple of 4");
+  }
+  return grids::tripolar_grid(static_cast<unsigned>(columns));
 }
 
 std::vector<Index> octahedral_counts(std::size_t number) {
@@ -130,12 +156,19 @@ std::vector<Index> octahedral_counts(std::size_t number) {
 
 // Returns the cells of a grid other than `grid:` and `F`.
 std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides sides) {
-  constexpr std::string_view pixels = "healpix:";
-  if (name.starts_with(pixels)) return healpix(name.substr(pixels.size()), name, sides);
+  const auto after = [&](std::string_view kind) { return name.substr(kind.size()); };
+  if (name.starts_with(healpix_kind)) return healpix(after(healpix_kind), name, sides);
+  if (name.starts_with(tripolar_kind)) return tripolar(after(tripolar_kind), name);
+  if (name.starts_with(hexagon_kind)) {
+    const IcosahedronParts parts = icosahedron_parts(after(hexagon_kind), name);
+    return grids::hexagon_grid(parts.root, parts.bisections);
+  }
   const std::string_view number = name.substr(1);
   switch (name.front()) {
-    case 'R':
-      return triangles(name);
+    case 'R': {
+      const IcosahedronParts parts = icosahedron_parts(name, name);
+      return grids::triangle_grid(parts.root, parts.bisections);
+    }
     case 'C':
       return grids::cubed_sphere_grid(static_cast<unsigned>(
           number_in(number, 1, max_cube_side, name, "the number of cells along a face")));
@@ -153,6 +186,13 @@ std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides 
 
 bool is_digits(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// True for "R2B6", with any numbers.
+bool names_icosahedron(std::string_view text) {
+  const std::size_t b = text.find('B');
+  return text.starts_with('R') && b != std::string_view::npos && is_digits(text.substr(1, b - 1)) &&
+         is_digits(text.substr(b + 1));
 }
 
 }  // namespace
@@ -185,14 +225,12 @@ std::string grid_named_by(const GridMapping& attributes) {
 }
 
 bool NamedGrid::is_name(std::string_view text) {
-  if (text.starts_with("grid:") || text.starts_with("healpix:")) return true;
-  if (text.size() < 2) return false;
-  const std::string_view rest = text.substr(1);
-  if (text.front() == 'R') {
-    const std::size_t b = rest.find('B');
-    return b != std::string_view::npos && is_digits(rest.substr(0, b)) &&
-           is_digits(rest.substr(b + 1));
+  for (const std::string_view kind : {global_kind, healpix_kind, tripolar_kind}) {
+    if (text.starts_with(kind)) return true;
   }
+  if (text.starts_with(hexagon_kind)) return names_icosahedron(text.substr(hexagon_kind.size()));
+  if (text.size() < 2 || names_icosahedron(text)) return text.size() >= 2;
+  const std::string_view rest = text.substr(1);
   return std::string_view("FNOC").find(text.front()) != std::string_view::npos && is_digits(rest);
 }
 
@@ -200,12 +238,11 @@ NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), side
   const system::ArithmeticScope arithmetic;
   if (!is_name(name)) {
     refuse(name,
-           "grids are grid:DEG, grid:NLONxNLAT, healpix:7, healpix:7:ring, F320, N320, O320, C384 "
-           "and R2B6, with any numbers");
+           "grids are grid:DEG, grid:NLONxNLAT, healpix:7, healpix:7:ring, F320, N320, O320, C384, "
+           "R2B6, hexagons:R2B6 and tripolar:DEG, with any numbers");
   }
-  constexpr std::string_view global = "grid:";
-  if (name.starts_with(global)) {
-    const GlobalGrid grid = global_grid(name.substr(global.size()), name);
+  if (name.starts_with(global_kind)) {
+    const GlobalGrid grid = global_grid(name.substr(global_kind.size()), name);
     if (grid.num_lon >= no_index / grid.num_lat) refuse(name, "it has too many cells");
     lines_ = grid.lines();
     axes_ = grid.centers();
@@ -221,6 +258,8 @@ NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), side
   for (const std::uint64_t length : shape_) num_cells_ *= length;
 }
 
+bool NamedGrid::covers_sphere() const { return !formula_ || formula_->covers_sphere(); }
+
 std::vector<LonLat> NamedGrid::centers() const {
   const system::ArithmeticScope arithmetic;
   if (axes_) return axes_->places();
@@ -232,11 +271,10 @@ std::vector<LonLat> NamedGrid::centers() const {
 }
 
 GridMapping NamedGrid::mapping() const {
-  constexpr std::string_view pixels = "healpix:";
-  if (name_.starts_with("grid:")) return {};
-  if (!name_.starts_with(pixels)) return {{{grid_attribute, name_}}, {}};
+  if (name_.starts_with(global_kind)) return {};
+  if (!name_.starts_with(healpix_kind)) return {{{grid_attribute, name_}}, {}};
   const std::string level =
-      name_.substr(pixels.size(), name_.find(':', pixels.size()) - pixels.size());
+      name_.substr(healpix_kind.size(), name_.find(':', healpix_kind.size()) - healpix_kind.size());
   const bool is_in_rings = name_.ends_with(":ring");
   const auto order = *number_of(level);
   // The last two are those that tools for HEALPix had before.

@@ -112,7 +112,8 @@ TiledCells::TiledCells(const NamedGrid& grid) {
   if (grid.lines_ && grid.sides_ == GridSides::parallels) {
     *this = TiledCells(*grid.lines_);
   } else if (grid.formula_) {
-    content_ = std::make_shared<const CellsOfTiles>(CellsOfTiles{std::nullopt, {}, grid.formula_});
+    content_ = std::make_shared<const CellsOfTiles>(
+        CellsOfTiles{std::nullopt, {}, grid.formula_, grid.formula_->covers_sphere()});
   } else {
     *this = TiledCells(grid.cells());
   }

@@ -9,6 +9,7 @@
 
 #include "exact/vector.h"
 #include "grids/grid_formula.h"
+#include "grids/icosahedron_faces.h"
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 
@@ -20,26 +21,6 @@ using Corners = std::array<Point, 3>;
 // The number of cells fits an Index.
 constexpr unsigned max_bisections = 16;
 
-// The faces of the icosahedron as corners of mesh::icosahedron(), counterclockwise.
-using Face = std::array<Index, 3>;
-std::vector<Face> faces_of(const std::vector<Point>& corners) {
-  std::vector<Face> faces;
-  constexpr double between_neighbors = 0.3;  // the cosine of the angle is 1 / sqrt(5)
-  const auto are_near = [&](Index a, Index b) {
-    return dot(corners[a], corners[b]) > between_neighbors;
-  };
-  for (Index a = 0; a < corners.size(); ++a) {
-    for (Index b = a + 1; b < corners.size(); ++b) {
-      for (Index c = b + 1; c < corners.size(); ++c) {
-        if (!are_near(a, b) || !are_near(b, c) || !are_near(c, a)) continue;
-        const bool is_left = dot(cross(corners[a], corners[b]), corners[c]) > 0;
-        faces.push_back(is_left ? Face{a, b, c} : Face{a, c, b});
-      }
-    }
-  }
-  return faces;
-}
-
 // Returns the middle of an arc; the same for both directions.
 Point middle_of(const Point& a, const Point& b) { return normalized(a + b); }
 
@@ -49,7 +30,7 @@ class TriangleGrid : public GridFormula {
       : root_(root),
         bisections_(bisections),
         corners_(mesh::icosahedron()),
-        faces_(faces_of(corners_)) {}
+        faces_(icosahedron_faces(corners_)) {}
 
   [[nodiscard]] Index num_cells() const override {
     return static_cast<Index>(faces_.size()) * root_ * root_ << (2 * bisections_);
@@ -112,7 +93,7 @@ class TriangleGrid : public GridFormula {
   // Returns one of the root^2 triangles of each face: strips along the side between its first two
   // corners, each with triangles that point to the third one and others between them.
   [[nodiscard]] Corners root_triangle(Index triangle) const {
-    const Face& face = faces_[triangle / (root_ * root_)];
+    const IcosahedronFace& face = faces_[triangle / (root_ * root_)];
     Index rest = triangle % (root_ * root_);
     Index row = 0;
     while (rest >= 2 * (root_ - row) - 1) rest -= 2 * (root_ - row++) - 1;
@@ -125,7 +106,7 @@ class TriangleGrid : public GridFormula {
   }
   // Returns the point i steps toward the second corner of a face and j steps toward the third one.
   // Terms of 0 leave the sums as they are, so that two faces agree on their common side.
-  [[nodiscard]] Point root_point(const Face& face, Index i, Index j) const {
+  [[nodiscard]] Point root_point(const IcosahedronFace& face, Index i, Index j) const {
     const auto part = [&](Index steps, Index corner) {
       return static_cast<double>(steps) * corners_[face[corner]];
     };
@@ -135,7 +116,7 @@ class TriangleGrid : public GridFormula {
   Index root_;
   unsigned bisections_;
   std::vector<Point> corners_;
-  std::vector<Face> faces_;
+  std::vector<IcosahedronFace> faces_;
 };
 
 }  // namespace

@@ -260,7 +260,7 @@ class Carried(unittest.TestCase):
     def test_other_commands_know_the_grid_that_a_file_names(self):
         with new(self.folder / "in.nc", times=1) as file:
             add(file, "t", ("lat", "lon"), np.ones((18, 36)))
-        for grid in ("healpix:1", "healpix:2:ring", "O8", "N32", "C4", "R2B1"):
+        for grid in ("healpix:1", "healpix:2:ring", "O8", "N32", "C4", "R2B1", "hexagons:R2B1", "tripolar:15"):
             self.run_tool("regrid", "in.nc", grid, "-o", "pixels.nc")
             for sides in (("pixels.nc", "grid:30"), ("grid:30", "pixels.nc")):
                 self.run_tool("remap", *sides, "-o", "w.nc", "--quiet")
@@ -281,6 +281,53 @@ class Carried(unittest.TestCase):
         for arguments in (("remap", "points.nc", "grid:30"), ("regrid", "in.nc", "points.nc"), ("regrid", "points.nc", "grid:30")):
             said = self.run_tool(*arguments, "-o", "x.nc", status=1)
             self.assertIn("points of a grid with a name, such as healpix:7 or O320", said[0])
+
+    def test_fields_may_be_named_like_coordinates(self):
+        """What is written as a field is read as one, whatever its column is called; its values are those of any other."""
+        names = "latitude longitude lat lon TLAT nav_lon lonVertex lat_bnds lon_bnds verticesOnCell indexToCellID grid_corner_lon".split()
+        names += "grid_center_lon grid_imask connect1 coord elementConn glamt gphit a.lon a.lat time point crs axis_0 leaf_area_index".split()
+        random = np.random.default_rng(3)
+        sites = random.normal(size=(200, 3))
+        sites /= np.linalg.norm(sites, axis=1, keepdims=True)
+        values = random.normal(size=(len(names), 200))
+        rows = np.column_stack([sites, *values])
+        for header, path in ((names, "own.csv"), ([f"v{k}" for k in range(len(names))], "plain.csv")):
+            np.savetxt(self.folder / path, rows, delimiter=",", comments="", header=",".join(["x", "y", "z", *header]))
+        np.savetxt(self.folder / "places.csv", sites[:60] + 0.01, delimiter=",", comments="", header="x,y,z")
+        for target, method in (("grid:30", "conservative"), ("healpix:2", "conservative"), ("places.csv", "nearest")):
+            for path, header in (("own", names), ("plain", [f"v{k}" for k in range(len(names))])):
+                wanted = [word for name in header for word in ("--value", name)]
+                sides = ("--x", "x", "--y", "y", "--z", "z")
+                self.run_tool("interpolate", f"{path}.csv", *sides, "--to", target, *wanted, "--method", "nearest", "-o", f"{path}.nc", "--quiet")
+                source = ("--source", target) if target.startswith("healpix") else ()
+                self.run_tool("regrid", f"{path}.nc", "grid:20", "--method", method, *source, "-o", f"{path}_again.nc", "--quiet")
+            for end in ("", "_again"):
+                with netCDF4.Dataset(self.folder / f"own{end}.nc") as own, netCDF4.Dataset(self.folder / f"plain{end}.nc") as plain:
+                    fields = [name for name in own.variables if name not in ("lat", "lon")]
+                    self.assertEqual([name.rstrip("_") for name in fields], names)
+                    for k, name in enumerate(fields):
+                        np.testing.assert_array_equal(own[name][:], plain[f"v{k}"][:], name)
+                    self.assertIn("latitude_", fields)
+                    self.assertIn("leaf_area_index", fields)
+
+    def test_fields_of_angles_are_fields(self):
+        """Names that have "lat" or "lon" in them, and fields of coordinates where these are asked for."""
+        with new(self.folder / "in.nc", times=1) as file:
+            ones = np.ones((18, 36))
+            for name, units in (("platform_zenith_angle", "degrees"), ("relative_azimuth", "degrees"), ("leaf_area_index", "1")):
+                add(file, name, ("lat", "lon"), ones, units=units)
+            add(file, "target_lat", ("lat", "lon"), 2 * ones, units="degrees_north", standard_name="latitude")
+            add(file, "parent_cell_index", ("lat", "lon"), ones, "i4")
+        self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc", "--quiet")
+        with netCDF4.Dataset(self.folder / "out.nc") as out:
+            self.assertEqual(list(out.variables), ["lat", "lon", "platform_zenith_angle", "relative_azimuth", "leaf_area_index"])
+        self.run_tool("regrid", "in.nc", "grid:30", "--value", "target_lat", "-o", "out.nc", "--quiet")
+        self.run_tool("regrid", "out.nc", "grid:90", "-o", "again.nc", "--quiet")
+        for path in ("out.nc", "again.nc"):
+            with netCDF4.Dataset(self.folder / path) as out:
+                self.assertEqual(out["target_lat_"].units, "degrees")
+                self.assertNotIn("standard_name", out["target_lat_"].ncattrs())
+                np.testing.assert_allclose(out["target_lat_"][:], 2, rtol=1e-14)
 
     def test_what_no_method_takes_is_said(self):
         with new(self.folder / "in.nc", times=1) as file:

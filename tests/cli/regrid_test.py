@@ -285,7 +285,7 @@ class Regrid(unittest.TestCase):
 
     def test_grids_are_known_by_their_file(self):
         self.write("in.nc", "NETCDF3_64BIT_OFFSET", False)
-        for grid in ("O8", "N32", "C4", "R2B1", "F4"):
+        for grid in ("O8", "N32", "C4", "R2B1", "F4", "hexagons:R2B1", "tripolar:15"):
             self.regrid("in.nc", grid, "-o", "made.nc")
             self.regrid("made.nc", "grid:30", "-o", "known.nc")
             self.regrid("made.nc", "grid:30", "-o", "said.nc", "--source", grid)

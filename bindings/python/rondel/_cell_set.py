@@ -199,7 +199,7 @@ class CellSet(Described):
 
     @classmethod
     def named(cls, name: str, *, sides: Sides = "parallels", threads: int | None = None) -> CellSet:
-        """Makes the cells of a grid of the whole sphere from its name.
+        """Makes the cells of a grid from its name.
 
         Parameters
         ----------
@@ -210,7 +210,10 @@ class CellSet(Described):
             ``'F320'``, ``'N320'`` and ``'O320'``: ECMWF's Gaussian grids, regular, reduced and
             octahedral. ``'C384'``: the equiangular cubed sphere, of the shape (6, 384, 384).
             ``'R2B6'``: the triangles of an icosahedron whose sides are divided by 2 and then 6
-            times by halves, as ICON's before its points are moved.
+            times by halves, as ICON's before its points are moved. ``'hexagons:R2B6'``: the cells
+            around the corners of these triangles, 12 pentagons and hexagons. ``'tripolar:0.25'``:
+            an ocean grid whose poles are on land, without the Antarctic, of the shape (rows,
+            columns), rows from the south and columns from longitude 80 eastward.
         sides : {'parallels', 'great_circles'}, optional
             Those of ``'grid:'``, ``'F'`` and ``'healpix:'``. With 'great_circles' a pixel has four
             sides, which changes its area; otherwise chains that keep it.

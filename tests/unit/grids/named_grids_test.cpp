@@ -47,6 +47,11 @@ std::vector<std::string> small_grids() {
           "R2B2",
           "R3B1",
           "R7B0",
+          "hexagons:R1B0",
+          "hexagons:R1B3",
+          "hexagons:R2B2",
+          "hexagons:R3B1",
+          "hexagons:R7B0",
           "healpix:0",
           "healpix:0:ring",
           "healpix:1",
@@ -144,19 +149,20 @@ TEST(named_grids, centers_are_the_point_sets) {
 // Numbers of points that ECMWF, Gorski et al. and ICON's documentation give.
 TEST(named_grids, have_published_numbers_of_cells) {
   const std::map<std::string, std::size_t> numbers = {
-      {"N32", 6114},           {"N80", 35718},      {"N320", 542080},  {"N640", 2140702},
-      {"O320", 421120},        {"O1280", 6599680},  {"F320", 819200},  {"healpix:10", 12582912},
-      {"R2B4", 20480},         {"R2B10", 83886080}, {"R3B7", 2949120}, {"C384", 884736},
-      {"grid:0.01", 648000000}};
+      {"N32", 6114},    {"N80", 35718},           {"N320", 542080},    {"N640", 2140702},
+      {"O320", 421120}, {"O1280", 6599680},       {"F320", 819200},    {"healpix:10", 12582912},
+      {"R2B4", 20480},  {"hexagons:R2B4", 10242}, {"R2B10", 83886080}, {"R3B7", 2949120},
+      {"C384", 884736}, {"grid:0.01", 648000000}};
   for (const auto& [name, number] : numbers) EXPECT_EQ(NamedGrid(name).num_cells(), number) << name;
 }
 
 TEST(named_grids, names_are_told_from_files) {
-  for (const char* name : {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4"}) {
+  for (const char* name :
+       {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4", "hexagons:R2B4", "tripolar:x"}) {
     EXPECT_TRUE(NamedGrid::is_name(name)) << name;
   }
-  for (const char* name :
-       {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32"}) {
+  for (const char* name : {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32",
+                           "hexagons:C3", "hexagons:2", "tripolar"}) {
     EXPECT_FALSE(NamedGrid::is_name(name)) << name;
   }
 }
@@ -167,8 +173,8 @@ TEST(named_grids, pixels_say_what_they_are) {
   EXPECT_EQ(mapping.numbers[0], (std::pair<std::string, double>("refinement_level", 5)));
   EXPECT_EQ(mapping.numbers[1], (std::pair<std::string, double>("healpix_nside", 32)));
   EXPECT_TRUE(NamedGrid("grid:10").mapping().texts.empty());
-  for (const char* const name :
-       {"O8", "N32", "F4", "C3", "R2B1", "healpix:2:nested", "healpix:0:ring"}) {
+  for (const char* const name : {"O8", "N32", "F4", "C3", "R2B1", "hexagons:R2B1", "tripolar:10",
+                                 "healpix:2:nested", "healpix:0:ring"}) {
     EXPECT_EQ(grid_named_by(NamedGrid(name).mapping()), name);
   }
   // Tools for HEALPix had other attributes before CF did.
@@ -196,6 +202,13 @@ TEST(named_grids, refuse_what_is_none) {
       "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has "
       "NLON by NLAT cells");
   EXPECT_EQ(why("R2B15"), "'R2B15' is no grid: it has too many cells");
+  EXPECT_EQ(why("hexagons:R2B15"), "'hexagons:R2B15' is no grid: it has too many cells");
+  for (const char* const name :
+       {"tripolar:7", "tripolar:40", "tripolar:-1", "tripolar:x", "tripolar:0.001"}) {
+    EXPECT_EQ(why(name), "'" + std::string(name) +
+                             "' is no grid: tripolar:DEG divides 360 degrees into 12 to 60000 "
+                             "columns, a multiple of 4");
+  }
   EXPECT_EQ(why("C0"), "'C0' is no grid: the number of cells along a face is from 1 to 20000");
 }
 
