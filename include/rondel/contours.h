@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Isolines, and filled bands between them, of values at the sites of a triangulation.
+/// Isolines, and filled bands between them, of values at the sites of a triangulation or at the
+/// corners of the cells of a mesh.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/cell_rings.h"
 #include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
@@ -91,6 +93,31 @@ RONDEL_API Isolines isolines(const Triangulation& triangulation, std::span<const
 /// 4. A face with three equal values belongs to the band of this value.
 /// \throws InvalidInput as isolines().
 RONDEL_API Bands bands(const Triangulation& triangulation, std::span<const double> values,
+                       std::span<const double> levels, const Execution& execution = {});
+
+/// Computes the isolines in the cells of a mesh, in place of the faces of a triangulation: no line
+/// crosses a strait or an island.
+///
+/// 1. In a triangle the field is that of isolines() above. Every other cell is divided into triangles
+///    from the middle of its corners, which has the value that native_weights() gives there. So on
+///    the sides of cells, lines are where that interpolation has the level.
+/// 2. Cells with a corner whose value is missing (NaN), without rings or without an area are left
+///    out. Of points in one place the first one that has a value counts.
+/// 3. Otherwise 1 to 5 of isolines() hold. The order of the cells decides the order of lines, and
+///    where a closed line begins.
+///
+/// \param cells  a ring each or none, in either direction, and a unit vector for each value; such as
+///               those of read_native_cells()
+/// \throws InvalidInput as isolines() above, and if the arrays do not fit; if a cell (its index) has
+///         several rings, is as wide as a hemisphere or is not seen whole from its middle; or if cells
+///         overlap beside a common side
+RONDEL_API Isolines isolines(const CellRings& cells, std::span<const double> values,
+                             std::span<const double> levels, const Execution& execution = {});
+
+/// Computes the bands of the same field; 1, 2 and 4 of bands() above hold. If no cell has a border and
+/// one band covers the sphere, its polygon has no rings.
+/// \throws InvalidInput as isolines() of cells
+RONDEL_API Bands bands(const CellRings& cells, std::span<const double> values,
                        std::span<const double> levels, const Execution& execution = {});
 
 /// Writes isolines, one feature for each level: a MultiLineString with the property `level`, cut at

@@ -3,9 +3,9 @@
 
 // The part of a face in which low <= f < high, for a field f that is linear in each face.
 //
-// in    the faces and neighbors of a triangulation, the values at its sites, a range of values
+// in    the faces and neighbors of a surface, the values at its sites, a range of values
 // out   for each face a polygon of up to six corners
-// index faces and sites of the triangulation; sides of a piece, side i from its corner i to the
+// index faces and sites of the surface; sides of a piece, side i from its corner i to the
 //       next
 //            c                 The piece of the face a b c between two levels. Its corners are corners
 //           / \                of the face and points where an edge crosses a level. A corner of the
@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-#include "rondel/triangulation.h"
+#include "interpolation/contour_surface.h"
 #include "rondel/types.h"
 
 namespace rondel::interpolation {
@@ -60,16 +60,16 @@ struct ContourPiece {
   [[nodiscard]] std::size_t edge_of(std::size_t side) const;
 };
 
-// The surface on which contours are drawn: all solid faces whose three corners have values. A face
+// The surface on which contours are drawn: all faces that count and whose three corners have values. A face
 // that is not on it is missing.
 class ValuedFaces {
  public:
-  ValuedFaces(const Triangulation& triangulation, std::span<const double> values)
-      : faces_(triangulation.faces()),
-        neighbors_(triangulation.neighbors()),
+  ValuedFaces(const ContourSurface& surface, std::span<const double> values)
+      : faces_(surface.faces),
+        neighbors_(surface.neighbors),
         values_(values),
-        is_missing_(triangulation.num_faces(), 0) {
-    for (const Index ghost : triangulation.ghost_faces()) is_missing_[ghost] = 1;
+        is_missing_(surface.faces.size(), 0) {
+    for (const Index face : surface.left_out) is_missing_[face] = 1;
   }
 
   // Finds which of the faces begin ... end - 1 are missing. Call it for all faces before anything
@@ -84,7 +84,12 @@ class ValuedFaces {
   // that is missing.
   [[nodiscard]] Index across(Index face, std::size_t edge) const {
     const Index neighbor = neighbors_[face][(edge + 2) % 3];
-    return is_missing(neighbor) ? no_index : neighbor;
+    return neighbor == no_index || is_missing(neighbor) ? no_index : neighbor;
+  }
+  // True if there is nothing across an edge.
+  [[nodiscard]] bool is_at_border(Index face) const {
+    const auto& [a, b, c] = neighbors_[face];
+    return a == no_index || b == no_index || c == no_index;
   }
   // Returns the number that the same edge has in the face across it.
   [[nodiscard]] std::size_t twin(Index face, std::size_t edge, Index across) const;

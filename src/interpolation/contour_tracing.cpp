@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <tuple>
+#include <utility>
 
 #include "exact/vector.h"
 #include "system/parallel.h"
@@ -15,31 +15,15 @@ namespace {
 
 constexpr std::size_t faces_at_a_time = 8192;
 
-// Returns for each site that shares its place with others the site that represents them: the one
-// with the smallest coordinates, so that the order of the sites does not matter.
-std::unordered_map<Index, Index> find_representatives(const Triangulation& triangulation) {
-  const Sites& sites = triangulation.sites();
-  const auto key = [&](Index site) {
-    return std::tuple(sites[site].x, sites[site].y, sites[site].z);
-  };
-  std::unordered_map<Index, Index> representatives;
-  for (const auto& [site, representative] : triangulation.duplicates()) {
-    Index& first_site = representatives.try_emplace(representative, representative).first->second;
-    if (key(site) < key(first_site)) first_site = site;
-  }
-  return representatives;
-}
-
 }  // namespace
 
-ContourTracer::ContourTracer(const Triangulation& triangulation, std::span<const double> values,
+ContourTracer::ContourTracer(ContourSurface surface, std::span<const double> values,
                              std::span<const double> levels, RegionKind kind,
                              const Execution& execution)
-    : triangulation_(triangulation),
+    : surface_(std::move(surface)),
       levels_(levels),
       kind_(kind),
-      faces_(triangulation, values),
-      representatives_(find_representatives(triangulation)),
+      faces_(surface_, values),
       region_of_(values.size()),
       content_(faces_.size()),
       lowest_(faces_.size()),
@@ -151,8 +135,12 @@ void ContourTracer::connect_mixed(Index face) {
 }
 
 std::size_t ContourTracer::region_without_border() const {
-  const auto has_gap = [](Content content) { return content == Content::missing; };
-  if (content_.empty() || std::ranges::any_of(content_, has_gap)) return num_regions();
+  if (content_.empty()) return num_regions();
+  for (std::size_t f = 0; f < content_.size(); ++f) {
+    const bool is_at_gap =
+        content_[f] == Content::missing || faces_.is_at_border(static_cast<Index>(f));
+    if (is_at_gap) return num_regions();
+  }
   std::vector<std::uint64_t> sizes(part_.size(), 0);
   for (const std::uint64_t part : part_) ++sizes[part];
   const auto largest =
@@ -264,10 +252,11 @@ TracedLines ContourTracer::lines(std::size_t region) {
 }
 
 Point ContourTracer::direction(Index site) const {
+  const auto& representatives = surface_.representatives;
   const auto first_site =
-      representatives_.empty() ? representatives_.end() : representatives_.find(site);
-  const Index place = first_site == representatives_.end() ? site : first_site->second;
-  return normalized(scaled(triangulation_.sites()[place] - triangulation_.sphere().center));
+      representatives.empty() ? representatives.end() : representatives.find(site);
+  const Index place = first_site == representatives.end() ? site : first_site->second;
+  return normalized(scaled(surface_.sites[place] - surface_.center));
 }
 
 // Returns the direction of a point on the chord between the two sites. Its share of the chord grows

@@ -3,9 +3,9 @@
 
 // Traces the borders of the regions between levels, as closed rings and as open lines.
 //
-// in    a triangulation, values at its sites, increasing levels
+// in    a surface of triangles, values at its sites, increasing levels
 // out   the border of each region, with the region on the left
-// index regions: region k lies between levels k - 1 and k; faces and sites of the triangulation;
+// index regions: region k lies between levels k - 1 and k; faces and sites of the surface;
 //       pieces, numbered face by face and in a face by region
 //
 // A border goes along the sides of pieces (contour_pieces.h), with the region to its left. At the
@@ -17,12 +17,10 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "interpolation/contour_pieces.h"
 #include "rondel/compressed_rows.h"
-#include "rondel/triangulation.h"
 #include "rondel/types.h"
 
 namespace rondel::interpolation {
@@ -41,7 +39,7 @@ struct TracedLines {
 
 class ContourTracer {
  public:
-  ContourTracer(const Triangulation& triangulation, std::span<const double> values,
+  ContourTracer(ContourSurface surface, std::span<const double> values,
                 std::span<const double> levels, RegionKind kind, const Execution& execution);
 
   [[nodiscard]] std::size_t num_regions() const { return levels_.size() + 1; }
@@ -110,12 +108,10 @@ class ContourTracer {
   // Returns the direction of a site from the center, or that of the site that represents its place.
   [[nodiscard]] Point direction(Index site) const;
 
-  const Triangulation& triangulation_;
+  ContourSurface surface_;
   std::span<const double> levels_;
   RegionKind kind_;
   ValuedFaces faces_;
-  std::unordered_map<Index, Index>
-      representatives_;  // site of a vertex -> the site that represents all sites of its place
   std::vector<std::uint32_t> region_of_;    // by site: the number of levels up to its value
   std::vector<Content> content_;            // by face
   std::vector<std::uint32_t> lowest_;       // by face: its lowest region

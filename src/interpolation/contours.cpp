@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 
+#include "interpolation/contour_surface.h"
 #include "interpolation/contour_tracing.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -30,13 +32,23 @@ void require_values(const Triangulation& triangulation, std::span<const double> 
                      std::to_string(triangulation.num_sites()) + " sites");
 }
 
-// Throws InvalidInput for weighted sites, infinite values, and levels that do not increase.
-void require_values_and_levels(const Triangulation& triangulation, std::span<const double> values,
-                               std::span<const double> levels) {
-  if (triangulation.model() == Model::weighted) {
-    throw InvalidInput("weighted sites have no isolines");
+// Returns for each site that shares its place with others the site that represents them: the one
+// with the smallest coordinates, so that the order of the sites does not matter.
+std::unordered_map<Index, Index> find_representatives(const Triangulation& triangulation) {
+  const Sites& sites = triangulation.sites();
+  const auto key = [&](Index site) {
+    return std::tuple(sites[site].x, sites[site].y, sites[site].z);
+  };
+  std::unordered_map<Index, Index> representatives;
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    Index& first_site = representatives.try_emplace(representative, representative).first->second;
+    if (key(site) < key(first_site)) first_site = site;
   }
-  require_values(triangulation, values);
+  return representatives;
+}
+
+// Throws InvalidInput for infinite values, and levels that do not increase.
+void require_values_and_levels(std::span<const double> values, std::span<const double> levels) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isinf(values[i])) throw InvalidInput("value " + std::to_string(i) + " is infinite", i);
   }
@@ -92,9 +104,36 @@ std::vector<double> first_values(const Triangulation& triangulation,
 Isolines isolines(const Triangulation& triangulation, std::span<const double> values,
                   std::span<const double> levels, const Execution& execution) {
   const system::Call call(execution);
-  require_values_and_levels(triangulation, values, levels);
-  const std::vector<double> own = first_values(triangulation, values);
-  ContourTracer tracer(triangulation, own, levels, RegionKind::from_level_on, execution);
+  const interpolation::ContourSurface surface = interpolation::surface_of(triangulation);
+  return interpolation::isolines_on(surface, first_values(triangulation, values), levels,
+                                    execution);
+}
+
+Bands bands(const Triangulation& triangulation, std::span<const double> values,
+            std::span<const double> levels, const Execution& execution) {
+  const system::Call call(execution);
+  const interpolation::ContourSurface surface = interpolation::surface_of(triangulation);
+  return interpolation::bands_on(surface, first_values(triangulation, values), levels, execution);
+}
+
+namespace interpolation {
+
+ContourSurface surface_of(const Triangulation& triangulation) {
+  if (triangulation.model() == Model::weighted) {
+    throw InvalidInput("weighted sites have no isolines");
+  }
+  return {.faces = triangulation.faces(),
+          .neighbors = triangulation.neighbors(),
+          .left_out = triangulation.ghost_faces(),
+          .sites = triangulation.sites().points(),
+          .center = triangulation.sphere().center,
+          .representatives = find_representatives(triangulation)};
+}
+
+Isolines isolines_on(const ContourSurface& surface, std::span<const double> values,
+                     std::span<const double> levels, const Execution& execution) {
+  require_values_and_levels(values, levels);
+  ContourTracer tracer(surface, values, levels, RegionKind::from_level_on, execution);
   const std::vector<TracedLines> traced = traced_regions(
       levels.size(), execution, [&](std::size_t level) { return tracer.lines(level + 1); });
   Isolines out;
@@ -107,12 +146,10 @@ Isolines isolines(const Triangulation& triangulation, std::span<const double> va
   return out;
 }
 
-Bands bands(const Triangulation& triangulation, std::span<const double> values,
-            std::span<const double> levels, const Execution& execution) {
-  const system::Call call(execution);
-  require_values_and_levels(triangulation, values, levels);
-  const std::vector<double> own = first_values(triangulation, values);
-  ContourTracer tracer(triangulation, own, levels, RegionKind::band, execution);
+Bands bands_on(const ContourSurface& surface, std::span<const double> values,
+               std::span<const double> levels, const Execution& execution) {
+  require_values_and_levels(values, levels);
+  ContourTracer tracer(surface, values, levels, RegionKind::band, execution);
   const std::vector<TracedLines> traced = traced_regions(
       tracer.num_regions(), execution, [&](std::size_t region) { return tracer.rings(region); });
   const bool is_without_rings =
@@ -127,5 +164,7 @@ Bands bands(const Triangulation& triangulation, std::span<const double> values,
   }
   return out;
 }
+
+}  // namespace interpolation
 
 }  // namespace rondel

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fuzz/fuzz_input.h"
+#include "rondel/contours.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/extrapolate.h"
@@ -77,6 +78,29 @@ void test_native(ByteSource& source) {
     const CellRings dual = dual_cells(cells, centers);
     require(dual.num_cells() <= cells.points.size(), "a dual cell for each point at most");
     for (const Index i : dual.corners) require(i < centers.size(), "its corners are centers");
+  } catch (const InvalidInput& error) {
+    require(*error.what() != '\0', "a refusal says why");
+  }
+}
+
+// Lines end, and bands of any values are regions of cells that do not overlap beside a side.
+void test_contours(ByteSource& source) {
+  const CellRings cells = next_cells(source);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < cells.points.size(); ++i) {
+    values.push_back(source.below(8) == 7 ? missing : source.small());
+  }
+  const std::vector<double> levels = {-1, 0, 2};
+  try {
+    const Isolines lines = isolines(cells, values, levels, {.threads = 1});
+    require(lines.lines.size() == levels.size(), "a group for each level");
+    for (std::size_t k = 0; k < lines.num_lines(); ++k) {
+      require(lines.lines.rows[k].size() >= 2, "lines have points");
+    }
+    const Bands all = bands(cells, values, levels, {.threads = 1});
+    require(all.bands.size() == all.num_bands(), "a group for each band");
+    const Bands one = bands(cells, values, {}, {.threads = 1});
+    require((one.num_polygons() == 0) == (all.num_polygons() == 0), "bands cover the same");
   } catch (const InvalidInput& error) {
     require(*error.what() != '\0', "a refusal says why");
   }
@@ -155,6 +179,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   switch (source.below(3)) {
     case 0:
       test_native(source);
+      test_contours(source);
       break;
     case 1:
       test_nodes(source);

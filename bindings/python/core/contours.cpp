@@ -4,6 +4,7 @@
 #include "rondel/contours.h"
 
 #include <cstdint>
+#include <type_traits>
 
 #include "arrays.h"
 #include "file_name.h"
@@ -13,11 +14,15 @@
 namespace rondel::python {
 namespace {
 
-template <class Contours, auto trace>
+template <class Contours>
 Contours traced(const Triangulation& t, const NumbersIn& values, const NumbersIn& levels,
                 unsigned threads) {
   return watched_quietly(t.num_sites(), threads, [&](const Execution& execution) {
-    return trace(t, rows_of<double>(values), rows_of<double>(levels), execution);
+    if constexpr (std::is_same_v<Contours, Isolines>) {
+      return isolines(t, rows_of<double>(values), rows_of<double>(levels), execution);
+    } else {
+      return bands(t, rows_of<double>(values), rows_of<double>(levels), execution);
+    }
   });
 }
 
@@ -55,9 +60,9 @@ void add_contours(nb::module_& module) {
   add_array<std::int64_t, &Bands::bands, polygons, &Groups::rows, &Rows::offsets>(regions,
                                                                                   "ring_offsets");
   add_array<double, &Bands::bands, polygons, &Groups::rows, &Rows::values>(regions, "points");
-  module.def("isolines", &traced<Isolines, isolines>, nb::arg("triangulation"),
+  module.def("isolines", &traced<Isolines>, nb::arg("triangulation"),
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
-  module.def("bands", &traced<Bands, bands>, nb::arg("triangulation"),
+  module.def("bands", &traced<Bands>, nb::arg("triangulation"),
              nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
   module.def("write_isolines", &write_contours<Isolines, write_isolines>, nb::arg("path").none(),
              nb::arg("isolines"), nb::arg("tolerance_deg"));

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/cell_set.h"
+#include "rondel/contours.h"
 #include "rondel/delaunay.h"
 #include "rondel/extrapolate.h"
 #include "rondel/read_cells.h"
@@ -73,6 +75,30 @@ Weights native_weights_of(const PairsIn& nodes, const OffsetsIn& offsets, const 
   });
 }
 
+// Traces contours in the cells between nodes, or with centers between these.
+template <class Contours>
+Contours native_contours(const PairsIn& nodes, const OffsetsIn& offsets, const IndicesIn& corners,
+                         const std::optional<PairsIn>& centers, const NumbersIn& values,
+                         const NumbersIn& levels, unsigned threads) {
+  return watched_quietly(nodes.shape(0), threads, [&](const Execution& execution) {
+    CellRings cells = rings_of(nodes, offsets, corners);
+    if (centers) cells = dual_cells(cells, unit_vectors(rows_of<LonLat>(*centers)));
+    if constexpr (std::is_same_v<Contours, Isolines>) {
+      return isolines(cells, rows_of<double>(values), rows_of<double>(levels), execution);
+    } else {
+      return bands(cells, rows_of<double>(values), rows_of<double>(levels), execution);
+    }
+  });
+}
+
+template <class Contours>
+void add_native_contours(nb::module_& module, const char* name) {
+  module.def(name, &native_contours<Contours>, nb::arg("nodes").noconvert(),
+             nb::arg("offsets").noconvert(), nb::arg("corners").noconvert(),
+             nb::arg("centers").noconvert().none(), nb::arg("values").noconvert(),
+             nb::arg("levels").noconvert(), nb::arg("threads"));
+}
+
 Weights extrapolated_weights(const Weights& weights, const PairsIn& sources, const PairsIn& targets,
                              const std::vector<std::uint64_t>& shape, const std::string& method,
                              std::optional<double> max_distance_km, unsigned num_sources,
@@ -110,6 +136,8 @@ void add_native_weights(nb::module_& module) {
              nb::arg("offsets").noconvert(), nb::arg("corners").noconvert(),
              nb::arg("centers").noconvert().none(), nb::arg("targets").noconvert(),
              nb::arg("threads"));
+  add_native_contours<Isolines>(module, "native_isolines");
+  add_native_contours<Bands>(module, "native_bands");
   nb::class_<MeshWeights>(module, "MeshWeights")
       .def("take_weights", [](MeshWeights& self) { return std::move(self.weights); })
       .def_ro("remarks", &MeshWeights::remarks);

@@ -38,6 +38,8 @@ make_valid, is_valid, validity_reason
     Polygons that are not valid.
 interpolate
     Values at longitudes and latitudes, from values at others.
+native_isolines
+native_bands
 native_weights
     Weights that interpolate in the faces of a mesh.
 unit_vectors, lonlat
@@ -110,7 +112,7 @@ from ._errors import CrossingConstraints, FileError, InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
-from ._native import native_weights
+from ._native import native_bands, native_isolines, native_weights
 from ._netcdf import netcdf_library as _netcdf_library
 from ._plot import LonLatTriangles
 from ._polygons import (
@@ -226,6 +228,8 @@ __all__ = [
     "lonlat",
     "lonlat_grid",
     "make_valid",
+    "native_bands",
+    "native_isolines",
     "native_weights",
     "overlaps",
     "overlay",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Interpolation in the cells of a mesh, and extrapolation."""
+"""Interpolation and contours in the cells of a mesh, and extrapolation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._arrays import as_lonlat, as_threads
+from ._arrays import as_fields, as_floats, as_lonlat, as_threads
+from ._contours import Bands, Isolines
 from ._types import ArrayLike, BoolArray, FloatArray
 from ._weights import Weights
 
@@ -97,6 +98,134 @@ def native_weights(
     [1.0, 1.5, nan]
 
     """
+    nodes, offsets, corners, at = _as_cells(lon, lat, faces, centers)
+    targets = as_lonlat(to_lon, to_lat)
+    made = _core.native_weights(nodes, offsets, corners, at, targets, as_threads(threads))
+    return Weights._of(made)
+
+
+def native_isolines(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    faces: ArrayLike,
+    values: ArrayLike,
+    levels: ArrayLike,
+    *,
+    centers: tuple[ArrayLike, ArrayLike] | None = None,
+    threads: int | None = None,
+) -> Isolines:
+    """Computes lines of equal value in the faces of a mesh, so that none crosses a gap of it.
+
+    Values are at the nodes, or with `centers` at the faces. In triangles they are linear; other
+    faces are divided into triangles from their middle, which has the value of `native_weights`.
+
+    Parameters
+    ----------
+    lon, lat, faces, centers, threads
+        As in `native_weights`.
+    values : array_like, shape (n,), or (m,) with `centers`
+        A value for each node or face. Cells with a corner whose value is NaN or masked are left
+        out. Of nodes in one place the first one that has a value counts.
+    levels : float or array_like, shape (k,)
+        One level, or several in increasing order.
+
+    Returns
+    -------
+    Isolines
+        The lines of each level. A line ends at the border of the mesh.
+
+    Raises
+    ------
+    ValueError
+        If shapes do not fit; `InvalidInput` if a value is infinite, the levels do not increase, a
+        face is not seen whole from its middle, or faces overlap beside a common side.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> lon, lat = [0, 10, 10, 0, 20], [0, 0, 10, 10, 0]
+    >>> lines = rondel.native_isolines(lon, lat, [[0, 1, 2], [0, 2, 3]], [0, 1, 1, 0, 5], 0.5)
+    >>> lines
+    <rondel.Isolines: 1 level, 1 line>
+    >>> lines.points.shape
+    (3, 3)
+
+    """
+    return Isolines(
+        _core.native_isolines(*_as_contours(lon, lat, faces, values, levels, centers, threads))
+    )
+
+
+def native_bands(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    faces: ArrayLike,
+    values: ArrayLike,
+    levels: ArrayLike,
+    *,
+    centers: tuple[ArrayLike, ArrayLike] | None = None,
+    threads: int | None = None,
+) -> Bands:
+    """Computes the regions between levels in the faces of a mesh.
+
+    Together the regions are the faces with values. Where two regions meet, both have the same
+    points, which are those of `native_isolines`.
+
+    Parameters
+    ----------
+    lon, lat, faces, values, centers, threads
+        As in `native_isolines`.
+    levels : float or array_like, shape (k,)
+        One level, or several in increasing order, which make k + 1 bands.
+
+    Returns
+    -------
+    Bands
+        The regions: band k has the values from ``levels[k - 1]`` to below ``levels[k]``.
+
+    Raises
+    ------
+    ValueError
+        As in `native_isolines`.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> lon, lat = [0, 10, 10, 0], [0, 0, 10, 10]
+    >>> rondel.native_bands(lon, lat, [[0, 1, 2, 3]], [0, 1, 1, 0], [0.25, 0.5])
+    <rondel.Bands: 3 bands, 3 polygons>
+
+    """
+    return Bands(
+        _core.native_bands(*_as_contours(lon, lat, faces, values, levels, centers, threads))
+    )
+
+
+def _as_contours(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    faces: ArrayLike,
+    values: ArrayLike,
+    levels: ArrayLike,
+    centers: tuple[ArrayLike, ArrayLike] | None,
+    threads: int | None,
+) -> tuple[Any, ...]:
+    cells = _as_cells(lon, lat, faces, centers)
+    places = cells[0] if cells[3] is None else cells[3]
+    numbers = as_fields(values, len(places))
+    if numbers.ndim != 1:
+        raise ValueError(f"values must have shape ({len(places)},), not {numbers.shape}")
+    limits = np.ascontiguousarray(as_floats(levels, "levels").reshape(-1))
+    return (*cells, np.ascontiguousarray(numbers), limits, as_threads(threads))
+
+
+def _as_cells(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    faces: ArrayLike,
+    centers: tuple[ArrayLike, ArrayLike] | None,
+) -> tuple[FloatArray, Any, Any, FloatArray | None]:
+    """The nodes, the corners of faces and where each begins, and the centers."""
     nodes = as_lonlat(lon, lat)
     given = np.ma.asarray(faces)
     if given.ndim != 2 or (given.size and given.dtype.kind not in "iu"):
@@ -115,9 +244,7 @@ def native_weights(
         if len(at) != len(indices):
             raise ValueError(f"there are {len(at)} centers for {len(indices)} faces")
     corners = np.ascontiguousarray(indices[is_node], np.int32)
-    targets = as_lonlat(to_lon, to_lat)
-    made = _core.native_weights(nodes, offsets, corners, at, targets, as_threads(threads))
-    return Weights._of(made)
+    return nodes, offsets, corners, at
 
 
 def extrapolated(

@@ -494,3 +494,64 @@ def test_duals_of_voronoi_cells_are_delaunay_triangles():
     wanted = triangulation.weights(rondel.unit_vectors(to_lon, to_lat), "linear")
     values = np.random.default_rng(7).normal(size=200)
     np.testing.assert_allclose(found @ values, wanted @ values, rtol=0, atol=1e-12)
+
+
+def test_contours_are_those_of_a_triangulation_where_the_faces_are():
+    rng = np.random.default_rng(8)
+    points = rng.normal(size=(300, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    lon, lat = rondel.lonlat(points).T
+    tri = rondel.delaunay(rondel.unit_vectors(lon, lat))
+    values = np.sin(3 * points[:, 0]) + points[:, 2]
+    values[4] = np.nan
+    faces = tri.simplices.copy()
+    faces[::3] = faces[::3, ::-1]
+    found = rondel.native_isolines(lon, lat, faces, values, [0.0, 0.5])
+    wanted = tri.isolines(values, [0.0, 0.5])
+    for name in ("points", "line_offsets", "level_offsets", "is_closed"):
+        np.testing.assert_array_equal(getattr(found, name), getattr(wanted, name))
+    bands = rondel.native_bands(lon, lat, faces, values, [0.0, 0.5])
+    wanted = tri.bands(values, [0.0, 0.5])
+    for name in ("points", "ring_offsets", "polygon_offsets", "band_offsets"):
+        np.testing.assert_array_equal(getattr(bands, name), getattr(wanted, name))
+
+
+def test_no_line_crosses_a_strait():
+    """Two squares of 10 degrees, 2 degrees apart; the field jumps in between."""
+    lon = [0, 10, 10, 0, 12, 22, 22, 12]
+    lat = [0, 0, 10, 10] * 2
+    faces = np.array([[0, 1, 2, 3], [4, 5, 6, 7]])
+    values = np.array([0, 0, 1, 1, 10, 10, 11, 11.0])
+    lines = rondel.native_isolines(lon, lat, faces, values, [0.5, 5, 10.5])
+    assert np.diff(lines.level_offsets).tolist() == [1, 0, 1]
+    reach = rondel.lonlat(lines.points)[:, 0]
+    assert np.all((reach < 10.001) | (reach > 11.999))
+    whole = rondel.delaunay(rondel.unit_vectors(lon, lat)).isolines(values, 5)
+    assert len(whole.points) > 0
+    # Values of faces are contoured between their centers: one line of three here.
+    grid = np.arange(16).reshape(4, 4)
+    faces = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], -1).reshape(
+        -1, 4
+    )
+    lon, lat = np.meshgrid(np.arange(4.0), np.arange(4.0))
+    centers = np.meshgrid(np.arange(0.5, 3), np.arange(0.5, 3))
+    found = rondel.native_isolines(
+        lon.ravel(),
+        lat.ravel(),
+        faces,
+        np.tile([0.0, 1, 2], 3),
+        0.5,
+        centers=[each.ravel() for each in centers],
+    )
+    assert len(found.is_closed) == 1
+    np.testing.assert_allclose(rondel.lonlat(found.points)[[0, -1], 0], 1, atol=1e-3)
+
+
+def test_contours_of_what_is_no_mesh_are_refused():
+    lon, lat = [0, 10, 10, 0], [0, 0, 10, 10]
+    with pytest.raises(ValueError, match=r"values must have shape \(..., 4\), not \(3,\)"):
+        rondel.native_isolines(lon, lat, [[0, 1, 2]], [1, 2, 3], 0.5)
+    with pytest.raises(rondel.InvalidInput, match="cells overlap"):
+        rondel.native_isolines(lon, lat, [[0, 1, 2], [0, 1, 3]], [1, 2, 3, 4], 0.5)
+    with pytest.raises(ValueError, match="none of 4 nodes"):
+        rondel.native_bands(lon, lat, [[0, 1, 7]], [1, 2, 3, 4], 0.5)

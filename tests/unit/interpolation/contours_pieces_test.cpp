@@ -50,7 +50,7 @@ std::vector<std::size_t> sizes_of_pieces(const ValuedFaces& faces, const ValueRa
 
 TEST(contour_pieces, of_ranges_of_heights) {
   const Triangulation triangulation = delaunay(octahedron);
-  ValuedFaces faces(triangulation, heights);
+  ValuedFaces faces(interpolation::surface_of(triangulation), heights);
   faces.find_missing(0, faces.size());
   using Sizes = std::vector<std::size_t>;
   EXPECT_EQ(sizes_of_pieces(faces, {0.5, infinity}), (Sizes{0, 0, 0, 0, 3, 3, 3, 3}));
@@ -68,7 +68,7 @@ TEST(contour_pieces, of_ranges_of_heights) {
 // Corners are counterclockwise, know the edges of the face that they lie on, and sides those along which they lead.
 TEST(contour_pieces, have_corners_on_the_edges_of_their_face) {
   const Triangulation triangulation = delaunay(octahedron);
-  const ValuedFaces faces(triangulation, heights);
+  const ValuedFaces faces(interpolation::surface_of(triangulation), heights);
   for (Index face = 0; face < faces.size(); ++face) {
     const Triple& corners = faces.corners(face);
     const ContourPiece piece = faces.piece(face, {0.5, infinity});
@@ -106,7 +106,7 @@ TEST(contour_pieces, are_not_where_a_value_is_missing) {
   const Triangulation triangulation = delaunay(octahedron);
   std::vector<double> values = heights;
   values[0] = std::nan("");
-  ValuedFaces faces(triangulation, values);
+  ValuedFaces faces(interpolation::surface_of(triangulation), values);
   faces.find_missing(0, faces.size());
   for (Index face = 0; face < faces.size(); ++face) {
     const Triple& corners = faces.corners(face);
@@ -141,10 +141,12 @@ TEST(contour_tracer, has_the_region_to_the_left) {
   const double half = std::sqrt(0.5);
   for (const auto& [level, height] : {std::pair(0.5, half), {0.0, 0.0}, {-0.5, -half}}) {
     const std::vector<double> levels = {level};
-    ContourTracer tracer(triangulation, heights, levels, RegionKind::from_level_on, {});
+    ContourTracer tracer(interpolation::surface_of(triangulation), heights, levels,
+                         RegionKind::from_level_on, {});
     EXPECT_EQ(tracer.num_regions(), 2U);
     expect_ring(tracer.lines(1), height, true);  // the north is higher
-    ContourTracer bands(triangulation, heights, levels, RegionKind::band, {});
+    ContourTracer bands(interpolation::surface_of(triangulation), heights, levels, RegionKind::band,
+                        {});
     expect_ring(bands.rings(0), height, false);
     expect_ring(bands.rings(1), height, true);
   }
@@ -156,12 +158,14 @@ TEST(contour_tracer, divides_chords_by_the_level) {
   std::vector<double> values = heights;
   values[2] = 4;
   const std::vector<double> levels = {1};
-  ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, {});
+  ContourTracer tracer(interpolation::surface_of(triangulation), values, levels,
+                       RegionKind::from_level_on, {});
   expect_ring(tracer.lines(1), 1 / std::sqrt(10), true);
   // Differences of values may be too large for a double.
   for (double& value : values) value = value == 4 ? 1.5e308 : -1.5e308;
   const std::vector<double> half = {-0.75e308};
-  ContourTracer huge(triangulation, values, half, RegionKind::from_level_on, {});
+  ContourTracer huge(interpolation::surface_of(triangulation), values, half,
+                     RegionKind::from_level_on, {});
   expect_ring(huge.lines(1), 1 / std::sqrt(10), true);
 }
 
@@ -169,7 +173,8 @@ TEST(contour_tracer, divides_chords_by_the_level) {
 TEST(contour_tracer, numbers_the_parts_of_bands) {
   const Triangulation triangulation = delaunay(octahedron);
   const std::vector<double> levels = {-0.5, 0.5};
-  ContourTracer bands(triangulation, heights, levels, RegionKind::band, {});
+  ContourTracer bands(interpolation::surface_of(triangulation), heights, levels, RegionKind::band,
+                      {});
   EXPECT_EQ(bands.num_regions(), 3U);
   EXPECT_EQ(bands.region_without_border(), 1U);
   const TracedLines middle = bands.rings(1);
@@ -181,11 +186,12 @@ TEST(contour_tracer, numbers_the_parts_of_bands) {
   std::vector<double> poles = heights;
   poles[5] = 1;
   const std::vector<double> one = {0.5};
-  ContourTracer both(triangulation, poles, one, RegionKind::band, {});
+  ContourTracer both(interpolation::surface_of(triangulation), poles, one, RegionKind::band, {});
   const TracedLines caps = both.rings(1);
   ASSERT_EQ(caps.lines.size(), 2U);
   EXPECT_NE(caps.component[0], caps.component[1]);
-  ContourTracer all(triangulation, heights, std::vector<double>{}, RegionKind::band, {});
+  ContourTracer all(interpolation::surface_of(triangulation), heights, std::vector<double>{},
+                    RegionKind::band, {});
   EXPECT_EQ(all.region_without_border(), 0U);
   EXPECT_TRUE(all.rings(0).lines.values.empty());
 }
@@ -196,7 +202,8 @@ TEST(contour_tracer, ends_lines_at_the_border_of_the_surface) {
   std::vector<double> values = heights;
   values[0] = std::nan("");
   const std::vector<double> levels = {0.5};
-  ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, {});
+  ContourTracer tracer(interpolation::surface_of(triangulation), values, levels,
+                       RegionKind::from_level_on, {});
   const TracedLines line = tracer.lines(1);
   ASSERT_EQ(line.lines.size(), 1U);
   EXPECT_EQ(line.is_closed[0], 0);
@@ -204,7 +211,8 @@ TEST(contour_tracer, ends_lines_at_the_border_of_the_surface) {
   EXPECT_NEAR(line.lines.values[0].y, std::sqrt(0.5), 1e-15);   // from the edge of y
   EXPECT_NEAR(line.lines.values[1].x, -std::sqrt(0.5), 1e-15);  // by that of -x
   EXPECT_NEAR(line.lines.values[2].y, -std::sqrt(0.5), 1e-15);  // to that of -y
-  ContourTracer bands(triangulation, values, levels, RegionKind::band, {});
+  ContourTracer bands(interpolation::surface_of(triangulation), values, levels, RegionKind::band,
+                      {});
   EXPECT_EQ(bands.region_without_border(), 2U);
   const TracedLines ring = bands.rings(1);
   ASSERT_EQ(ring.lines.size(), 1U);
