@@ -207,7 +207,8 @@ class RegridJob {
       std::memcpy(&of_rank, message.data(), sizeof of_rank);
       report_.extrapolated += of_rank;
     }
-    ranks_.number_of_first(0);
+    // Messages come to the first process alone, which tells the others the sum.
+    report_.extrapolated = ranks_.number_of_first(report_.extrapolated);
   }
 
   // A component of vectors is no category.

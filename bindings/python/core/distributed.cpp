@@ -27,6 +27,7 @@
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/error.h"
+#include "rondel/regrid_ranks.h"
 
 namespace rondel::python {
 namespace {
@@ -141,6 +142,14 @@ DistributedTriangulation build_files_on_ranks(const nb::object& ranks, const std
   });
 }
 
+RegridFileReport regrid_on_ranks(const nb::object& ranks, const std::string& in,
+                                 const std::string& target, const std::string& out,
+                                 const RegridFileOptions& options, const nb::object& listener) {
+  return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
+    return regrid_file(communicator, {in, {}}, {target, {}}, {out, {}}, options, execution);
+  });
+}
+
 using Rows = std::function<void(std::span<const GlobalTriple>)>;
 
 // Returns the rows that one of the two visits shows, as an array.
@@ -212,6 +221,8 @@ void add_distributed(nb::module_& module) {
              nb::arg("max_bucket_sites"), nb::arg("keep_points"), nb::arg("progress").none());
   module.def("areas_of_ranks", &areas_of_ranks, nb::arg("ranks"), nb::arg("triangulation"),
              nb::arg("progress").none());
+  module.def("regrid_file_of_ranks", &regrid_on_ranks, nb::arg("ranks"), nb::arg("path"),
+             nb::arg("target"), nb::arg("out"), nb::arg("options"), nb::arg("progress").none());
   module.def("delaunay_file_of_ranks", &build_files_on_ranks, nb::arg("ranks"), nb::arg("sites"),
              nb::arg("files"), nb::arg("radians"), nb::arg("is_weighted"), nb::arg("center"),
              nb::arg("squared_radius"), nb::arg("max_bucket_sites"), nb::arg("progress").none());

@@ -46,18 +46,17 @@ Extrapolation extrapolation_of(const std::string& word) {
 
 void add_regrid_files(nb::module_& module) {
   add_report(module);
+  nb::class_<RegridFileOptions>(module, "RegridFileOptions");
   module.def(
-      "regrid_file",
-      [](const std::string& in, const std::string& target, const std::string& out,
-         const std::vector<std::string>& names, const std::optional<std::string>& source,
+      "regrid_options",
+      [](const std::vector<std::string>& names, const std::optional<std::string>& source,
          const nb::object& method, nb::handle norm, double max_missing, nb::handle sides,
          nb::handle edges, nb::handle invalid, nb::handle overlap, std::uint64_t memory,
          std::size_t cells_per_tile, int deflate, const std::string& history,
          const std::string& statistics, nb::handle weigh_by, nb::handle corners,
          const std::optional<std::string>& extrapolate, std::optional<double> max_distance_km,
          unsigned num_sources, unsigned exponent, unsigned levels,
-         const std::vector<std::pair<std::string, std::string>>& vectors, unsigned threads,
-         const nb::object& progress, bool resume) {
+         const std::vector<std::pair<std::string, std::string>>& vectors, bool resume) {
         RegridFileOptions options;
         options.names = names;
         if (source) options.source = FileName{*source, {}};
@@ -84,19 +83,26 @@ void add_regrid_files(nb::module_& module) {
         options.resume = resume;
         if (!statistics.empty()) options.statistics = zonal_statistics_of(statistics);
         options.statistic_weights = named<ZonalWeights>("weigh_by", weigh_by);
-        constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
-        return watched(many, threads, progress, [&](const Execution& execution) {
-          return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
-        });
+        return options;
       },
-      nb::arg("path"), nb::arg("target"), nb::arg("out"), nb::arg("names"),
-      nb::arg("source").none(), nb::arg("method").none(), nb::arg("norm").none(),
+      nb::arg("names"), nb::arg("source").none(), nb::arg("method").none(), nb::arg("norm").none(),
       nb::arg("max_missing"), nb::arg("sides").none(), nb::arg("edges").none(),
       nb::arg("invalid").none(), nb::arg("overlap").none(), nb::arg("memory"), nb::arg("tile"),
       nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
       nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
       nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("vectors"),
-      nb::arg("threads"), nb::arg("progress").none(), nb::arg("resume"));
+      nb::arg("resume"));
+  module.def(
+      "regrid_file",
+      [](const std::string& in, const std::string& target, const std::string& out,
+         const RegridFileOptions& options, unsigned threads, const nb::object& progress) {
+        constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
+        return watched(many, threads, progress, [&](const Execution& execution) {
+          return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
+        });
+      },
+      nb::arg("path"), nb::arg("target"), nb::arg("out"), nb::arg("options"), nb::arg("threads"),
+      nb::arg("progress").none());
 }
 
 }  // namespace rondel::python

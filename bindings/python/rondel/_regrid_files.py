@@ -195,6 +195,76 @@ def regrid_file(
     365
 
     """
+    options = as_options(
+        names=names,
+        source=source,
+        method=method,
+        norm=norm,
+        max_missing=max_missing,
+        sides=sides,
+        edges=edges,
+        invalid=invalid,
+        corners=corners,
+        overlap=overlap,
+        memory=memory,
+        tile=tile,
+        deflate=deflate,
+        history=history,
+        statistics=statistics,
+        weigh_by=weigh_by,
+        extrapolate=extrapolate,
+        extrapolate_distance=extrapolate_distance,
+        extrapolate_sources=extrapolate_sources,
+        extrapolate_exponent=extrapolate_exponent,
+        extrapolate_levels=extrapolate_levels,
+        vectors=vectors,
+        resume=resume,
+    )
+    files = [os.fspath(each) for each in (path, target, out)]
+    return report_of(_core.regrid_file(*files, options, as_threads(threads), progress))
+
+
+def report_of(made: _core.RegridFileReport) -> RegridReport:
+    """What users get."""
+    return RegridReport(
+        made.sources,
+        made.targets,
+        made.fields,
+        made.missing,
+        made.tiles,
+        tuple(made.remarks),
+        made.resumed,
+        made.extrapolated,
+    )
+
+
+def as_options(
+    *,
+    names: str | Iterable[str] = (),
+    source: Path | None = None,
+    method: FieldMethod | None = None,
+    norm: Literal["destarea", "fracarea"] = "fracarea",
+    max_missing: float = 0.5,
+    sides: Sides = "parallels",
+    edges: Edges = "lonlat",
+    invalid: Invalid = "error",
+    corners: Corners = "error",
+    overlap: CellOverlap = "error",
+    memory: int = 2 << 30,
+    tile: int = 0,
+    deflate: int = 1,
+    history: str = "",
+    statistics: str | Iterable[str] = (),
+    weigh_by: Literal["area", "fraction"] = "area",
+    extrapolate: Extrapolation | None = None,
+    extrapolate_distance: float | None = None,
+    extrapolate_sources: int = 8,
+    extrapolate_exponent: int = 2,
+    extrapolate_levels: int = 0,
+    vectors: Iterable[tuple[str, str]] = (),
+    resume: bool = False,
+) -> _core.RegridFileOptions:
+    """The options of `regrid_file`, as the library has them."""
     require_limits(
         extrapolate,
         "extrapolate",
@@ -205,10 +275,7 @@ def regrid_file(
             "extrapolate_levels": ("creep_fill", extrapolate_levels, 0),
         },
     )
-    made = _core.regrid_file(
-        os.fspath(path),
-        os.fspath(target),
-        os.fspath(out),
+    return _core.regrid_options(
         [names] if isinstance(names, str) else list(names),
         None if source is None else os.fspath(source),
         method,
@@ -231,17 +298,5 @@ def regrid_file(
         extrapolate_exponent,
         extrapolate_levels,
         [(east, north) for east, north in vectors],
-        as_threads(threads),
-        progress,
         bool(resume),
-    )
-    return RegridReport(
-        made.sources,
-        made.targets,
-        made.fields,
-        made.missing,
-        made.tiles,
-        tuple(made.remarks),
-        made.resumed,
-        made.extrapolated,
     )

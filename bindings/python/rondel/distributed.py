@@ -14,13 +14,15 @@ own rank alone: ``mpirun -n 8 python -m mpi4py program.py`` ends the others, too
 from __future__ import annotations
 
 import operator
+import os
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _regrid_files
 from ._arrays import (
     as_center,
     as_name,
@@ -32,6 +34,7 @@ from ._arrays import (
 )
 from ._errors import DistributedError
 from ._ranks import Communicator, Ranks
+from ._regrid_files import RegridReport
 from ._repr import count
 from ._types import ArrayLike, Model, Path, Progress
 
@@ -41,6 +44,7 @@ __all__ = [
     "DistributedTriangulation",
     "delaunay",
     "delaunay_file",
+    "regrid_file",
 ]
 
 
@@ -384,6 +388,81 @@ def delaunay_file(
         ranks, files[0], files[1:], bool(radians), *options, progress
     )
     return DistributedTriangulation(part, comm, False)
+
+
+def regrid_file(
+    path: Path,
+    target: Path,
+    out: Path,
+    comm: Communicator | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress = None,
+    **options: Any,
+) -> RegridReport:
+    """Brings the fields of a file to another grid; all ranks call this together.
+
+    The file has the same bytes as that of `rondel.regrid_file`, for any number of ranks. Tiles of
+    weights are divided among the ranks, or times and levels where weights have no tiles. Each rank
+    reads the input, from a disk that all of them see, and rank 0 writes the output.
+
+    Parameters
+    ----------
+    path, target, out : path_like
+        As in `rondel.regrid_file`.
+    comm : mpi4py.MPI.Intracomm or Communicator, optional
+        As for `delaunay`.
+    threads, progress : optional
+        As in `delaunay`.
+    **options
+        The other arguments of `rondel.regrid_file`, but for `statistics` and `weigh_by`, which one
+        process computes. `memory` is that of each rank. All arguments except `threads` and
+        `progress` must be the same on all ranks.
+
+    Returns
+    -------
+    RegridReport
+        As that of `rondel.regrid_file`. Only rank 0 counts missing values.
+
+    Raises
+    ------
+    DistributedError
+        On all ranks: if a file cannot be read or written, or there is no such grid or method.
+        Where arguments of a rank are not valid, on the others; that rank has its `TypeError` or
+        `ValueError`.
+    KeyboardInterrupt
+        On all ranks, after Ctrl-C, or an exception of `progress`, on one of them.
+
+    Examples
+    --------
+    >>> import rondel.distributed
+    >>> rondel.distributed.regrid_file(  # doctest: +SKIP
+    ...     "big.nc", "healpix:10", "pixels.nc", memory=4 << 30
+    ... )
+
+    """
+    ranks = Ranks(comm)
+    files = [""] * 3
+    wanted = _regrid_files.as_options()
+    try:
+        files = [os.fspath(each) for each in (path, target, out)]
+        for name in ("statistics", "weigh_by"):
+            if name in options:
+                raise TypeError(f"{name} is of one process: rondel.regrid_file")
+        # Iterables are taken once, as other ranks compare what is in them.
+        given = {name: _as_given(value) for name, value in options.items()}
+        wanted = _regrid_files.as_options(**given)
+        ranks.prepare(("regrid_file", files, sorted(given.items())), as_threads(threads))
+    except BaseException as error:
+        ranks.fail(error)
+    return _regrid_files.report_of(_core.regrid_file_of_ranks(ranks, *files, wanted, progress))
+
+
+def _as_given(value: Any) -> Any:
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    is_plain = value is None or isinstance(value, (str, bytes, int, float))
+    return value if is_plain or not isinstance(value, Iterable) else list(value)
 
 
 Options: TypeAlias = tuple[bool, tuple[float, float, float], float, int]

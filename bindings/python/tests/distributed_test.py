@@ -427,3 +427,83 @@ except ModuleNotFoundError as error:
         "rondel.distributed needs mpi4py, which is not there (pip install mpi4py), "
         "or another communicator: comm="
     )
+
+
+def write_field(path, times):
+    from netCDF4 import Dataset
+
+    rng = np.random.default_rng(4)
+    with Dataset(path, "w", format="NETCDF3_CLASSIC") as file:
+        for name, size in (("time", times), ("lat", 18), ("lon", 36)):
+            file.createDimension(name, size)
+        for name, units, values in (
+            ("lat", "degrees_north", np.arange(-85.0, 90, 10)),
+            ("lon", "degrees_east", np.arange(5.0, 360, 10)),
+        ):
+            variable = file.createVariable(name, "f8", (name,))
+            variable.units = units
+            variable[:] = values
+        field = file.createVariable("t", "f8", ("time", "lat", "lon"), fill_value=-9)
+        values = rng.normal(size=(times, 18, 36))
+        field[:] = np.ma.masked_where(rng.random(values.shape) < 0.1, values)
+
+
+@pytest.mark.parametrize("size", [1, 2, 3])
+def test_files_are_regridded_as_by_one_process(size, tmp_path):
+    pytest.importorskip("netCDF4")
+    write_field(tmp_path / "in.nc", 5)
+    jobs = {
+        "tiles": {"tile": 300},
+        "places": {"method": "linear", "memory": 1 << 28},
+        "second": {"method": "conservative_2nd", "vectors": [], "names": iter(["t"])},
+        "filled": {"extrapolate": "nearest", "max_missing": 0.01},
+    }
+    for name, options in jobs.items():
+        own = {**options, "names": ["t"]} if "names" in options else options
+        alone = rondel.regrid_file(
+            tmp_path / "in.nc", "healpix:3", tmp_path / "alone.nc", threads=1, **own
+        )
+
+        def work(rank, options=options, name=name):
+            own = {**options, "names": iter(["t"])} if "names" in options else options
+            return rondel.distributed.regrid_file(
+                tmp_path / "in.nc", "healpix:3", tmp_path / "out.nc", rank, threads=1, **own
+            )
+
+        reports = on_ranks(size, work)
+        assert (tmp_path / "out.nc").read_bytes() == (tmp_path / "alone.nc").read_bytes(), name
+        assert reports[0].missing == alone.missing
+        for report in reports:
+            assert (report.sources, report.targets, report.fields) == (648, 768, 5)
+            assert report.extrapolated == alone.extrapolated
+        if name == "filled":
+            assert alone.extrapolated > 0
+        if name == "tiles":
+            assert alone.tiles > 3
+        (tmp_path / "out.nc").unlink()
+
+
+def test_what_is_wrong_with_a_regridding_is_told_on_all_ranks(tmp_path):
+    pytest.importorskip("netCDF4")
+    write_field(tmp_path / "in.nc", 1)
+
+    def regrid(rank, target="healpix:2", **options):
+        return rondel.distributed.regrid_file(
+            tmp_path / "in.nc", target, tmp_path / "out.nc", rank, threads=1, **options
+        )
+
+    for error in on_ranks(2, lambda rank: regrid(rank, "healpix:99")):
+        assert isinstance(error, DistributedError)
+        assert "the level of HEALPix is from 0 to 13" in str(error)
+    for rank, error in enumerate(
+        on_ranks(2, lambda rank: regrid(rank, **({"methods": "linear"} if rank.rank else {})))
+    ):
+        assert isinstance(error, TypeError if rank else DistributedError)
+        assert "methods" in str(error)
+    for error in on_ranks(2, lambda rank: regrid(rank, statistics="mean")):
+        assert isinstance(error, TypeError)
+        assert "statistics is of one process" in str(error)
+    for error in on_ranks(2, lambda rank: regrid(rank, tile=100 + rank.rank)):
+        assert isinstance(error, DistributedError)
+        assert "not those of rank 0" in str(error)
+    assert not (tmp_path / "out.nc").exists()
