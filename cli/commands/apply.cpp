@@ -11,8 +11,10 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "column_values.h"
@@ -139,16 +141,6 @@ bool are_columns_named(const ReadOptions& read) {
   return !(read.lon + read.x + read.radius).empty();  // the others are given together with these
 }
 
-// Checks the places of a table, if it has any, against those of the weights. The table is read here
-// for its places alone; its values are read as fields afterwards.
-void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
-  if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
-  ReadOptions read = options.common.read;
-  read.may_lack_places = true;
-  const SiteTable table = read_sites(options.values(), read);
-  if (!table.sites.empty()) require_places(options, file, table.sites, true);
-}
-
 // True for a table: by the ending of its name, and on standard input by the format.
 bool is_table(const FileName& file) {
   if (file.path != "-") return file.path.ends_with(".csv") || file.path.ends_with(".tsv");
@@ -185,19 +177,62 @@ class ValuesAtSources {
   std::vector<std::vector<double>> columns_;
 };
 
-// Reads a table on standard input, which can be read once only: places and values together.
-ValuesAtSources read_standard_table(const ApplyCommandOptions& options, const WeightFile& file) {
+// Leaves out the rows of a table that have no place, if the weights count the others alone, as those
+// that `rondel interpolate` makes of a table do. Tells how many they are.
+void keep_sources(const WeightFile& file, SiteTable& table) {
+  const std::size_t num_rows = table.sites.size();
+  if (num_rows == file.weights.num_columns) return;
+  std::vector<bool> have_places;
+  have_places.reserve(num_rows);
+  for (const Point& site : table.sites) have_places.push_back(!std::isnan(site.x));
+  const auto num_with = static_cast<std::size_t>(std::ranges::count(have_places, true));
+  if (num_with != file.weights.num_columns) return;
+  tell(table.name, {"left out " + count(num_rows - num_with, "row", "rows") +
+                    " without a place, as the weights do"});
+  table = table.selection(have_places);
+}
+
+// Reads a table with its columns, and without rows that are no sources.
+SiteTable read_table(const ApplyCommandOptions& options, const WeightFile& file) {
   if (options.columns.empty()) throw UsageError("no column of the table is named (--value)");
   ReadOptions read = options.common.read;
   read.may_lack_places = true;
   read.keep_columns = true;
-  const SiteTable table = read_sites(options.values(), read);
+  SiteTable table = read_sites(options.values(), read);
+  keep_sources(file, table);
+  return table;
+}
+
+// Reads a table on standard input, which can be read once only: places and values together.
+ValuesAtSources read_standard_table(const ApplyCommandOptions& options, const WeightFile& file) {
+  const SiteTable table = read_table(options, file);
   if (table.sites.size() != file.weights.num_columns) {
     throw FileError(table.name + ": " + count(table.sites.size(), "row", "rows") + " for " +
                     count(file.weights.num_columns, "point", "points"));
   }
   require_places(options, file, table.sites, true);
   return {table, options.columns};
+}
+
+// Checks the places of a table, if it has any, against those of the weights. Here it is read for its
+// places alone, as its values are read as fields afterwards; returns them only where the table has
+// rows that are no sources.
+std::optional<ValuesAtSources> check_places_of_table(const ApplyCommandOptions& options,
+                                                     const WeightFile& file) {
+  if (file.weights.sites_hash == 0 && file.source.points.empty()) return std::nullopt;
+  ReadOptions read = options.common.read;
+  read.may_lack_places = true;
+  const SiteTable table = read_sites(options.values(), read);
+  if (table.sites.empty()) return std::nullopt;
+  if (table.sites.size() != file.weights.num_columns) {
+    const SiteTable kept = read_table(options, file);
+    if (kept.sites.size() == file.weights.num_columns) {
+      require_places(options, file, kept.sites, true);
+      return ValuesAtSources(kept, options.columns);
+    }
+  }
+  require_places(options, file, table.sites, true);
+  return std::nullopt;
 }
 
 // A slice has 32 MiB; larger ones are not faster.
@@ -293,7 +328,11 @@ ValuesAtSources values_of(const ApplyCommandOptions& options, const WeightFile& 
                      "' is no table (.csv .tsv)");
   }
   if (has_rows && options.values_file == "-") return read_standard_table(options, file);
-  if (has_rows) require_places_of_table(options, file);
+  if (has_rows) {
+    if (std::optional<ValuesAtSources> rows = check_places_of_table(options, file)) {
+      return std::move(*rows);
+    }
+  }
   const auto [values_file, variable] = file_and_variable(options.values());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);

@@ -137,6 +137,26 @@ class Pipes(WithSites):
         self.assertFalse((self.folder / "x.npy").exists())
 
 
+    def test_rows_without_a_place_are_no_sources(self):
+        """Weights of a table count the rows that have places; so do its values, from either input."""
+        lines = SITES.splitlines()
+        (self.folder / "gaps.csv").write_text("\n".join([*lines[:3], ",,1000", *lines[3:], ",,"]) + "\n")
+        self.succeed("interpolate", "gaps.csv", "--to", "grid:30", "--weights", "w.nc")
+        self.succeed("interpolate", "s.csv", "--to", "grid:30", "--value", "v", "-o", "wanted.csv")
+        told = "left out 2 rows without a place, as the weights do\n"
+        found = self.run_tool("apply", "w.nc", "gaps.csv", "--value", "v", "-o", "file.csv")
+        self.assertEqual(found.returncode, 0)
+        self.assertIn(f"rondel: gaps.csv: {told}", found.stderr)
+        self.pipe("gaps.csv", "apply", "w.nc", "-", "--value", "v", "-o", "pipe.csv", told=f"rondel: <stdin>: {told}")
+        self.require_equal("wanted.csv", "file.csv")
+        self.require_equal("wanted.csv", "pipe.csv")
+        # The rows must be those of the weights.
+        (self.folder / "other.csv").write_text("\n".join([lines[0], ",,1000", *lines[2:], lines[1], ",,"]) + "\n")
+        found = self.run_tool("apply", "w.nc", "other.csv", "--value", "v", "-o", "x.csv")
+        self.assertEqual(found.returncode, 1)
+        self.assertIn("its points are not the sources of w.nc", found.stderr)
+
+
 class Numbers(WithSites):
     def test_beyond_all_numbers_are_no_fill(self):
         self.succeed("remap", "s.csv", "b.geojson", "-o", "w.nc")

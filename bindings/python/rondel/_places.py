@@ -273,6 +273,11 @@ class Places:
         """The labels along a dimension, or None."""
         return self._data.indexes.get(dim)
 
+    @property
+    def have_places(self) -> BoolArray:
+        """Which places have a longitude and a latitude, shape (n,)."""
+        return np.ones(self.lon.size, bool) if self._located is None else self._located
+
     def points(self) -> FloatArray:
         """Unit vectors; anywhere for places without longitude or latitude."""
         return unit_vectors(*self.degrees())

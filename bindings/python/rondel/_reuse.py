@@ -60,6 +60,8 @@ def reused(
         if len(bad):
             raise ValueError(f"{name}: weight {bad[0]} is {made.data[bad[0]]}")
     shape = (target.lon.size, source.lon.size)
+    hashes = made.sites_hash, made.targets_hash
+    made, of_file, is_spread = _with_all_places(made, of_file, source, target)
     if made.shape != shape:
         raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
     known = _methods_of(text, norm, source.are_axes)
@@ -79,12 +81,14 @@ def reused(
             f"{name} holds weights that are extrapolated by {said!r}, not by {extrap_method!r}"
         )
     masks = source.mask(), target.mask()
-    hashes = made.sites_hash, made.targets_hash
     for k, (places, what) in enumerate(((source, "source"), (target, "target"))):
         # A hash of masked points in an old file is that of the points that are left.
         is_told = isinstance(weights, Weights) or (masks[0] is None and masks[1] is None)
         is_all = is_told and hashes[k] != 0 and not len(of_file[k].centers)
-        if is_all and point_set_hash(places.points()) != hashes[k]:
+        points = places.points()
+        if is_spread[k]:
+            points = points[places.have_places]
+        if is_all and point_set_hash(points) != hashes[k]:
             _refuse_places(name, "")
         _require_places(places, of_file[k], "conserv" in method, name, what, threads)
     used = np.zeros(shape[1], bool), np.diff(made.indptr) > 0
@@ -108,6 +112,46 @@ class _FileSide(NamedTuple):
     mask: IntArray = np.zeros(0, np.int32)
     centers: FloatArray = np.zeros((0, 2))
     corners: FloatArray = np.zeros((0, 2))
+
+    def spread(self, located: BoolArray) -> _FileSide:
+        """The same with an entry for each place, of which these are there."""
+
+        def filled(values: Any, otherwise: Any) -> Any:
+            if not len(values):
+                return values
+            number = int(np.count_nonzero(located))
+            every = values.reshape(number, -1, *values.shape[1:])
+            out = np.full((len(located), *every.shape[1:]), otherwise, values.dtype)
+            out[located] = every
+            return out.reshape(-1, *values.shape[1:])
+
+        return _FileSide(
+            filled(self.mask, 1), filled(self.centers, np.nan), filled(self.corners, np.nan)
+        )
+
+
+def _with_all_places(
+    weights: Weights, of_file: list[_FileSide], source: Places, target: Places
+) -> tuple[Weights, list[_FileSide], list[bool]]:
+    """The weights with empty rows and columns for places without longitude or latitude, where the
+    weights count only the others, as those that `rondel interpolate` makes of tables do; and
+    whether sources and targets were so.
+    """
+    sides, numbers, is_spread = [], [], []
+    for places, side, size in zip((source, target), of_file, reversed(weights.shape), strict=True):
+        located = places.have_places
+        is_spread.append(size != len(located) and size == np.count_nonzero(located))
+        numbers.append(np.flatnonzero(located) if is_spread[-1] else None)
+        sides.append(side.spread(located) if is_spread[-1] else side)
+    if any(is_spread):
+        shape = [
+            len(places.have_places) if spread else size
+            for places, spread, size in zip(
+                (target, source), reversed(is_spread), weights.shape, strict=True
+            )
+        ]
+        weights = weights._renumbered(numbers[1], numbers[0], (shape[0], shape[1]))
+    return weights, sides, is_spread
 
 
 def _refuse_places(name: str, where: str) -> NoReturn:

@@ -303,3 +303,46 @@ def test_weights_of_files_know_their_places(tmp_path):
         assert np.array_equal(taken(ds.t), ds.t)
         with pytest.raises(ValueError, match="weights are of other places"):
             rondel.Regridder(turned, target, "nearest_s2d", weights=read)
+
+
+@pytest.mark.parametrize("side", ["source", "target"])
+@pytest.mark.parametrize("is_file", [False, True])
+def test_weights_may_count_the_places_that_are_there(side, is_file, tmp_path):
+    """Places without coordinates, of which weights of the others know nothing."""
+    rng = np.random.default_rng(6)
+    gaps = np.arange(40) % 7 == 2
+    places = {"lon": rng.uniform(0, 60, 40), "lat": rng.uniform(0, 40, 40)}
+    lacking = {name: np.where(gaps, np.nan, values) for name, values in places.items()}
+    others = {name: values[~gaps] for name, values in places.items()}
+    grid = {"lon": np.arange(10.0, 50, 7), "lat": np.arange(8.0, 30, 5)}
+    values = rng.normal(size=40)
+    if side == "source":
+        made = rondel.Regridder(others, grid, "nearest_s2d", locstream_in=True)
+        wanted = made(values[~gaps])
+        sides = lacking, grid
+    else:
+        made = rondel.Regridder(grid, others, "nearest_s2d", locstream_out=True)
+        field = rng.normal(size=(5, 6))
+        wanted = made(field)
+        sides = grid, lacking
+    weights = made.weights
+    if is_file:
+        weights = tmp_path / "weights.nc"
+        made.to_netcdf(weights)
+    stream = {"locstream_in": True} if side == "source" else {"locstream_out": True}
+    with pytest.warns(UserWarning, match="6 of 40 places have no longitude or latitude"):
+        again = rondel.Regridder(*sides, "nearest_s2d", weights=weights, **stream)
+    if side == "source":
+        np.testing.assert_array_equal(again(np.where(gaps, 1e9, values)), wanted)
+    else:
+        found = again(field)
+        np.testing.assert_array_equal(found[~gaps], wanted)
+        assert np.isnan(found[gaps]).all()
+    # They must be the places that are there.
+    moved = dict(lacking, lon=lacking["lon"] + 1)
+    pair = (moved, grid) if side == "source" else (grid, moved)
+    with (
+        pytest.warns(UserWarning, match="have no longitude"),
+        pytest.raises(ValueError, match="are of other places"),
+    ):
+        rondel.Regridder(*pair, "nearest_s2d", weights=weights, **stream)
