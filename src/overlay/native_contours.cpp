@@ -131,7 +131,7 @@ class CellTriangles {
   }
 
   // A side of a triangle, named by its ends in ascending order.
-  struct TriangleSide {
+  struct FanSide {
     Index low;
     Index high;
     bool is_ascending;  // in the direction of the triangle
@@ -142,7 +142,7 @@ class CellTriangles {
   // Finds the triangle across each side. Throws InvalidInput if two triangles are on the same side of
   // one, so that they overlap.
   void find_neighbors() {
-    std::vector<TriangleSide> sides;
+    std::vector<FanSide> sides;
     sides.reserve(3 * faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (unsigned k = 0; k < 3; ++k) {
@@ -152,14 +152,14 @@ class CellTriangles {
             {std::min(from, to), std::max(from, to), from < to, static_cast<Index>(f), k});
       }
     }
-    std::ranges::sort(sides, [](const TriangleSide& a, const TriangleSide& b) {
+    std::ranges::sort(sides, [](const FanSide& a, const FanSide& b) {
       return std::tie(a.low, a.high, a.is_ascending, a.face) <
              std::tie(b.low, b.high, b.is_ascending, b.face);
     });
     neighbors_.assign(faces_.size(), {no_index, no_index, no_index});
     for (std::size_t k = 1; k < sides.size(); ++k) {
-      const TriangleSide& a = sides[k - 1];
-      const TriangleSide& b = sides[k];
+      const FanSide& a = sides[k - 1];
+      const FanSide& b = sides[k];
       if (a.low != b.low || a.high != b.high) continue;
       if (a.is_ascending == b.is_ascending) {
         throw InvalidInput(
