@@ -252,9 +252,8 @@ void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
           ->check([](const std::string& text) { return whole_error(text, 1, 1'000'000'000); })
           ->type_name("N");
   require_effect(
-      options.common, tile,
-      [&options] { return options.regrid.method != FieldMethod::conservative_2nd; },
-      "with --method conservative-2nd, whose weights are computed as a whole");
+      options.common, tile, [&options] { return !options.regrid.is_limited; },
+      "with --limiter bounds, which needs the values of all targets");
   parser.add_flag("--resume", options.regrid.resume,
                   "Keep what is computed in OUTPUT.partial until OUTPUT is complete, and begin\n"
                   "with what a run that ended early left there");

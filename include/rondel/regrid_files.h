@@ -65,8 +65,9 @@ struct RegridFileOptions {
   CellOverlap overlap = CellOverlap::error;  ///< of both sides
   /// About how many bytes may be in use, beside some 30 MiB of the program itself. Weights that need
   /// more are computed tile by tile, and again for each group of fields; the values are the same.
-  /// Weights of conservative_2nd, of cells that overlap, and between two sides of which neither covers
-  /// the sphere nor is between parallels have no tiles.
+  /// Weights of cells that overlap, and between two sides of which neither covers the sphere nor is
+  /// between parallels, have no tiles; nor have those of conservative_2nd with the limiter, or of
+  /// sources that are neither a named grid nor between parallels.
   std::uint64_t memory = std::uint64_t{2} << 30U;
   /// The number of cells of a tile, or of targets with a method between places; 0: as `memory` says.
   std::size_t cells_per_tile = 0;

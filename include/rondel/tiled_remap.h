@@ -49,6 +49,8 @@ struct TiledRemapOptions {
   std::vector<std::int32_t> target_mask = {};
   /// About how many cells, of both sides together, a tile has. The weights do not depend on it.
   std::size_t cells_per_tile = std::size_t{1} << 18U;
+  /// 1, or 2 for sources that are not in memory: named grids, and cells between parallels.
+  unsigned order = 1;
 };
 
 /// The weights of some targets.
@@ -59,17 +61,22 @@ struct RemapTile {
   Index first_source = 0;
   std::vector<double> areas;      ///< of the targets, in steradians, as those of remap()
   std::vector<double> fractions;  ///< the share of each target that sources cover
+  /// With order 2 the remapping of these targets, for weights_with_values(). `sources` has the number
+  /// of each of its sources, in ascending order; neighbors, which gradients need, are among them.
+  Remap part = {};
+  std::vector<Index> sources = {};
 };
 
-/// Conservative weights of order 1, tile by tile. A tile has the targets whose centers are between
-/// two parallels; only the cells of both sides that touch this band are made.
+/// Conservative weights, tile by tile. A tile has the targets whose centers are between two
+/// parallels; only the cells of both sides that touch this band are made, and with order 2 those that
+/// touch these.
 ///
 /// Each row has the same bytes as the row that remap() computes for the whole sides.
 class RONDEL_API TiledRemap {
  public:
   /// Sorts the cells of both sides by latitude; this needs 8 bytes for each cell that is not
-  /// between parallels. \throws InvalidInput if a mask has another length than its side, or if
-  /// neither side covers the sphere (CellSet::covers_sphere()) or is between parallels
+  /// between parallels. \throws InvalidInput if a mask has another length than its side, if the
+  /// order is not 1 or 2, or 2 and the sources are in memory, or if neither side covers the sphere (CellSet::covers_sphere()) or is between parallels
   TiledRemap(const TiledCells& source, const TiledCells& target, TiledRemapOptions options = {},
              const Execution& execution = {});
   ~TiledRemap();

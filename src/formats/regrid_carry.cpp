@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "formats/regrid_second.h"
 #include "rondel/weights.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -127,13 +128,13 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
                      job_.num_fields * tiles_.num_tiles());
   };
   if (ranks_.size == 1) {
-    for_tiles(begin, tiles_.num_tiles(), [&](std::size_t number, const RemapTile& tile) {
+    for_tiles(begin, tiles_.num_tiles(), [&](std::size_t number, RemapTile& tile) {
       take(number, tile.targets, applied(tile, values, count));
     });
   } else {
     const auto compute = [&](std::size_t number) {
       RegridRanks::Message message;
-      for_tiles(number, number + 1, [&](std::size_t, const RemapTile& tile) {
+      for_tiles(number, number + 1, [&](std::size_t, RemapTile& tile) {
         add_bytes(std::span<const Index>(tile.targets), message);
         add_bytes(std::span<const double>(applied(tile, values, count)), message);
       });
@@ -151,13 +152,37 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
   out_.write(job_.file.at_targets(job_.array, std::move(carried)));
 }
 
-std::vector<double> TileCarrier::applied(const RemapTile& tile, SourceValues& values,
+// The values of the sources of the part follow each other there.
+std::vector<double> TileCarrier::applied_second(RemapTile& tile, SourceValues& values,
+                                                std::size_t num_rows,
+                                                const ApplyOptions& rules) const {
+  const std::size_t components = job_.file.components(job_.array);
+  std::vector<double> result(num_rows * tile.targets.size(), missing_value);
+  if (tile.sources.empty()) return result;
+  std::vector<double> in;
+  in.reserve(num_rows * tile.sources.size());
+  for (std::size_t row = 0; row < num_rows; ++row) {
+    const auto window =
+        values.of(row / components, row % components, tile.first_source, tile.weights.num_columns);
+    for (const Index source : tile.sources) in.push_back(window[source - tile.first_source]);
+  }
+  std::vector<std::int32_t> covered;
+  covered.reserve(tile.fractions.size());
+  for (const double fraction : tile.fractions) {
+    covered.push_back(is_enough(fraction, job_.max_missing) ? 1 : 0);
+  }
+  SecondOrder(std::move(tile.part), std::move(covered), false).apply(in, result, rules, execution_);
+  return result;
+}
+
+std::vector<double> TileCarrier::applied(RemapTile& tile, SourceValues& values,
                                          std::size_t count) const {
   const std::size_t num_targets = tile.targets.size();
   const std::size_t components = job_.file.components(job_.array);
   std::vector<double> result(count * components * num_targets);
   const ApplyOptions rules{
       .fill = missing_value, .max_missing = job_.max_missing, .keeps_sums = job_.keeps_sums};
+  if (tile.part.order == 2) return applied_second(tile, values, count * components, rules);
   for (std::size_t row = 0; row < count * components; ++row) {
     const auto out = std::span(result).subspan(row * num_targets, num_targets);
     const auto in =
@@ -176,7 +201,7 @@ std::vector<double> TileCarrier::applied(const RemapTile& tile, SourceValues& va
 
 // Where several tiles are in memory at a time, each thread computes one.
 void TileCarrier::for_tiles(std::size_t begin, std::size_t end,
-                            const std::function<void(std::size_t, const RemapTile&)>& visit) const {
+                            const std::function<void(std::size_t, RemapTile&)>& visit) const {
   std::vector<RemapTile> tiles(std::min(plan_.tiles_at_once, end - begin));
   for (std::size_t first = begin; first < end; first += tiles.size()) {
     const std::size_t count = std::min(tiles.size(), end - first);

@@ -62,11 +62,15 @@ class TileCarrier {
 
   void carry_group(std::size_t first, std::size_t count);
   // Returns the values of the fields of a group at the targets of a tile, field by field.
-  [[nodiscard]] std::vector<double> applied(const RemapTile& tile, SourceValues& values,
+  [[nodiscard]] std::vector<double> applied(RemapTile& tile, SourceValues& values,
                                             std::size_t count) const;
+  // Does the same with weights of order 2, whose part of a remapping is taken from the tile.
+  [[nodiscard]] std::vector<double> applied_second(RemapTile& tile, SourceValues& values,
+                                                   std::size_t num_rows,
+                                                   const ApplyOptions& rules) const;
   // Computes tiles and calls visit(number, tile) for them in turn.
   void for_tiles(std::size_t begin, std::size_t end,
-                 const std::function<void(std::size_t, const RemapTile&)>& visit) const;
+                 const std::function<void(std::size_t, RemapTile&)>& visit) const;
 
   const RegridTiles& tiles_;
   RegridPlan plan_;

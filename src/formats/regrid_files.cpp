@@ -256,8 +256,8 @@ class RegridJob {
     task.num_processes = ranks_.size;
     const bool is_second = options_.method == FieldMethod::conservative_2nd;
     if (needs_cells_) {
-      task.has_tiles = !is_second && source_.has_tiles(execution_) &&
-                       target_.has_tiles(execution_) &&
+      task.has_tiles = !(is_second && (options_.is_limited || source_.num_stored() > 0)) &&
+                       source_.has_tiles(execution_) && target_.has_tiles(execution_) &&
                        (source_.is_walked() || target_.is_walked());
       task.are_cells = true;
       task.is_in_order = target_.has_parallels();
@@ -289,9 +289,11 @@ class RegridJob {
       plan_.fields_at_once = std::min(plan_.fields_at_once, fields_to_lose);
     }
     if (task.tile > 0 && !plan_.has_tiles) {
-      const std::string why = is_second ? "weights of order 2 are computed as a whole"
-                                        : "cells overlap, or neither side covers the sphere or is "
-                                          "between parallels";
+      const std::string why =
+          is_second && options_.is_limited ? "the limiter needs the values of all targets"
+          : is_second ? "weights of order 2 need all cells of a source from a file"
+                      : "cells overlap, or neither side covers the sphere or is "
+                        "between parallels";
       formats::add_remarks(fields_name_, {"the number of cells of a tile has no effect: " + why},
                            report_.remarks);
     }
@@ -479,6 +481,7 @@ class RegridJob {
     if (needs_cells_) {
       TiledRemapOptions options;
       options.norm = options_.norm;
+      options.order = options_.method == FieldMethod::conservative_2nd ? 2 : 1;
       options.source_mask = source_.mask();
       options.target_mask = target_.mask();
       options.cells_per_tile = plan_.cells_per_tile;

@@ -135,8 +135,9 @@ RegridCost cost_of_cells(const RegridCells& source, const RegridCells& target, b
   const std::uint64_t of_place = target.have_axes ? 0 : sizeof(LonLat);
   // The bytes of a cell in a tile are the mean of both sides. Sources between parallels have nothing
   // but their pieces in other cells.
-  constexpr std::uint64_t of_cell = 400;
-  constexpr std::uint64_t of_pieces = 70;
+  // With order 2 there are pieces, moments and gradients, also of cells beyond the tile.
+  const std::uint64_t of_cell = is_second ? 4800 : 400;
+  const std::uint64_t of_pieces = is_second ? 1900 : 70;
   const std::uint64_t cells = std::max<std::uint64_t>(source.cells + target.cells, 1);
   const std::uint64_t in_tile =
       !source.have_parallels || target.have_parallels

@@ -20,6 +20,7 @@
 #include "grids/latitude_index.h"
 #include "overlay/cell_set_data.h"
 #include "overlay/grid_pieces.h"
+#include "overlay/linear_weights.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "overlay/prepared_grid.h"
@@ -91,6 +92,30 @@ void require_mask(const std::vector<std::int32_t>& mask, std::size_t num_cells, 
                      " cells");
 }
 
+// Returns the bands of the rows of a grid from one line to another one.
+BandRange bands_between(const std::vector<double>& latitudes, unsigned first, unsigned end) {
+  const auto band = [&](unsigned line) {
+    return grids::band_of(exact::sine_cosine_of_degrees(latitudes[line]).sine);
+  };
+  const auto [low, high] = std::minmax({band(first), band(end)});
+  return {low == 0 ? 0 : low - 1, std::min(high + 1, grids::num_bands - 1)};
+}
+
+// Returns the first row of a grid that touches the bands, and the one after the last; rows ascend or
+// descend in latitude.
+std::pair<unsigned, unsigned> rows_touching(const std::vector<double>& latitudes,
+                                            const BandRange& bands) {
+  unsigned first = static_cast<unsigned>(latitudes.size() - 1);
+  unsigned end = 0;
+  for (unsigned row = 0; row + 1 < latitudes.size(); ++row) {
+    const BandRange own = bands_between(latitudes, row, row + 1);
+    if (own.first > bands.last || own.last < bands.first) continue;
+    first = std::min(first, row);
+    end = row + 1;
+  }
+  return {std::min(first, end), end};
+}
+
 bool is_out(const std::vector<std::int32_t>& mask, Index cell) {
   return !mask.empty() && mask[cell] == 0;
 }
@@ -99,7 +124,7 @@ bool is_out(const std::vector<std::int32_t>& mask, Index cell) {
 
 struct TiledCells::CellsOfTiles {
   std::optional<PreparedGrid> grid;  // cells between parallels
-  std::vector<double> latitudes;     // the lines of the grid, as given
+  LonLatGrid lines;                  // those of the grid, as given
   std::shared_ptr<const grids::GridFormula> formula;
   bool covers_sphere = true;  // what a walk through the cells needs
 
@@ -120,8 +145,9 @@ TiledCells::TiledCells(const NamedGrid& grid) {
 }
 
 TiledCells::TiledCells(const LonLatGrid& lines)
-    : content_(std::make_shared<const CellsOfTiles>(
-          CellsOfTiles{PreparedGrid(lines), lines.lat_deg, nullptr})) {}
+    : content_(
+          std::make_shared<const CellsOfTiles>(CellsOfTiles{PreparedGrid(lines), lines, nullptr})) {
+}
 
 TiledCells::TiledCells(const CellSet& cells) {
   if (cells.has_parallels()) {
@@ -167,7 +193,9 @@ struct TiledRemap::TileMaker {
   [[nodiscard]] std::vector<double> sources_by_band() const;
   void divide_bands();
   void divide_rows();
-  [[nodiscard]] BandRange bands_of_rows(unsigned first, unsigned end) const;
+  [[nodiscard]] BandRange bands_of_rows(unsigned first, unsigned end) const {
+    return bands_between(target().lines.lat_deg, first, end);
+  }
 
   // The pieces of the targets of a tile; the columns are sources of the whole side.
   struct TilePieces {
@@ -187,6 +215,24 @@ struct TiledRemap::TileMaker {
   [[nodiscard]] static PieceRows by_target(const PieceRows& found, const TileCells& sources,
                                            std::span<const Index> targets);
   void drop_masked(TilePieces& tile) const;
+
+  [[nodiscard]] bool is_second() const { return options.order == 2; }
+  [[nodiscard]] TilePieces pieces_of_tile(unsigned begin, unsigned end,
+                                          const Execution& execution) const;
+
+  // Some sources as a set, with neighbors of those that are asked for, and their numbers.
+  struct SourcePart {
+    std::vector<Index> names;
+    CellSet cells;
+  };
+  [[nodiscard]] SourcePart sources_in(const BandRange& bands, const Execution& execution) const;
+  [[nodiscard]] BandRange reach_of_targets(unsigned begin, unsigned end) const;
+  [[nodiscard]] BandRange reach_of_sources(const BandRange& bands) const;
+  [[nodiscard]] std::pair<unsigned, unsigned> targets_touching(const BandRange& bands) const;
+  std::vector<double> take_own_rows(RemapTile& tile, const TilePieces& all, const Remap& whole,
+                                    unsigned begin, unsigned end) const;
+  void complete_second(RemapTile& tile, unsigned begin, unsigned end,
+                       const Execution& execution) const;
 };
 
 TiledRemap::TileMaker::TileMaker(TiledCells source_side, TiledCells target_side,
@@ -196,6 +242,12 @@ TiledRemap::TileMaker::TileMaker(TiledCells source_side, TiledCells target_side,
       options(std::move(given)) {
   require_mask(options.source_mask, source().num_cells(), "source");
   require_mask(options.target_mask, target().num_cells(), "target");
+  if (options.order != 1 && options.order != 2) {
+    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2");
+  }
+  if (is_second() && source().formula && source().formula->stored() != nullptr) {
+    throw InvalidInput("weights of order 2 have no tiles where the sources are in memory");
+  }
   const auto is_walked = [](const TiledCells::CellsOfTiles& side) {
     return side.grid || side.covers_sphere;
   };
@@ -245,14 +297,6 @@ void TiledRemap::TileMaker::divide_bands() {
   if (begins.back() != grids::num_bands) begins.push_back(grids::num_bands);
 }
 
-BandRange TiledRemap::TileMaker::bands_of_rows(unsigned first, unsigned end) const {
-  const auto band = [&](unsigned line) {
-    return grids::band_of(exact::sine_cosine_of_degrees(target().latitudes[line]).sine);
-  };
-  const auto [low, high] = std::minmax({band(first), band(end)});
-  return {low == 0 ? 0 : low - 1, std::min(high + 1, grids::num_bands - 1)};
-}
-
 void TiledRemap::TileMaker::divide_rows() {
   std::vector<double> below = sources_by_band();
   system::sum_counts(below);
@@ -260,9 +304,10 @@ void TiledRemap::TileMaker::divide_rows() {
   double count = 0;
   for (unsigned row = 0; row < grid.num_rows_of_grid(); ++row) {
     const BandRange bands = bands_of_rows(row, row + 1);
-    const double share = std::abs(exact::sine_cosine_of_degrees(target().latitudes[row + 1]).sine -
-                                  exact::sine_cosine_of_degrees(target().latitudes[row]).sine) *
-                         (grids::num_bands / 2.0) / (bands.last - bands.first + 1);
+    const double share =
+        std::abs(exact::sine_cosine_of_degrees(target().lines.lat_deg[row + 1]).sine -
+                 exact::sine_cosine_of_degrees(target().lines.lat_deg[row]).sine) *
+        (grids::num_bands / 2.0) / (bands.last - bands.first + 1);
     count += grid.num_columns_of_grid() + share * (below[bands.last] - below[bands.first]);
     if (count < static_cast<double>(options.cells_per_tile)) continue;
     begins.push_back(row + 1);
@@ -274,10 +319,10 @@ void TiledRemap::TileMaker::divide_rows() {
 // Returns the pieces of targets in the sources. No target reaches beyond the bands.
 PieceRows TiledRemap::TileMaker::pieces_in_cells(const CellSetData& targets, const BandRange& bands,
                                                  const Execution& execution) const {
-  if (source().grid) return pieces(targets, *source().grid, false, execution, false);
+  if (source().grid) return pieces(targets, *source().grid, is_second(), execution, false);
   const TileCells sources = made(*source().formula, source_index->cells_touching(bands), execution);
   PieceRows result = pieces(targets.subdivision(), targets.sizes(), sources.data().subdivision(),
-                            false, execution);
+                            is_second(), execution);
   for (Index& column : result.columns) column = sources.names[column];
   return result;
 }
@@ -306,6 +351,10 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
     PieceRows& rows = result.pieces;
     rows.columns.insert(rows.columns.end(), all.columns.begin() + begin, all.columns.begin() + end);
     rows.areas.insert(rows.areas.end(), all.areas.begin() + begin, all.areas.begin() + end);
+    if (is_second()) {
+      rows.moments.insert(rows.moments.end(), all.moments.begin() + begin,
+                          all.moments.begin() + end);
+    }
     rows.row_sums.push_back(all.row_sums[k]);
     rows.end_row();
     result.areas.push_back(near.data().areas()[k]);
@@ -332,6 +381,7 @@ PieceRows TiledRemap::TileMaker::by_target(const PieceRows& found, const TileCel
       if (target == no_index) continue;
       kept.columns.push_back(target);
       kept.areas.push_back(found.areas[k]);
+      if (!found.moments.empty()) kept.moments.push_back(found.moments[k]);
     }
     kept.end_row();
   }
@@ -361,7 +411,7 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_in_cover(
   const BandRange all = reach_of(*source_index, sources.names, own);
   const TileCells cover = made(*target().formula, target_index->cells_touching(all), execution);
   PieceRows found = pieces(sources.data().subdivision(), sources.data().sizes(),
-                           cover.data().subdivision(), false, execution);
+                           cover.data().subdivision(), is_second(), execution);
   for (Index& column : found.columns) column = cover.names[column];
   result.pieces = by_target(found, sources, result.targets);
   for (const Index target : result.targets) {
@@ -380,14 +430,14 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_rows(
   result.targets.resize(std::size_t{end - first} * row_length);
   std::iota(result.targets.begin(), result.targets.end(), first * row_length);
   if (boxes) {
-    result.pieces = boxes->pieces(first * row_length, end * row_length, false);
+    result.pieces = boxes->pieces(first * row_length, end * row_length, is_second());
     find_row_sums(result.pieces);
   } else {
     // The pieces of each source in the grid are in order.
     const TileCells sources =
         made(*source().formula, source_index->cells_touching(bands_of_rows(first, end)), execution);
-    result.pieces =
-        by_target(pieces(sources.data(), grid, false, execution, false), sources, result.targets);
+    result.pieces = by_target(pieces(sources.data(), grid, is_second(), execution, false), sources,
+                              result.targets);
   }
   for (const Index target : result.targets) {
     const PreparedGrid::CellSize size = grid.size_of(target);
@@ -407,6 +457,7 @@ void TiledRemap::TileMaker::drop_masked(TilePieces& tile) const {
       if (is_target_out || is_out(options.source_mask, tile.pieces.columns[k])) continue;
       kept.columns.push_back(tile.pieces.columns[k]);
       kept.areas.push_back(tile.pieces.areas[k]);
+      if (is_second()) kept.moments.push_back(tile.pieces.moments[k]);
     }
     kept.end_row();
   }
@@ -422,15 +473,176 @@ std::size_t TiledRemap::TileMaker::num_targets(std::size_t number) const {
   return count;
 }
 
-RemapTile TiledRemap::TileMaker::tile(std::size_t number, const Execution& execution) const {
-  const unsigned begin = begins[number];
-  const unsigned end = begins[number + 1];
+// Returns the bands that the targets of a tile are in.
+BandRange TiledRemap::TileMaker::reach_of_targets(unsigned begin, unsigned end) const {
+  if (!target_index) return bands_of_rows(begin, end);
+  return reach_of(*target_index, target_index->cells_with_middles({begin, end - 1}));
+}
+
+// Returns the bands that sources which touch some bands are in, with these.
+BandRange TiledRemap::TileMaker::reach_of_sources(const BandRange& bands) const {
+  if (source_index) return reach_of(*source_index, source_index->cells_touching(bands), bands);
+  const std::vector<double>& latitudes = source().lines.lat_deg;
+  const auto [first, end] = rows_touching(latitudes, bands);
+  if (first == end) return bands;
+  const BandRange all = bands_between(latitudes, first, end);
+  return {std::min(all.first, bands.first), std::max(all.last, bands.last)};
+}
+
+// Returns bands, or rows, whose targets are all that touch some bands, perhaps with others.
+std::pair<unsigned, unsigned> TiledRemap::TileMaker::targets_touching(
+    const BandRange& bands) const {
+  if (!target_index) return rows_touching(target().lines.lat_deg, bands);
+  const BandRange all = reach_of(*target_index, target_index->cells_touching(bands), bands);
+  return {all.first, all.last + 1};
+}
+
+TiledRemap::TileMaker::SourcePart TiledRemap::TileMaker::sources_in(
+    const BandRange& bands, const Execution& execution) const {
+  SourcePart part;
+  if (source_index) {
+    TileCells made_cells = made(*source().formula, source_index->cells_touching(bands), execution);
+    part = {std::move(made_cells.names), std::move(made_cells.cells)};
+  } else {
+    const auto [first, end] = rows_touching(source().lines.lat_deg, bands);
+    if (first == end) return part;
+    LonLatGrid lines = source().lines;
+    const auto line = lines.lat_deg.begin();
+    lines.lat_deg = {line + first, line + end + 1};
+    const Index row_length = source().grid->num_columns_of_grid();
+    part.names.resize(std::size_t{end - first} * row_length);
+    std::iota(part.names.begin(), part.names.end(), first * row_length);
+    part.cells = CellSet::lonlat_grid(lines, GridSides::parallels, execution);
+  }
+  if (options.source_mask.empty()) return part;
+  CellFacts facts = part.cells.facts();
+  facts.mask.clear();
+  for (const Index name : part.names) facts.mask.push_back(options.source_mask[name]);
+  part.cells = part.cells.with_facts(std::move(facts));
+  return part;
+}
+
+// Takes the rows of the targets of a tile; returns the area of each that sources cover.
+std::vector<double> TiledRemap::TileMaker::take_own_rows(RemapTile& tile, const TilePieces& all,
+                                                         const Remap& whole, unsigned begin,
+                                                         unsigned end) const {
+  if (target_index) {
+    tile.targets = target_index->cells_with_middles({begin, end - 1});
+  } else {
+    const Index row_length = target().grid->num_columns_of_grid();
+    tile.targets.resize(std::size_t{end - begin} * row_length);
+    std::iota(tile.targets.begin(), tile.targets.end(), begin * row_length);
+  }
+  std::vector<double> covered_areas;
+  Remap& own = tile.part;
+  std::size_t row = 0;
+  for (const Index target : tile.targets) {
+    while (all.targets[row] != target) ++row;
+    for (std::uint64_t k = whole.pieces.offsets[row]; k < whole.pieces.offsets[row + 1]; ++k) {
+      own.pieces.values.push_back(whole.pieces.values[k]);
+      own.areas.push_back(whole.areas[k]);
+      own.moments.push_back(whole.moments[k]);
+    }
+    own.pieces.end_row();
+    const double covered = all.pieces.row_sums[row];
+    const double area = overlay::counted_area(covered, all.areas[row], all.lengths[row]);
+    covered_areas.push_back(covered);
+    tile.areas.push_back(area);
+    tile.fractions.push_back(area > 0 ? covered / area : 0);
+  }
+  own.target_areas = tile.areas;
+  own.target_fractions = tile.fractions;
+  return covered_areas;
+}
+
+// The moments of a piece depend on all pieces of its source, so these are computed with those of all
+// targets that touch sources of the tile. Gradients depend on neighbors of the sources.
+void TiledRemap::TileMaker::complete_second(RemapTile& tile, unsigned begin, unsigned end,
+                                            const Execution& execution) const {
+  tile.part.order = 2;
+  tile.part.norm = options.norm;
+  if (target_index && target_index->cells_with_middles({begin, end - 1}).empty()) return;
+  const BandRange reach = reach_of_sources(reach_of_targets(begin, end));
+  const auto [first, last] = targets_touching(reach);
+  TilePieces all = pieces_of_tile(std::min(first, begin), std::max(last, end), execution);
+  SourcePart part = sources_in(reach, execution);
+  const CellSetData& data = CellSetData::of(part.cells);
+  const std::size_t num_sources = part.names.size();
+  const auto number_of = [&](Index name) {
+    const auto at = std::ranges::lower_bound(part.names, name);
+    return at != part.names.end() && *at == name ? static_cast<Index>(at - part.names.begin())
+                                                 : no_index;
+  };
+  // The pieces of all rows in these sources; others end beyond the tile.
+  Remap whole;
+  std::vector<Point> moments;
+  std::vector<exact::DoubleDouble> sums(num_sources);
+  std::vector<Point> means(num_sources);
+  for (std::size_t row = 0; row < all.targets.size(); ++row) {
+    for (std::uint64_t k = all.pieces.offsets[row]; k < all.pieces.offsets[row + 1]; ++k) {
+      const Index source = number_of(all.pieces.columns[k]);
+      if (source == no_index) continue;
+      whole.pieces.values.push_back(source);
+      whole.areas.push_back(all.pieces.areas[k]);
+      moments.push_back(all.pieces.moments[k]);
+      add_term(all.pieces.areas[k], sums[source]);
+      means[source] = means[source] + all.pieces.moments[k];
+    }
+    whole.pieces.end_row();
+  }
+  // Nothing but their sums is needed of these any more.
+  all.pieces.columns = {};
+  all.pieces.areas = {};
+  all.pieces.moments = {};
+  std::vector<Point> centers(num_sources);
+  for (std::size_t i = 0; i < num_sources; ++i) {
+    const double covered = sums[i].hi + sums[i].lo;
+    means[i] = covered > 0 ? means[i] / covered : Point{};
+    if (data.areas()[i] > 0) centers[i] = data.moments()[i] / data.areas()[i];
+  }
+  whole.moments = overlay::moments_around(means, whole, std::move(moments));
+  const std::vector<double> covered_areas = take_own_rows(tile, all, whole, begin, end);
+  const overlay::CellGradients gradients =
+      cell_gradients(data, centers, part.cells.facts().mask, execution.threads);
+  Remap& own = tile.part;
+  own.source_areas.assign(data.areas().begin(), data.areas().end());
+  own.source_centers = std::move(centers);
+  own.source = std::move(part.cells);
+  const bool is_of_area = options.norm == RemapNorm::destarea;
+  own.weights = linear_weights(own, gradients, is_of_area ? own.target_areas : covered_areas, {},
+                               execution.threads);
+  own.weights.num_columns = num_sources;
+  tile.weights = own.weights;
+  if (!part.names.empty()) {
+    tile.first_source = part.names.front();
+    tile.weights.num_columns = part.names.back() - part.names.front() + std::size_t{1};
+  }
+  for (Index& column : tile.weights.columns) column = part.names[column] - tile.first_source;
+  tile.sources = std::move(part.names);
+}
+
+// Returns the pieces of the targets from one band, or row, to before another one.
+TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_tile(
+    unsigned begin, unsigned end, const Execution& execution) const {
   const bool is_source_walked = source().grid || source().covers_sphere;
   TilePieces found = !target_index      ? pieces_of_rows(begin, end, execution)
                      : is_source_walked ? pieces_of_bands({begin, end - 1}, execution)
                                         : pieces_in_cover({begin, end - 1}, execution);
   drop_masked(found);
+  // With order 2 sums are those of the rows as they are, as in remap().
+  if (is_second()) find_row_sums(found.pieces);
+  return found;
+}
+
+RemapTile TiledRemap::TileMaker::tile(std::size_t number, const Execution& execution) const {
+  const unsigned begin = begins[number];
+  const unsigned end = begins[number + 1];
   RemapTile result;
+  if (is_second()) {
+    complete_second(result, begin, end, execution);
+    return result;
+  }
+  TilePieces found = pieces_of_tile(begin, end, execution);
   const PieceRows& pieces = found.pieces;
   Index least = no_index;
   Index most = 0;

@@ -36,6 +36,11 @@ struct CellGradients {
 CellGradients cell_gradients(const CellSetData& cells, std::span<const Point> centers,
                              std::span<const std::int32_t> mask, unsigned threads);
 
+// Returns the moments of the pieces of a remapping around the means of their sources. `moments` are
+// those around the center of the sphere.
+std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
+                                  std::vector<Point> moments);
+
 // Returns the weights of a remapping with moments, divided by `target_areas`. `gradients` belong to
 // the sources. `targets` lists the indices of the targets in the spatial order in which their rows
 // are computed; if it is empty, this is the order of the input. The result does not depend on it.

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "exact/eft.h"
 #include "exact/vector.h"
 #include "overlay/cell_set_data.h"
 #include "overlay/cover_triangulation.h"
@@ -173,9 +174,12 @@ std::vector<double> fractions(const std::vector<double>& covered,
   return result;
 }
 
-// Returns the moments of pieces around the centers of mass of their sources. The moments of a
-// source sum up to zero except for rounding, which gradients would multiply by the inverse of a
-// cell's width; the largest piece of the source is corrected by the sum.
+}  // namespace
+
+namespace overlay {
+
+// The moments of a source sum up to zero except for rounding, which gradients would multiply by the
+// inverse of a cell's width; the largest piece of the source is corrected by the sum.
 std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
                                   std::vector<Point> moments) {
   std::vector<Point> sums(means.size());
@@ -194,6 +198,10 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
   }
   return moments;
 }
+
+}  // namespace overlay
+
+namespace {
 
 // Returns the cells in spatial order, as indices in the input, or nothing if they are those of a
 // grid, which is in order itself.
@@ -240,7 +248,9 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
                             of_targets, result.target.num_cells(), of_sources);
   const overlay::CountedSizes source_sizes(sources, of_sources);
   drop_masked(result.source, result.target, pieces);
-  if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
+  // With order 2 sums are those of the rows as they are, which weights_with_values() and tiles of
+  // weights compute again.
+  if (pieces.row_sums.empty() || is_second) find_sums(pieces, num_sources);
   if (!is_second) pieces.moments.clear();
   const std::vector<Point> moments_of_sources = column_moments(pieces, num_sources);
   result.pieces = {std::move(pieces.offsets), std::move(pieces.columns)};
@@ -259,7 +269,7 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
       if (source_sizes.areas()[i] > 0)
         centers[i] = source_sizes.moments()[i] / source_sizes.areas()[i];
     }
-    result.moments = moments_around(means, result, std::move(pieces.moments));
+    result.moments = overlay::moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, source_mask, execution.threads);
     result.source_centers = std::move(centers);
   }
@@ -338,13 +348,18 @@ Weights weights_with_values(const Remap& remap, std::span<const std::int32_t> ha
   }
   std::vector<double> areas = remap.target_areas;
   for (std::size_t j = 0; j < areas.size() && remap.norm == RemapNorm::fracarea; ++j) {
-    areas[j] = 0;
+    exact::DoubleDouble sum{};
     for (std::uint64_t k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
-      areas[j] += remap.areas[k];
+      add_term(remap.areas[k], sum);
     }
+    areas[j] = sum.hi + sum.lo;
   }
+  // A tile has no cells of its targets, whose order changes nothing but the time.
+  const bool has_targets = remap.target.num_cells() == areas.size();
   Weights weights = linear_weights(
-      remap, gradients, areas, spatial_order_of(CellSetData::of(remap.target)), execution.threads);
+      remap, gradients, areas,
+      has_targets ? spatial_order_of(CellSetData::of(remap.target)) : std::span<const Index>(),
+      execution.threads);
   weights.num_columns = num_sources;
   return weights;
 }

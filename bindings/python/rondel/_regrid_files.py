@@ -134,8 +134,9 @@ def regrid_file(
         What becomes of cells of one side that overlap, as in `remap`.
     memory : int, optional
         About how many bytes may be in use, beside those of the process; by default 2 GiB. Weights
-        that need more are computed tile by tile, with the same values; those of
-        'conservative_2nd', of cells that overlap, and between two regions are not.
+        that need more are computed tile by tile, with the same values; those of cells that
+        overlap, and between two regions are not, nor those of 'conservative_2nd' for sources
+        that are neither a named grid nor between parallels.
     tile : int, optional
         The number of cells of a tile, or of targets with a method between places; by default as
         `memory` says.

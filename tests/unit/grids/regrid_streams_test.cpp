@@ -38,7 +38,8 @@ void write_bytes(const std::string& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// Writes four times of "warm", which has gaps, and "kind" with flags, on a grid between parallels.
+// Writes four times of "warm", which has gaps, and "kind" with flags, on a named grid. The gap
+// moves with time.
 void write_fields_on(const std::string& path, const std::string& grid) {
   const NamedGrid named(grid);
   FieldSet fields;
@@ -48,7 +49,7 @@ void write_fields_on(const std::string& path, const std::string& grid) {
   const std::vector<LonLat> places = named.centers();
   for (std::size_t t = 0; t < 4; ++t) {
     for (const LonLat& place : places) {
-      const bool is_gap = place.lon_deg > 100 && place.lat_deg < -30;
+      const bool is_gap = place.lon_deg > 100 + 10 * static_cast<double>(t) && place.lat_deg < -30;
       warm.values.push_back(is_gap ? std::numeric_limits<double>::quiet_NaN()
                                    : static_cast<double>(t) + std::sin(place.lat_deg / 20) +
                                          std::cos(place.lon_deg / 30));
@@ -59,7 +60,12 @@ void write_fields_on(const std::string& path, const std::string& grid) {
   }
   fields.arrays = {warm, kind};
   WeightSide side;
-  side.axes = *named.axes();
+  if (named.axes() != nullptr) {
+    side.axes = *named.axes();
+  } else {
+    side.points = places;
+    fields.attributes.emplace_back(grid_attribute, grid);
+  }
   side.shape = named.shape();
   write_fields({path, {}}, fields, side);
 }
@@ -155,11 +161,34 @@ TEST(regrid_streams, little_memory_gives_the_same_bytes_or_a_number_that_does) {
   EXPECT_GE(num_tiled, 10U);  // a method between places has one tile of few targets
 }
 
+// Fields with gaps that move, vectors and masks: gradients of order 2 in tiles.
+TEST(regrid_streams, weights_of_order_2_are_the_same_in_tiles) {
+  const std::string in = temporary_path("streams.nc");
+  const std::string whole = temporary_path("whole2.nc");
+  const std::string tiles = temporary_path("tiles2.nc");
+  for (const char* const source : {"grid:5", "O12", "tripolar:10"}) {
+    write_fields_on(in, source);
+    for (const char* const target : {"healpix:3", "grid:9", "F10"}) {
+      for (const RemapNorm norm : {RemapNorm::fracarea, RemapNorm::destarea}) {
+        RegridFileOptions options{.method = FieldMethod::conservative_2nd, .norm = norm};
+        EXPECT_EQ(run(in, target, whole, options).tiles, 0U);
+        for (const std::size_t cells : {60U, 700U}) {
+          options.cells_per_tile = cells;
+          EXPECT_GT(run(in, target, tiles, options).tiles, 1U) << source << ' ' << target;
+          EXPECT_EQ(bytes_of_file(tiles), bytes_of_file(whole))
+              << source << ' ' << target << ' ' << cells;
+        }
+      }
+    }
+  }
+}
+
 TEST(regrid_streams, weights_without_tiles_need_their_memory) {
   const std::string in = temporary_path("streams.nc");
   const std::string out = temporary_path("second.nc");
   write_fields_on(in, "grid:4");
-  const RegridFileOptions second{.method = FieldMethod::conservative_2nd, .memory = 1U << 20U};
+  const RegridFileOptions second{
+      .method = FieldMethod::conservative_2nd, .is_limited = true, .memory = 1U << 20U};
   const std::string refusal = why_not(in, "healpix:4", out, second);
   EXPECT_EQ(refusal,
             "memory of 1048576 bytes is too small: " + std::to_string(enough_of(refusal) >> 20U) +
@@ -167,13 +196,14 @@ TEST(regrid_streams, weights_without_tiles_need_their_memory) {
   EXPECT_FALSE(std::filesystem::exists(out));
   const auto report = run(in, "healpix:4", out,
                           {.method = FieldMethod::conservative_2nd,
+                           .is_limited = true,
                            .memory = enough_of(refusal),
                            .cells_per_tile = 100});
   EXPECT_EQ(report.tiles, 0U);
   ASSERT_EQ(report.remarks.size(), 1U);
   EXPECT_EQ(report.remarks[0],
-            in + ": the number of cells of a tile has no effect: weights of order 2 are computed "
-                 "as a whole");
+            in + ": the number of cells of a tile has no effect: the limiter needs the values of "
+                 "all targets");
 }
 
 TEST(regrid_streams, a_resumed_run_has_the_bytes_of_one_that_was_not_cut) {

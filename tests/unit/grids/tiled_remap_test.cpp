@@ -74,6 +74,73 @@ TEST(tiled_remap, rows_are_those_of_whole_sides) {
   }
 }
 
+// Compares the rows of order 2 for fields that lack some values, and for fields that lack none.
+void expect_second_rows(const Remap& whole, const TiledRemap& tiled, const std::string& what) {
+  expect_rows_of(whole, tiled, what);
+  std::mt19937 random(17);
+  std::vector<std::int32_t> has_value(tiled.num_sources());
+  for (std::int32_t& value : has_value) value = random() % 5 == 0 ? 0 : 1;
+  const Weights wanted = weights_with_values(whole, has_value);
+  for (std::size_t t = 0; t < tiled.num_tiles(); ++t) {
+    const RemapTile tile = tiled.tile(t);
+    if (tile.targets.empty()) continue;
+    std::vector<std::int32_t> own;
+    for (const Index source : tile.sources) own.push_back(has_value[source]);
+    const Weights found = weights_with_values(tile.part, own);
+    ASSERT_EQ(found.num_rows(), tile.targets.size()) << what;
+    for (std::size_t r = 0; r < tile.targets.size(); ++r) {
+      const std::uint64_t begin = wanted.offsets[tile.targets[r]];
+      const std::uint64_t size = wanted.offsets[tile.targets[r] + std::size_t{1}] - begin;
+      ASSERT_EQ(found.offsets[r + 1] - found.offsets[r], size) << what;
+      for (std::uint64_t k = 0; k < size; ++k) {
+        EXPECT_EQ(tile.sources[found.columns[found.offsets[r] + k]], wanted.columns[begin + k]);
+        EXPECT_EQ(found.values[found.offsets[r] + k], wanted.values[begin + k]) << what;
+      }
+    }
+  }
+}
+
+TEST(tiled_remap, rows_of_order_2_are_those_of_whole_sides) {
+  const std::vector<std::string> grids = {"grid:9",        "F8",          "O10",      "C6", "R2B1",
+                                          "hexagons:R2B1", "tripolar:30", "healpix:2"};
+  for (const std::string& source : grids) {
+    for (const std::string& target : grids) {
+      if (source == target && source.starts_with("tripolar")) continue;
+      for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+        const Remap whole =
+            remap(NamedGrid(source).cells(), NamedGrid(target).cells(), {.order = 2, .norm = norm});
+        for (const std::size_t cells : {50U, 300U, 1U << 20U}) {
+          const TiledRemap tiled(TiledCells(NamedGrid(source)), TiledCells(NamedGrid(target)),
+                                 {.norm = norm, .cells_per_tile = cells, .order = 2});
+          expect_second_rows(whole, tiled, source + " to " + target);
+        }
+      }
+    }
+  }
+}
+
+TEST(tiled_remap, masks_and_regions_of_order_2_are_those_of_remap) {
+  std::mt19937 random(5);
+  const NamedGrid source("healpix:3");
+  const NamedGrid target("grid:10");
+  std::vector<std::int32_t> mask(source.num_cells());
+  for (std::int32_t& value : mask) value = random() % 3 == 0 ? 0 : 1;
+  const Remap whole = remap(source.cells(), target.cells(), {.order = 2, .source_mask = mask});
+  expect_second_rows(whole,
+                     TiledRemap(TiledCells(source), TiledCells(target),
+                                {.source_mask = mask, .cells_per_tile = 200, .order = 2}),
+                     "masked");
+  const CellSet region = CellSet::polygons(NamedGrid("R2B1").cells().rings());
+  const Remap to_region = remap(source.cells(), region, {.order = 2});
+  expect_second_rows(
+      to_region,
+      TiledRemap(TiledCells(source), TiledCells(region), {.cells_per_tile = 100, .order = 2}),
+      "region");
+  EXPECT_EQ(thrown_message<InvalidInput>(
+                [&] { TiledRemap(TiledCells(region), TiledCells(source), {.order = 2}); }),
+            "weights of order 2 have no tiles where the sources are in memory");
+}
+
 TEST(tiled_remap, sides_in_memory_are_divided_as_well) {
   const CellSet source = CellSet::polygons(NamedGrid("R2B2").cells().rings());
   const CellSet target = NamedGrid("grid:9x6", GridSides::great_circles).cells();
