@@ -18,9 +18,9 @@
 #include "grids/formula_cells.h"
 #include "grids/grid_formula.h"
 #include "grids/latitude_index.h"
+#include "grids/tile_maker.h"
 #include "overlay/cell_set_data.h"
 #include "overlay/grid_pieces.h"
-#include "overlay/linear_weights.h"
 #include "overlay/measure.h"
 #include "overlay/pieces.h"
 #include "overlay/prepared_grid.h"
@@ -33,6 +33,7 @@ namespace rondel {
 namespace {
 
 using grids::BandRange;
+using grids::TileCells;
 using overlay::CellSetData;
 using overlay::PieceRows;
 using overlay::PreparedGrid;
@@ -59,31 +60,6 @@ class StoredCells : public grids::GridFormula {
   CellRings rings_;
 };
 
-// The cells of a tile as a set, with their numbers in the grid.
-struct TileCells {
-  std::vector<Index> names;
-  CellSet cells;
-
-  [[nodiscard]] const CellSetData& data() const { return CellSetData::of(cells); }
-};
-
-TileCells made(const grids::GridFormula& formula, std::vector<Index> names,
-               const Execution& execution) {
-  CellSet cells = grids::cells_of(formula, names, execution);
-  return {std::move(names), std::move(cells)};
-}
-
-// Returns the bands that some cells are in, together with others.
-BandRange reach_of(const grids::LatitudeIndex& index, std::span<const Index> cells,
-                   const BandRange& others = {grids::num_bands - 1, 0}) {
-  BandRange all = others;
-  for (const Index cell : cells) {
-    const BandRange own = index.bands_of(cell);
-    all = {std::min(all.first, own.first), std::max(all.last, own.last)};
-  }
-  return all;
-}
-
 // Throws InvalidInput if there is a mask of another length.
 void require_mask(const std::vector<std::int32_t>& mask, std::size_t num_cells, const char* name) {
   if (mask.empty() || mask.size() == num_cells) return;
@@ -92,46 +68,38 @@ void require_mask(const std::vector<std::int32_t>& mask, std::size_t num_cells, 
                      " cells");
 }
 
-// Returns the bands of the rows of a grid from one line to another one.
-BandRange bands_between(const std::vector<double>& latitudes, unsigned first, unsigned end) {
-  const auto band = [&](unsigned line) {
-    return grids::band_of(exact::sine_cosine_of_degrees(latitudes[line]).sine);
-  };
-  const auto [low, high] = std::minmax({band(first), band(end)});
-  return {low == 0 ? 0 : low - 1, std::min(high + 1, grids::num_bands - 1)};
-}
-
-// Returns the first row of a grid that touches the bands, and the one after the last; rows ascend or
-// descend in latitude.
-std::pair<unsigned, unsigned> rows_touching(const std::vector<double>& latitudes,
-                                            const BandRange& bands) {
-  unsigned first = static_cast<unsigned>(latitudes.size() - 1);
-  unsigned end = 0;
-  for (unsigned row = 0; row + 1 < latitudes.size(); ++row) {
-    const BandRange own = bands_between(latitudes, row, row + 1);
-    if (own.first > bands.last || own.last < bands.first) continue;
-    first = std::min(first, row);
-    end = row + 1;
-  }
-  return {std::min(first, end), end};
-}
-
 bool is_out(const std::vector<std::int32_t>& mask, Index cell) {
   return !mask.empty() && mask[cell] == 0;
 }
 
 }  // namespace
 
-struct TiledCells::CellsOfTiles {
-  std::optional<PreparedGrid> grid;  // cells between parallels
-  LonLatGrid lines;                  // those of the grid, as given
-  std::shared_ptr<const grids::GridFormula> formula;
-  bool covers_sphere = true;  // what a walk through the cells needs
+namespace grids {
 
-  [[nodiscard]] std::size_t num_cells() const {
-    return grid ? grid->num_cells() : formula->num_cells();
+TileCells made(const GridFormula& formula, std::vector<Index> names, const Execution& execution) {
+  CellSet cells = cells_of(formula, names, execution);
+  return {std::move(names), std::move(cells)};
+}
+
+BandRange reach_of(const LatitudeIndex& index, std::span<const Index> cells,
+                   const BandRange& others) {
+  BandRange all = others;
+  for (const Index cell : cells) {
+    const BandRange own = index.bands_of(cell);
+    all = {std::min(all.first, own.first), std::max(all.last, own.last)};
   }
-};
+  return all;
+}
+
+BandRange bands_between(const std::vector<double>& latitudes, unsigned first, unsigned end) {
+  const auto band = [&](unsigned line) {
+    return band_of(exact::sine_cosine_of_degrees(latitudes[line]).sine);
+  };
+  const auto [low, high] = std::minmax({band(first), band(end)});
+  return {low == 0 ? 0 : low - 1, std::min(high + 1, num_bands - 1)};
+}
+
+}  // namespace grids
 
 TiledCells::TiledCells(const NamedGrid& grid) {
   if (grid.lines_ && grid.sides_ == GridSides::parallels) {
@@ -167,73 +135,6 @@ TiledCells::TiledCells(const CellSet& cells) {
 
 std::size_t TiledCells::num_cells() const { return content_->num_cells(); }
 bool TiledCells::has_parallels() const { return content_->grid.has_value(); }
-
-struct TiledRemap::TileMaker {
-  TileMaker(TiledCells source_side, TiledCells target_side, TiledRemapOptions given,
-            const Execution& execution);
-
-  [[nodiscard]] RemapTile tile(std::size_t number, const Execution& execution) const;
-  [[nodiscard]] std::size_t num_targets(std::size_t number) const;
-
-  TiledCells source_cells;
-  TiledCells target_cells;
-  TiledRemapOptions options;
-  // For a side that is not between parallels.
-  std::optional<grids::LatitudeIndex> source_index;
-  std::optional<grids::LatitudeIndex> target_index;
-  // The boxes that two grids between parallels share.
-  std::optional<overlay::GridOverlay> boxes;
-  // The first band of each tile, or its first row for targets between parallels; and the end.
-  std::vector<unsigned> begins = {0};
-
- private:
-  [[nodiscard]] const TiledCells::CellsOfTiles& source() const { return *source_cells.content_; }
-  [[nodiscard]] const TiledCells::CellsOfTiles& target() const { return *target_cells.content_; }
-
-  [[nodiscard]] std::vector<double> sources_by_band() const;
-  void divide_bands();
-  void divide_rows();
-  [[nodiscard]] BandRange bands_of_rows(unsigned first, unsigned end) const {
-    return bands_between(target().lines.lat_deg, first, end);
-  }
-
-  // The pieces of the targets of a tile; the columns are sources of the whole side.
-  struct TilePieces {
-    std::vector<Index> targets;
-    std::vector<double> areas;    // of the targets
-    std::vector<double> lengths;  // of their borders
-    PieceRows pieces;
-  };
-  [[nodiscard]] TilePieces pieces_of_rows(unsigned first, unsigned end,
-                                          const Execution& execution) const;
-  [[nodiscard]] TilePieces pieces_of_bands(const BandRange& bands,
-                                           const Execution& execution) const;
-  [[nodiscard]] PieceRows pieces_in_cells(const CellSetData& targets, const BandRange& bands,
-                                          const Execution& execution) const;
-  [[nodiscard]] TilePieces pieces_in_cover(const BandRange& bands,
-                                           const Execution& execution) const;
-  [[nodiscard]] static PieceRows by_target(const PieceRows& found, const TileCells& sources,
-                                           std::span<const Index> targets);
-  void drop_masked(TilePieces& tile) const;
-
-  [[nodiscard]] bool is_second() const { return options.order == 2; }
-  [[nodiscard]] TilePieces pieces_of_tile(unsigned begin, unsigned end,
-                                          const Execution& execution) const;
-
-  // Some sources as a set, with neighbors of those that are asked for, and their numbers.
-  struct SourcePart {
-    std::vector<Index> names;
-    CellSet cells;
-  };
-  [[nodiscard]] SourcePart sources_in(const BandRange& bands, const Execution& execution) const;
-  [[nodiscard]] BandRange reach_of_targets(unsigned begin, unsigned end) const;
-  [[nodiscard]] BandRange reach_of_sources(const BandRange& bands) const;
-  [[nodiscard]] std::pair<unsigned, unsigned> targets_touching(const BandRange& bands) const;
-  std::vector<double> take_own_rows(RemapTile& tile, const TilePieces& all, const Remap& whole,
-                                    unsigned begin, unsigned end) const;
-  void complete_second(RemapTile& tile, unsigned begin, unsigned end,
-                       const Execution& execution) const;
-};
 
 TiledRemap::TileMaker::TileMaker(TiledCells source_side, TiledCells target_side,
                                  TiledRemapOptions given, const Execution& execution)
@@ -471,154 +372,6 @@ std::size_t TiledRemap::TileMaker::num_targets(std::size_t number) const {
     count += target_index ? target_index->num_middles(k) : target().grid->num_columns_of_grid();
   }
   return count;
-}
-
-// Returns the bands that the targets of a tile are in.
-BandRange TiledRemap::TileMaker::reach_of_targets(unsigned begin, unsigned end) const {
-  if (!target_index) return bands_of_rows(begin, end);
-  return reach_of(*target_index, target_index->cells_with_middles({begin, end - 1}));
-}
-
-// Returns the bands that sources which touch some bands are in, with these.
-BandRange TiledRemap::TileMaker::reach_of_sources(const BandRange& bands) const {
-  if (source_index) return reach_of(*source_index, source_index->cells_touching(bands), bands);
-  const std::vector<double>& latitudes = source().lines.lat_deg;
-  const auto [first, end] = rows_touching(latitudes, bands);
-  if (first == end) return bands;
-  const BandRange all = bands_between(latitudes, first, end);
-  return {std::min(all.first, bands.first), std::max(all.last, bands.last)};
-}
-
-// Returns bands, or rows, whose targets are all that touch some bands, perhaps with others.
-std::pair<unsigned, unsigned> TiledRemap::TileMaker::targets_touching(
-    const BandRange& bands) const {
-  if (!target_index) return rows_touching(target().lines.lat_deg, bands);
-  const BandRange all = reach_of(*target_index, target_index->cells_touching(bands), bands);
-  return {all.first, all.last + 1};
-}
-
-TiledRemap::TileMaker::SourcePart TiledRemap::TileMaker::sources_in(
-    const BandRange& bands, const Execution& execution) const {
-  SourcePart part;
-  if (source_index) {
-    TileCells made_cells = made(*source().formula, source_index->cells_touching(bands), execution);
-    part = {std::move(made_cells.names), std::move(made_cells.cells)};
-  } else {
-    const auto [first, end] = rows_touching(source().lines.lat_deg, bands);
-    if (first == end) return part;
-    LonLatGrid lines = source().lines;
-    const auto line = lines.lat_deg.begin();
-    lines.lat_deg = {line + first, line + end + 1};
-    const Index row_length = source().grid->num_columns_of_grid();
-    part.names.resize(std::size_t{end - first} * row_length);
-    std::iota(part.names.begin(), part.names.end(), first * row_length);
-    part.cells = CellSet::lonlat_grid(lines, GridSides::parallels, execution);
-  }
-  if (options.source_mask.empty()) return part;
-  CellFacts facts = part.cells.facts();
-  facts.mask.clear();
-  for (const Index name : part.names) facts.mask.push_back(options.source_mask[name]);
-  part.cells = part.cells.with_facts(std::move(facts));
-  return part;
-}
-
-// Takes the rows of the targets of a tile; returns the area of each that sources cover.
-std::vector<double> TiledRemap::TileMaker::take_own_rows(RemapTile& tile, const TilePieces& all,
-                                                         const Remap& whole, unsigned begin,
-                                                         unsigned end) const {
-  if (target_index) {
-    tile.targets = target_index->cells_with_middles({begin, end - 1});
-  } else {
-    const Index row_length = target().grid->num_columns_of_grid();
-    tile.targets.resize(std::size_t{end - begin} * row_length);
-    std::iota(tile.targets.begin(), tile.targets.end(), begin * row_length);
-  }
-  std::vector<double> covered_areas;
-  Remap& own = tile.part;
-  std::size_t row = 0;
-  for (const Index target : tile.targets) {
-    while (all.targets[row] != target) ++row;
-    for (std::uint64_t k = whole.pieces.offsets[row]; k < whole.pieces.offsets[row + 1]; ++k) {
-      own.pieces.values.push_back(whole.pieces.values[k]);
-      own.areas.push_back(whole.areas[k]);
-      own.moments.push_back(whole.moments[k]);
-    }
-    own.pieces.end_row();
-    const double covered = all.pieces.row_sums[row];
-    const double area = overlay::counted_area(covered, all.areas[row], all.lengths[row]);
-    covered_areas.push_back(covered);
-    tile.areas.push_back(area);
-    tile.fractions.push_back(area > 0 ? covered / area : 0);
-  }
-  own.target_areas = tile.areas;
-  own.target_fractions = tile.fractions;
-  return covered_areas;
-}
-
-// The moments of a piece depend on all pieces of its source, so these are computed with those of all
-// targets that touch sources of the tile. Gradients depend on neighbors of the sources.
-void TiledRemap::TileMaker::complete_second(RemapTile& tile, unsigned begin, unsigned end,
-                                            const Execution& execution) const {
-  tile.part.order = 2;
-  tile.part.norm = options.norm;
-  if (target_index && target_index->cells_with_middles({begin, end - 1}).empty()) return;
-  const BandRange reach = reach_of_sources(reach_of_targets(begin, end));
-  const auto [first, last] = targets_touching(reach);
-  TilePieces all = pieces_of_tile(std::min(first, begin), std::max(last, end), execution);
-  SourcePart part = sources_in(reach, execution);
-  const CellSetData& data = CellSetData::of(part.cells);
-  const std::size_t num_sources = part.names.size();
-  const auto number_of = [&](Index name) {
-    const auto at = std::ranges::lower_bound(part.names, name);
-    return at != part.names.end() && *at == name ? static_cast<Index>(at - part.names.begin())
-                                                 : no_index;
-  };
-  // The pieces of all rows in these sources; others end beyond the tile.
-  Remap whole;
-  std::vector<Point> moments;
-  std::vector<exact::DoubleDouble> sums(num_sources);
-  std::vector<Point> means(num_sources);
-  for (std::size_t row = 0; row < all.targets.size(); ++row) {
-    for (std::uint64_t k = all.pieces.offsets[row]; k < all.pieces.offsets[row + 1]; ++k) {
-      const Index source = number_of(all.pieces.columns[k]);
-      if (source == no_index) continue;
-      whole.pieces.values.push_back(source);
-      whole.areas.push_back(all.pieces.areas[k]);
-      moments.push_back(all.pieces.moments[k]);
-      add_term(all.pieces.areas[k], sums[source]);
-      means[source] = means[source] + all.pieces.moments[k];
-    }
-    whole.pieces.end_row();
-  }
-  // Nothing but their sums is needed of these any more.
-  all.pieces.columns = {};
-  all.pieces.areas = {};
-  all.pieces.moments = {};
-  std::vector<Point> centers(num_sources);
-  for (std::size_t i = 0; i < num_sources; ++i) {
-    const double covered = sums[i].hi + sums[i].lo;
-    means[i] = covered > 0 ? means[i] / covered : Point{};
-    if (data.areas()[i] > 0) centers[i] = data.moments()[i] / data.areas()[i];
-  }
-  whole.moments = overlay::moments_around(means, whole, std::move(moments));
-  const std::vector<double> covered_areas = take_own_rows(tile, all, whole, begin, end);
-  const overlay::CellGradients gradients =
-      cell_gradients(data, centers, part.cells.facts().mask, execution.threads);
-  Remap& own = tile.part;
-  own.source_areas.assign(data.areas().begin(), data.areas().end());
-  own.source_centers = std::move(centers);
-  own.source = std::move(part.cells);
-  const bool is_of_area = options.norm == RemapNorm::destarea;
-  own.weights = linear_weights(own, gradients, is_of_area ? own.target_areas : covered_areas, {},
-                               execution.threads);
-  own.weights.num_columns = num_sources;
-  tile.weights = own.weights;
-  if (!part.names.empty()) {
-    tile.first_source = part.names.front();
-    tile.weights.num_columns = part.names.back() - part.names.front() + std::size_t{1};
-  }
-  for (Index& column : tile.weights.columns) column = part.names[column] - tile.first_source;
-  tile.sources = std::move(part.names);
 }
 
 // Returns the pieces of the targets from one band, or row, to before another one.
