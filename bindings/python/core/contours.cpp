@@ -60,10 +60,10 @@ void add_contours(nb::module_& module) {
   add_array<std::int64_t, &Bands::bands, polygons, &Groups::rows, &Rows::offsets>(regions,
                                                                                   "ring_offsets");
   add_array<double, &Bands::bands, polygons, &Groups::rows, &Rows::values>(regions, "points");
-  module.def("isolines", &traced<Isolines>, nb::arg("triangulation"),
-             nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
-  module.def("bands", &traced<Bands>, nb::arg("triangulation"),
-             nb::arg("values").noconvert(), nb::arg("levels").noconvert(), nb::arg("threads"));
+  module.def("isolines", &traced<Isolines>, nb::arg("triangulation"), nb::arg("values").noconvert(),
+             nb::arg("levels").noconvert(), nb::arg("threads"));
+  module.def("bands", &traced<Bands>, nb::arg("triangulation"), nb::arg("values").noconvert(),
+             nb::arg("levels").noconvert(), nb::arg("threads"));
   module.def("write_isolines", &write_contours<Isolines, write_isolines>, nb::arg("path").none(),
              nb::arg("isolines"), nb::arg("tolerance_deg"));
   module.def("write_bands", &write_contours<Bands, write_bands>, nb::arg("path").none(),
