@@ -145,9 +145,9 @@ class BoxTree {
   template <class Visit>
   void visit_pairs(std::size_t block, const Visit& visit) const {
     const BoxBlock& boxes = levels_[0][block];
-    visit_blocks(block, boxes.hull(), [&](std::size_t other) {
+    visit_blocks(block, hull(block), [&](std::size_t other) {
       const BoxBlock& others = levels_[0][other];
-      for (unsigned left = boxes.overlapping(others.hull()); left != 0; left &= left - 1) {
+      for (unsigned left = boxes.overlapping(hull(other)); left != 0; left &= left - 1) {
         const auto i = static_cast<unsigned>(std::countr_zero(left));
         // A box is compared with those behind it of its own block.
         const unsigned behind = other == block ? ~0U << (i + 1) : ~0U;
@@ -185,6 +185,12 @@ class BoxTree {
     for (; bits != 0; bits &= bits - 1) {
       visit(static_cast<Index>(block * fan_out + static_cast<unsigned>(std::countr_zero(bits))));
     }
+  }
+
+  // Returns a box around those of a block of level 0.
+  [[nodiscard]] SpaceBox hull(std::size_t block) const {
+    if (levels_.size() == 1) return levels_[0][block].hull();
+    return levels_[1][block / fan_out].box(block % fan_out);
   }
 
   // Calls visit(k) for each block k >= first of level 0 that overlaps a box.

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Each site is an arc to itself for arrange(), so that it is a node and divides the others.
+// Each site that ends no constraint is an arc to itself for arrange(), so that it is a node and divides the others, as
+// ends of arcs do.
 
 #include "constrained/split_constraints.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 
@@ -45,7 +47,13 @@ SplitConstraints split_constraints(const Sites& sites,
                                    const Execution& execution) {
   std::vector<Point> points(sites.points().begin(), sites.points().end());
   std::vector<std::array<Index, 2>> arcs(constraints.begin(), constraints.end());
-  for (Index i = 0; i < points.size(); ++i) arcs.push_back({i, i});
+  std::vector<std::uint8_t> is_end(points.size(), 0);
+  for (const auto& ends : constraints) {
+    for (const Index site : ends) is_end[site] = 1;
+  }
+  for (Index i = 0; i < points.size(); ++i) {
+    if (is_end[i] == 0) arcs.push_back({i, i});
+  }
   const Arrangement arrangement = arrange(points, arcs, execution);
 
   SplitConstraints split;

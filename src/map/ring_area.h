@@ -32,8 +32,9 @@ template <class Rings>
 // True if area_on_left() is less than 0. If all triangles turn the same way, no angle is computed.
 bool is_clockwise(std::span<const Point> ring);
 
-// True only if the size of area_on_left() is at least `area`. The test computes no angle and needs
-// triangles that all turn the same way; false says nothing.
+// True only if the size of area_on_left() is at least `area`. The test computes no angle;
+// false says nothing. A ring of few corners needs triangles that all turn the same way, and one of
+// many has to be in a cap of 18 degrees.
 bool is_surely_larger(std::span<const Point> ring, double area);
 
 }  // namespace rondel::map

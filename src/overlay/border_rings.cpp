@@ -15,11 +15,11 @@
 #include "exact/point_order.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"
+#include "order/sorts.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
 #include "rondel/compressed_rows.h"
 #include "rondel/error.h"
-#include "system/distinct.h"
 #include "system/hash.h"
 #include "system/parallel.h"
 #include "system/row_assembly.h"
@@ -38,35 +38,118 @@ struct NamedSide {
   friend auto operator<=>(const NamedSide&, const NamedSide&) = default;
 };
 
-// All points in the order of their coordinates, and the sides of each key in compressed rows.
+// The sides that begin in each point, by their keys.
+class SidesFromPoints {
+ public:
+  struct Begun {
+    Index key;
+    Index place;  // in the rows of all keys
+  };
+
+  SidesFromPoints() = default;
+  SidesFromPoints(std::vector<Index> offsets, std::vector<Begun> sides)
+      : offsets_(std::move(offsets)), sides_(std::move(sides)) {}
+
+  // Returns the place of the first side of a key that begins in a point, or no_index.
+  [[nodiscard]] Index first(Index point, std::size_t key) const {
+    const auto own = std::span(sides_).subspan(offsets_[point], size_at(point));
+    constexpr std::size_t few = 8;
+    auto side = own.begin();
+    if (own.size() > few) {
+      side = std::ranges::lower_bound(own, key, {}, &Begun::key);
+    } else {
+      while (side != own.end() && side->key < key) ++side;
+    }
+    return side != own.end() && side->key == key ? side->place : no_index;
+  }
+
+ private:
+  [[nodiscard]] std::size_t size_at(Index point) const {
+    return offsets_[point + std::size_t{1}] - offsets_[point];
+  }
+
+  std::vector<Index> offsets_;
+  std::vector<Begun> sides_;
+};
+
+// All points in the order of their coordinates, and the sides of each key in compressed rows,
+// ascending by their beginnings.
 struct Named {
   std::vector<Point> points;
   CompressedRows<NamedSide> links;
+  SidesFromPoints begun;
 };
+
+// Returns the numbers of points in the order of their coordinates, those of equal ones ascending.
+std::vector<Index> in_order(std::span<const Point> points) {
+  const auto is_before = [&](Index a, Index b) {
+    if (exact::is_less(points[a], points[b])) return true;
+    return a < b && !exact::is_less(points[b], points[a]);
+  };
+  order::KeyedIndices sorted;
+  sorted.indices.resize(points.size());
+  std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
+  constexpr std::size_t few = 256;
+  if (points.size() <= few) {
+    std::ranges::sort(sorted.indices, is_before);
+    return std::move(sorted.indices);
+  }
+  // Keys do not decrease with the first coordinate, and few points have the same one.
+  constexpr int key_bits = 33;
+  sorted.keys.reserve(points.size());
+  for (const Point& p : points) {
+    sorted.keys.push_back(static_cast<std::uint64_t>((std::clamp(p.x, -1.5, 1.5) + 1.5) * 0x1p31));
+  }
+  order::radix_sort(sorted, key_bits);
+  for (std::size_t first = 0; first < points.size();) {
+    std::size_t end = first + 1;
+    while (end < points.size() && sorted.keys[end] == sorted.keys[first]) ++end;
+    if (end - first > 1) {
+      const auto begin = sorted.indices.begin();
+      std::sort(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end),
+                is_before);
+    }
+    first = end;
+  }
+  return std::move(sorted.indices);
+}
 
 // Replaces the ends of sides by the places of equal points in the order of coordinates.
 Named named(std::span<const Point> points, std::span<const KeyedSide> sides, std::size_t num_keys) {
-  const system::Distinct<Point> places = system::distinct(points);
-  if (places.values.size() >= no_index) throw InvalidInput("there are too many corners");
-  std::vector<Index> sorted(places.values.size());
-  std::iota(sorted.begin(), sorted.end(), Index{0});
-  std::ranges::sort(
-      sorted, [&](Index a, Index b) { return exact::is_less(places.values[a], places.values[b]); });
-  Named result;
-  result.points.reserve(sorted.size());
-  std::vector<Index> names(sorted.size());
-  for (const Index place : sorted) {
-    names[place] = static_cast<Index>(result.points.size());
-    result.points.push_back(places.values[place]);
+  if (points.size() >= no_index || sides.size() >= no_index) {
+    throw InvalidInput("there are too many corners");
   }
+  Named result;
+  std::vector<Index> names(points.size());
+  for (const Index p : in_order(points)) {
+    if (result.points.empty() || !(result.points.back() == points[p])) {
+      result.points.push_back(points[p]);
+    }
+    names[p] = static_cast<Index>(result.points.size() - 1);
+  }
+  // Sides are dealt by their keys, by their beginnings, and by their keys again.
+  system::RowPlaces<Index> of_keys(num_keys);
+  for (const KeyedSide& side : sides) of_keys.count(side.key);
+  std::vector<Index> by_key(of_keys.sum());
+  for (Index s = 0; s < sides.size(); ++s) by_key[of_keys.place(sides[s].key)] = s;
+  system::RowPlaces<Index> of_points(result.points.size());
+  for (const KeyedSide& side : sides) of_points.count(names[side.from]);
+  std::vector<Index> by_point(of_points.sum());
+  for (const Index s : by_key) by_point[of_points.place(names[sides[s].from])] = s;
+
   system::RowPlaces links(num_keys);
   for (const KeyedSide& side : sides) links.count(side.key);
   result.links.values.resize(links.sum());
-  for (const auto& [key, from, to] : sides) {
-    result.links.values[links.place(key)] = {names[places.numbers[from]],
-                                             names[places.numbers[to]]};
+  std::vector<SidesFromPoints::Begun> begun;
+  begun.reserve(sides.size());
+  for (const Index s : by_point) {
+    const auto& [key, from, to] = sides[s];
+    const std::uint64_t place = links.place(key);
+    result.links.values[place] = {names[from], names[to]};
+    begun.push_back({key, static_cast<Index>(place)});
   }
   result.links.offsets = std::move(links).offsets();
+  result.begun = {std::move(of_points).offsets(), std::move(begun)};
   return result;
 }
 
@@ -113,19 +196,27 @@ double clockwise_angle(const Point& p, const Point& back, const Point& q) {
 // Traces the rings of one region after another.
 class RingMaker {
  public:
-  explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
+  explicit RingMaker(const Named& all) : points_(all.points), all_(all) {}
 
   // Returns the rings of the region with this key, in order. Precondition: as many sides end in
   // each point as begin there.
-  std::vector<std::vector<Index>> operator()(std::span<const NamedSide> links, std::size_t key) {
+  std::vector<std::vector<Index>> operator()(std::size_t key) {
     key_ = key;
-    links_.assign(links.begin(), links.end());
-    std::ranges::sort(links_);
-    if (!is_plain()) cancel(links_);
-    is_used_.assign(links_.size(), false);
+    links_.assign(all_.links[key].begin(), all_.links[key].end());
     rings_.clear();
+    const bool is_plain = find_next();
+    if (!is_plain) {
+      std::ranges::sort(links_);
+      cancel(links_);
+    }
+    is_used_.assign(links_.size(), 0);
     for (std::size_t k = 0; k < links_.size(); ++k) {
-      if (!is_used_[k]) follow(k);
+      if (is_used_[k] != 0) continue;
+      if (is_plain) {
+        follow_plainly(k);
+      } else {
+        follow(k);
+      }
     }
     std::erase_if(rings_, [&](const std::vector<Index>& ring) { return is_rounding(ring); });
     for (std::vector<Index>& ring : rings_) {
@@ -136,16 +227,40 @@ class RingMaker {
   }
 
  private:
-  // True if no two of the sorted sides begin in one point and none is the reverse of another, so
-  // that no side cancels.
-  [[nodiscard]] bool is_plain() const {
+  // Finds for each side the one that begins where it ends. Returns false if two sides begin in one
+  // point or one is the reverse of another; otherwise no side cancels.
+  bool find_next() {
+    const auto first = static_cast<Index>(all_.links.offsets[key_]);
+    next_.clear();
+    next_.reserve(links_.size());
     for (std::size_t k = 0; k < links_.size(); ++k) {
       const auto [from, to] = links_[k];
       if (from == to || (k + 1 < links_.size() && links_[k + 1].from == from)) return false;
-      const std::size_t back = first_link_from(to);
-      if (back < links_.size() && links_[back] == NamedSide{to, from}) return false;
+      Index next = all_.begun.first(to, key_);
+      if (next != no_index) {
+        next -= first;
+        if (links_[next].to == from) return false;
+      }
+      next_.push_back(next);
     }
     return true;
+  }
+
+  // Does the same as follow() where find_next() has found that at most one side begins in a point.
+  void follow_plainly(std::size_t first) {
+    path_.clear();
+    for (std::size_t k = first;; k = next_[k]) {
+      is_used_[k] = 1;
+      path_.push_back(links_[k].from);
+      if (links_[k].to == path_.front()) {
+        cut(path_.begin());
+        return;
+      }
+      if (next_[k] == no_index || is_used_[next_[k]] != 0) {
+        refuse_if_wide(path_);
+        return;
+      }
+    }
   }
 
   // Follows sides from one on until the path closes. If the path meets one of its points again, the
@@ -154,7 +269,7 @@ class RingMaker {
     path_.clear();
     std::size_t k = first;
     for (;;) {
-      is_used_[k] = true;
+      is_used_[k] = 1;
       path_.push_back(links_[k].from);
       const Index at = links_[k].to;
       if (at == path_.front()) {
@@ -196,7 +311,7 @@ class RingMaker {
     double least = 0;
     for (std::size_t k = first_link_from(link.to); k < links_.size() && links_[k].from == link.to;
          ++k) {
-      if (is_used_[k]) continue;
+      if (is_used_[k] != 0) continue;
       const double angle =
           clockwise_angle(points_[link.to], points_[link.from], points_[links_[k].to]);
       if (best == links_.size() || angle < least) {
@@ -214,9 +329,11 @@ class RingMaker {
   }
 
   const std::vector<Point>& points_;
+  const Named& all_;
   std::size_t key_ = 0;
   std::vector<NamedSide> links_;
-  std::vector<bool> is_used_;
+  std::vector<Index> next_;  // of plain sides: the one that begins where each ends, or no_index
+  std::vector<std::uint8_t> is_used_;
   std::vector<Index> path_;
   std::vector<Point> border_;
   std::vector<std::vector<Index>> rings_;
@@ -251,13 +368,11 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
 
 CellRings rings_around(std::span<const Point> points, std::span<const KeyedSide> sides,
                        std::size_t num_keys, unsigned threads) {
-  Named all = named(points, sides, num_keys);
+  const Named all = named(points, sides, num_keys);
   std::vector<std::vector<std::vector<Index>>> rings(num_keys);
   system::parallel_for(threads, num_keys, keys_per_block, [&](std::size_t begin, std::size_t end) {
-    RingMaker make(all.points);
-    for (std::size_t key = begin; key < end; ++key) {
-      rings[key] = make(all.links[key], key);
-    }
+    RingMaker make(all);
+    for (std::size_t key = begin; key < end; ++key) rings[key] = make(key);
   });
   CellRings result;
   std::vector<Index> new_names(all.points.size(), no_index);

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "rondel/predicates.h"
 #include "rondel/types.h"
@@ -20,8 +19,13 @@ constexpr double on_side_deg = 0x1p-42;
 
 // Orders positions by longitude, then by latitude.
 inline bool is_west_of(const LonLat& p, const LonLat& q) {
-  return std::tie(p.lon_deg, p.lat_deg) < std::tie(q.lon_deg, q.lat_deg);
+  return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
 }
+
+// The same order for algorithms, which compilers put into their loops.
+struct IsWestOf {
+  bool operator()(const LonLat& p, const LonLat& q) const { return is_west_of(p, q); }
+};
 
 // Returns positive if c is to the left of the line from a to b, negative if it is to the right;
 // exact.

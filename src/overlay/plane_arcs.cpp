@@ -171,7 +171,7 @@ void find_cuts(const LinePiece& piece, const PlaneCorners& corners, std::vector<
   cut_within(simple_bulge_deg(piece.west, piece.east) + on_side_deg);
   if (cuts.empty()) return;
   cut_within(bulge_deg(piece.west, piece.east) + on_side_deg);
-  std::ranges::sort(cuts, is_west_of);
+  std::ranges::sort(cuts, IsWestOf{});
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
 }
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "overlay/plane.h"
 #include "rondel/types.h"
 #include "system/row_assembly.h"
 
@@ -40,20 +40,20 @@ class PlaneCorners {
     }
     // Few corners are in one part of a band, so that nearly all of the sorting is counting.
     constexpr std::size_t per_part = 4;
-    const std::size_t parts =
-        std::clamp<std::size_t>(corners.size() / (num_bands * per_part), 1, 3600);
-    const auto part_of = [parts](const LonLat& p) {
-      const double turn = (p.lon_deg + 180) / 360;  // from 0 to below 1, but for rounding
-      const auto part = static_cast<std::size_t>(turn * static_cast<double>(parts));
-      return band_of(p.lat_deg) * parts + std::min(part, parts - 1);
-    };
-    system::RowPlaces places(num_bands * parts);
-    for (const OwnedCorner& corner : corners) places.count(part_of(corner.position));
-    corners_.resize(places.sum());
+    parts_ = std::clamp<std::size_t>(corners.size() / (num_bands * per_part), 1, 3600);
+    std::vector<Index> of_corners;
+    of_corners.reserve(corners.size());
+    system::RowPlaces<Index> places(num_bands * parts_);
     for (const OwnedCorner& corner : corners) {
-      corners_[places.place(part_of(corner.position))] = corner;
+      const LonLat& p = corner.position;
+      of_corners.push_back(static_cast<Index>(band_of(p.lat_deg) * parts_ + part_of(p.lon_deg)));
+      places.count(of_corners.back());
     }
-    unite_equal(std::move(places).offsets(), parts);
+    corners_.resize(places.sum());
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      corners_[places.place(of_corners[k])] = corners[k];
+    }
+    unite_equal(std::move(places).offsets());
   }
 
   // Calls visit(position, owner) for the corners near a line that leads east or along a meridian:
@@ -66,7 +66,7 @@ class PlaneCorners {
     const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
     const std::size_t last = band_of(north + margin_deg);
     for (std::size_t band = band_of(south - margin_deg); band <= last; ++band) {
-      if (begins_[band] == begins_[band + 1]) continue;
+      if (begins_[band * parts_] == begins_[(band + 1) * parts_]) continue;
       double low = west.lon_deg;
       double high = east.lon_deg;
       if (north > south) {
@@ -89,16 +89,15 @@ class PlaneCorners {
   static constexpr std::size_t num_bands = 180;  // one for each degree of latitude
 
   // Sorts the corners of each part, whose offsets are given, and unites those in one position.
-  void unite_equal(const std::vector<std::uint64_t>& offsets, std::size_t parts) {
-    const auto begin = corners_.begin();
+  void unite_equal(std::vector<Index> offsets) {
+    begins_ = std::move(offsets);
     std::size_t kept = 0;
-    for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
-      if (part % parts == 0) begins_[part / parts] = kept;
-      std::sort(begin + static_cast<std::ptrdiff_t>(offsets[part]),
-                begin + static_cast<std::ptrdiff_t>(offsets[part + 1]),
-                [](const OwnedCorner& p, const OwnedCorner& q) { return key(p) < key(q); });
+    for (std::size_t part = 0, from = 0; part + 1 < begins_.size(); ++part) {
+      const std::size_t end = begins_[part + 1];
+      sort_part(from, end);
       const std::size_t first = kept;
-      for (std::uint64_t k = offsets[part]; k < offsets[part + 1]; ++k) {
+      begins_[part] = static_cast<Index>(kept);
+      for (std::size_t k = std::exchange(from, end); k < end; ++k) {
         const OwnedCorner corner = corners_[k];
         if (kept > first && corners_[kept - 1].position == corner.position) {
           if (corners_[kept - 1].owner != corner.owner) corners_[kept - 1].owner = no_index;
@@ -107,12 +106,37 @@ class PlaneCorners {
         }
       }
     }
-    begins_[num_bands] = kept;
+    begins_.back() = static_cast<Index>(kept);
     corners_.resize(kept);
   }
 
-  static std::pair<double, double> key(const OwnedCorner& corner) {
-    return {corner.position.lon_deg, corner.position.lat_deg};
+  // Sorts some corners by their positions.
+  void sort_part(std::size_t from, std::size_t end) {
+    constexpr std::size_t few = 24;
+    const auto is_before = [](const OwnedCorner& p, const OwnedCorner& q) {
+      return is_west_of(p.position, q.position);
+    };
+    if (end - from > few) {
+      const auto begin = corners_.begin();
+      std::sort(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(end),
+                is_before);
+      return;
+    }
+    for (std::size_t k = from + 1; k < end; ++k) {
+      const OwnedCorner corner = corners_[k];
+      std::size_t place = k;
+      for (; place > from && is_before(corner, corners_[place - 1]); --place) {
+        corners_[place] = corners_[place - 1];
+      }
+      corners_[place] = corner;
+    }
+  }
+
+  // Returns the part of a band that has a longitude from -180 on. It does not decrease with longitudes.
+  [[nodiscard]] std::size_t part_of(double lon_deg) const {
+    const double turn = (lon_deg + 180) / 360;  // from 0 to below 1, but for rounding
+    const double part = std::min(turn * static_cast<double>(parts_), 3600.0);
+    return std::min(static_cast<std::size_t>(part), parts_ - 1);
   }
   static std::size_t band_of(double lat_deg) {
     return static_cast<std::size_t>(std::clamp(std::floor(lat_deg + 90), 0.0, 179.0));
@@ -120,21 +144,23 @@ class PlaneCorners {
 
   template <class Visit>
   void visit_band(std::size_t number, double low, double high, const Visit& visit) const {
-    const std::span band =
-        std::span(corners_).subspan(begins_[number], begins_[number + 1] - begins_[number]);
+    const std::span<const Index> parts = std::span(begins_).subspan(number * parts_, parts_ + 1);
+    const OwnedCorner* const end = corners_.data() + parts.back();
     // Stored longitudes are at least -180 and below 180.
     const double first_turn = 360 * std::floor((low + 180) / 360);
     for (double turn = first_turn; turn - 180 <= high; turn += 360) {
-      auto corner = std::ranges::lower_bound(
-          band, low - turn, {}, [](const OwnedCorner& c) { return c.position.lon_deg; });
-      for (; corner != band.end() && corner->position.lon_deg + turn <= high; ++corner) {
+      const double first = low - turn;
+      const OwnedCorner* corner = corners_.data() + parts[part_of(std::max(first, -180.0))];
+      while (corner != end && corner->position.lon_deg < first) ++corner;
+      for (; corner != end && corner->position.lon_deg + turn <= high; ++corner) {
         visit(LonLat{corner->position.lon_deg + turn, corner->position.lat_deg}, corner->owner);
       }
     }
   }
 
   std::vector<OwnedCorner> corners_;  // band by band
-  std::array<std::size_t, num_bands + 1> begins_{};
+  std::size_t parts_ = 1;             // of each band
+  std::vector<Index> begins_;         // of each part, band by band, and the end of the last one
 };
 
 }  // namespace rondel::overlay

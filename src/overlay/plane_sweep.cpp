@@ -86,12 +86,15 @@ class PlaneSweep {
       LonLat position;
       Index place;
     };
+    std::size_t size = 0;
+    for (const map::LonLatRing& ring : rings_) size += ring.positions.size();
     std::vector<CornerOnMap> sorted;
+    sorted.reserve(size);
     for (const map::LonLatRing& ring : rings_) {
       for (const LonLat& p : ring.positions)
         sorted.push_back({p, static_cast<Index>(sorted.size())});
     }
-    std::ranges::sort(sorted, is_west_of, &CornerOnMap::position);
+    std::ranges::sort(sorted, IsWestOf{}, &CornerOnMap::position);
     std::vector<Index> numbers(sorted.size());
     for (const CornerOnMap& corner : sorted) {
       if (corners_.empty() || !(corners_.back() == corner.position)) {

@@ -80,6 +80,7 @@ class SideCorners {
                                           bool is_shorter) {
     std::vector<LonLat> result;
     const std::size_t size = positions.size();
+    result.reserve(size);
     for (std::size_t k = 0; k < size; ++k) {
       const LonLat& from = positions[k];
       result.push_back(from);
@@ -190,12 +191,12 @@ bool has_met(const std::vector<map::LonLatRing>& before,
     own.insert(own.end(), before[r].positions.begin(), before[r].positions.end());
     all.insert(all.end(), after[r].begin(), after[r].end());
   }
-  std::ranges::sort(own, is_west_of);
-  std::ranges::sort(all, is_west_of);
+  std::ranges::sort(own, IsWestOf{});
+  std::ranges::sort(all, IsWestOf{});
   for (auto first = all.begin(); first != all.end();) {
     const auto past =
         std::ranges::find_if(first, all.end(), [&](const LonLat& p) { return !(p == *first); });
-    const auto [own_first, own_past] = std::equal_range(own.begin(), own.end(), *first, is_west_of);
+    const auto [own_first, own_past] = std::equal_range(own.begin(), own.end(), *first, IsWestOf{});
     if (past - first > 1 && past - first > own_past - own_first) return true;
     first = past;
   }
@@ -215,6 +216,17 @@ bool is_alone(const map::PolygonFeatures& features) {
   });
 }
 
+std::size_t num_positions(const map::PolygonFeatures& features) {
+  std::size_t count = 0;
+  for (const auto& rings : features.rings) {
+    for (const map::LonLatRing& ring : rings) count += ring.positions.size();
+  }
+  for (const auto& lines : features.lines) {
+    for (const std::vector<LonLat>& line : lines) count += line.size();
+  }
+  return count;
+}
+
 // Inserts corners of others into the sides on which they lie. Returns the features in which sides
 // meet there.
 std::vector<FeatureBefore> insert_corners(map::PolygonFeatures& features, unsigned threads) {
@@ -223,6 +235,7 @@ std::vector<FeatureBefore> insert_corners(map::PolygonFeatures& features, unsign
   // Corners of lines belong to none of the features, as no exact sign has judged them.
   const auto of_lines = static_cast<Index>(size);
   std::vector<PlaneCorners::OwnedCorner> all;
+  all.reserve(num_positions(features));
   for (std::size_t f = 0; f < size; ++f) {
     for (const map::LonLatRing& ring : features.rings[f]) {
       for (const LonLat& p : ring.positions) all.push_back({p, static_cast<Index>(f)});

@@ -8,7 +8,9 @@
 // index points or positions, as given
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,7 +37,9 @@ struct Distinct {
 template <class Value>
 class KnownValues {
  public:
-  explicit KnownValues(std::vector<Value>& values) : values_(values) {}
+  // A table with a slot for each of the values that are expected grows once at most.
+  KnownValues(std::vector<Value>& values, std::size_t num_expected)
+      : values_(values), slots_(std::bit_ceil(std::max(num_expected, least_slots))) {}
 
   void prefetch(std::uint64_t hash) const { system::prefetch(&slots_[hash & mask()]); }
   // Returns the number of a value, and adds the value if it is new.
@@ -70,8 +74,10 @@ class KnownValues {
     }
   }
 
+  static constexpr std::size_t least_slots = 64;
+
   std::vector<Value>& values_;
-  std::vector<ValueSlot> slots_ = std::vector<ValueSlot>(1024);
+  std::vector<ValueSlot> slots_;
 };
 
 // Returns the different ones of some points or positions.
@@ -79,7 +85,7 @@ template <class Value>
 Distinct<Value> distinct(std::span<const Value> values) {
   Distinct<Value> result;
   result.numbers.resize(values.size());
-  KnownValues<Value> known(result.values);
+  KnownValues<Value> known(result.values, values.size());
   std::array<std::uint64_t, prefetch_distance> hashes{};  // the hashes of the next values
   const auto prepare = [&](std::size_t k) {
     if (k >= values.size()) return;
