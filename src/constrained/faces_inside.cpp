@@ -62,6 +62,7 @@ class PolygonFlood {
   void for_edges(std::span<const Index> sides, std::size_t polygon, const Work& work) const;
   [[nodiscard]] bool is_covered_from(std::span<const Index> sides, std::size_t polygon);
   [[nodiscard]] bool spread(bool& is_closed);
+  void sort_reached();
 
   [[nodiscard]] bool is_ghost(Index face) const {
     return has_ghosts_ && result_.triangulation.is_ghost(face);
@@ -242,6 +243,26 @@ bool PolygonFlood::spread(bool& is_closed) {
   return is_covered;
 }
 
+// Sorts the faces that were reached and forgets them. Faces of a polygon are close to each other in
+// their order, so that most of those between the first one and the last one were reached.
+void PolygonFlood::sort_reached() {
+  constexpr std::size_t share = 8;
+  const auto [least, most] = std::ranges::minmax_element(reached_);
+  if (reached_.empty()) return;
+  const Index first = *least;
+  const Index last = *most;
+  if ((last - first) / share >= reached_.size()) {
+    for (const Index face : reached_) is_reached_[face] = 0;
+    std::ranges::sort(reached_);
+    return;
+  }
+  reached_.clear();
+  for (Index face = first; face <= last; ++face) {
+    if (is_reached_[face] != 0) reached_.push_back(face);
+    is_reached_[face] = 0;
+  }
+}
+
 std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std::size_t polygon) {
   reached_.clear();
   bool is_closed = true;
@@ -250,7 +271,6 @@ std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std:
   bool is_covered = is_covered_from(sides, polygon);
   is_covered = spread(is_closed) && is_covered;
   for_edges(sides, polygon, [&](const DirectedEdge& e) { net_[e.edge] = 0; });
-  for (const Index face : reached_) is_reached_[face] = 0;
   if (!is_closed) {
     throw InvalidInput(
         "polygon " + std::to_string(polygon) + " has sides that do not divide in and out", polygon);
@@ -260,7 +280,7 @@ std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std:
                            " leaves the hull of the sites, outside of which there are no faces",
                        polygon);
   }
-  std::ranges::sort(reached_);
+  sort_reached();
   return reached_;
 }
 

@@ -12,9 +12,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "arrangement/ring_arrays.h"
 #include "rondel/constrained.h"
 #include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
@@ -158,7 +160,12 @@ FilledPolygons faces_of(const SidesOfPolygons& given, const Sites& sites,
     made = build(ConstraintCrossings::split);
   }
   FilledPolygons filled;
-  const CompressedRows<Index> inside = faces_inside(made, given.constraints, given.polygons);
+  CompressedRows<Index> inside = faces_inside(made, given.constraints, given.polygons);
+  filled.triangulation = made.triangulation;
+  if (given.whole.empty()) {
+    filled.faces = std::move(inside);
+    return filled;
+  }
   auto whole = given.whole.begin();
   for (Index p = 0; p < inside.size(); ++p) {
     if (whole == given.whole.end() || *whole != p) {
@@ -171,7 +178,6 @@ FilledPolygons faces_of(const SidesOfPolygons& given, const Sites& sites,
     }
     filled.faces.end_row();
   }
-  filled.triangulation = made.triangulation;
   return filled;
 }
 
@@ -245,17 +251,19 @@ PolygonTriangles compacted(const FilledPolygons& given) {
   PolygonTriangles made;
   const auto sites = given.triangulation.sites().points();
   std::vector<Index> numbers(sites.size(), no_index);
+  const auto faces = given.triangulation.faces();
   for (const Index face : given.faces.values) {
-    for (const Index corner : given.triangulation.faces()[face]) numbers[corner] = 0;
+    for (const Index corner : faces[face]) numbers[corner] = 0;
   }
   for (Index i = 0; i < sites.size(); ++i) {
     if (numbers[i] == no_index) continue;
     numbers[i] = static_cast<Index>(made.points.size());
     made.points.push_back(sites[i]);
   }
+  made.triangles.values.reserve(given.faces.values.size());
   for (std::size_t p = 0; p < given.faces.size(); ++p) {
     for (const Index face : given.faces[p]) {
-      const Triple& corners = given.triangulation.faces()[face];
+      const Triple& corners = faces[face];
       made.triangles.values.push_back(
           {numbers[corners[0]], numbers[corners[1]], numbers[corners[2]]});
     }
@@ -274,6 +282,67 @@ SidesOfPolygons sides_of(const CellRings& polygons) {
           polygons.whole};
 }
 
+// Returns the same where no two points of the polygons are in one place, without a search for equal
+// points; or nothing if the arrays do not fit or a point is not finite.
+std::optional<SidesOfPolygons> sides_by_numbers(const CellRings& polygons) {
+  try {
+    arrangement::validate_rings(polygons);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+  SidesOfPolygons made;
+  made.whole = polygons.whole;
+  made.sites.reserve(polygons.points.size());
+  made.constraints.reserve(polygons.corners.size());
+  made.polygons.values.reserve(polygons.corners.size());
+  std::vector<Index> numbers(polygons.points.size(), no_index);
+  const auto number = [&](Index corner) {
+    if (numbers[corner] == no_index) {
+      numbers[corner] = static_cast<Index>(made.sites.size());
+      made.sites.push_back(polygons.points[corner]);
+    }
+    return numbers[corner];
+  };
+  for (std::size_t cell = 0; cell < polygons.num_cells(); ++cell) {
+    for (std::uint64_t r = polygons.cells[cell]; r < polygons.cells[cell + 1]; ++r) {
+      const std::span<const Index> ring = polygons.corners_of(r);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Index from = number(ring[k]);
+        const Index to = number(ring[k + 1 < ring.size() ? k + 1 : 0]);
+        if (from == to) continue;
+        made.polygons.values.push_back(static_cast<Index>(made.constraints.size()));
+        made.constraints.push_back({from, to});
+      }
+    }
+    made.polygons.end_row();
+  }
+  const bool are_finite = std::ranges::all_of(made.sites, [](const Point& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+  if (!are_finite || made.sites.size() > max_sites) return std::nullopt;
+  return made;
+}
+
+// Triangulates polygons whose points are in different places, as they are where polygons share
+// them. Returns nothing if two are in one place or anything is wrong.
+std::optional<PolygonTriangles> triangles_by_numbers(const CellRings& polygons,
+                                                     const Execution& execution) {
+  const bool may_be_apart = polygons.rings.size() > 2 && polygons.points.size() >= polygons.corners.size();
+  if (may_be_apart) return std::nullopt;
+  const std::optional<SidesOfPolygons> sides = sides_by_numbers(polygons);
+  if (!sides) return std::nullopt;
+  try {
+    const FilledPolygons made = filled(*sides, {}, execution);
+    const auto duplicates = made.triangulation.duplicates();
+    // Added points may be in the places of corners.
+    const bool are_different = duplicates.empty() || duplicates.front().site >= sides->sites.size();
+    if (are_different) return compacted(made);
+  } catch (const InvalidInput&) {
+    // Who looks for equal points says what is wrong.
+  }
+  return std::nullopt;
+}
+
 void require_spacing(double spacing_deg) {
   if (spacing_deg >= 0 && spacing_deg <= std::numeric_limits<double>::max()) return;
   throw InvalidInput("the spacing " + system::shortest_text(spacing_deg) +
@@ -287,6 +356,9 @@ PolygonTriangles triangles_of_polygons(const CellRings& polygons, double spacing
                                        const Execution& execution) {
   const system::Call call(execution);
   constrained::require_spacing(spacing_deg);
+  if (spacing_deg == 0) {
+    if (auto made = constrained::triangles_by_numbers(polygons, execution)) return std::move(*made);
+  }
   constrained::SidesOfPolygons sides = constrained::sides_of(polygons);
   std::vector<Point> added;
   if (spacing_deg > 0) {

@@ -328,26 +328,26 @@ class FeatureCells {
     }
     return faulty;
   }
-  // Makes the cells of all features: kept(f) where there is no fault, and repaired(f) elsewhere.
+  // Appends the cells of all features: keep(f) does it where there is no fault, and repaired(f) is
+  // appended elsewhere. Returns all cells.
   template <class Keep, class Repair>
-  void repair(CellRings& cells, const Keep& kept, const Repair& repaired) {
-    CellRings result;
+  CellRings repair(MergedCells& merged, const Keep& keep, const Repair& repaired) {
     std::vector<std::size_t> features;
     for (std::size_t f = 0; f < checked_.size(); ++f) {
       if (!is_faulty(f)) {
-        append(kept(f), result);
+        keep(f);
         continue;
       }
       features.push_back(f);
       try {
-        append(repaired(f), result);
+        merged.append(repaired(f));
       } catch (const InvalidInput& error) {
         refuse(f, checked_[f].fault + ", which cannot be repaired: " + error.what());
       }
     }
-    merge_equal_points(result);
-    cells = std::move(result);
+    CellRings cells = merged.made();
     tell_of_repaired(features, cells);
+    return cells;
   }
   void tell_of_repaired(const std::vector<std::size_t>& features, const CellRings& cells) {
     for_each_file([&](std::size_t file, std::size_t first_feature, std::size_t end) {
@@ -370,11 +370,15 @@ class FeatureCells {
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     lines_ = geodesic_lines(features_);
     if (checked_.empty()) return geodesic_cells(features_, quiet());
-    CellRings cells;
-    repair(
-        cells, [&](std::size_t f) { return one_cell(*checked_[f].cell, 0); },
+    std::size_t num_points = 0;
+    for (const CheckedFeature& feature : checked_) {
+      if (feature.cell) num_points += feature.cell->points.size();
+    }
+    const CellRings none;
+    MergedCells merged(none, num_points);
+    return repair(
+        merged, [&](std::size_t f) { merged.append_by_corners(*checked_[f].cell); },
         [&](std::size_t f) { return repaired_geodesic_feature(faulty[f], quiet()); });
-    return cells;
   }
 
   // Throws FeatureFault for a feature that is not valid as it was before it shared corners: where
@@ -430,14 +434,14 @@ class FeatureCells {
       }
     }
     if (checked_.empty()) return cells;
-    const auto kept = [&](std::size_t f) { return one_cell(cells, static_cast<Index>(f)); };
-    repair(cells, kept, [&](std::size_t f) {
+    MergedCells merged(cells, 0);
+    const auto keep = [&](std::size_t f) { merged.append_of_set(static_cast<Index>(f)); };
+    return repair(merged, keep, [&](std::size_t f) {
       std::vector<std::span<const LonLat>> rows;
       const std::size_t end = f + 1 < faulty.size() ? first_sides[f + 1] : first_of_lines;
       for (std::size_t s = first_sides[f]; s < end; ++s) rows.push_back(divided[s]);
       return repaired_plane_feature(faulty[f], rows, quiet());
     });
-    return cells;
   }
 
   // Returns the cells of features that own the first sides, which are divided.
@@ -578,9 +582,9 @@ std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& feature
   const Execution one_thread{.threads = 1, .stop = execution.stop};
   const auto check = [&](std::size_t f) {
     map::PolygonFeatures one;
-    one.rings = {features.rings[f]};
-    one.lines = {f < features.lines.size() ? features.lines[f]
-                                           : std::vector<std::vector<LonLat>>{}};
+    one.rings.push_back(features.rings[f]);
+    one.lines.resize(1);
+    if (f < features.lines.size()) one.lines.front() = features.lines[f];
     for (const map::LonLatRing& ring : one.rings.front()) {
       checked[f].fault = ring.fault;
       if (!checked[f].fault.empty()) return;

@@ -39,8 +39,7 @@ class PlaneCorners {
       if (corner.position.lon_deg == 180) corner.position.lon_deg = -180;
     }
     // Few corners are in one part of a band, so that nearly all of the sorting is counting.
-    constexpr std::size_t per_part = 4;
-    parts_ = std::clamp<std::size_t>(corners.size() / (num_bands * per_part), 1, 3600);
+    parts_ = std::clamp<std::size_t>(corners.size() / num_bands, 1, 3600);
     std::vector<Index> of_corners;
     of_corners.reserve(corners.size());
     system::RowPlaces<Index> places(num_bands * parts_);
@@ -64,6 +63,8 @@ class PlaneCorners {
                   const Visit& visit) const {
     const double margin_deg = margins.lat_deg;
     const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
+    const double lowest = south - margin_deg - 1e-9;
+    const double highest = north + margin_deg + 1e-9;
     const std::size_t last = band_of(north + margin_deg);
     for (std::size_t band = band_of(south - margin_deg); band <= last; ++band) {
       if (begins_[band * parts_] == begins_[(band + 1) * parts_]) continue;
@@ -81,7 +82,10 @@ class PlaneCorners {
         low = std::max(low, std::min(at_floor, at_ceiling) - 1e-9);
         high = std::min(high, std::max(at_floor, at_ceiling) + 1e-9);
       }
-      visit_band(band, low - margins.lon_deg, high + margins.lon_deg, visit);
+      visit_band(band, low - margins.lon_deg, high + margins.lon_deg,
+                 [&](const LonLat& p, Index owner) {
+                   if (p.lat_deg >= lowest && p.lat_deg <= highest) visit(p, owner);
+                 });
     }
   }
 

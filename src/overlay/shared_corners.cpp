@@ -108,14 +108,14 @@ class SideCorners {
     const double squared = along * along + up * up;
     const double most = on_side_deg * std::sqrt(squared);
     corners_.visit_near(west, east, {on_side_deg, on_side_deg}, [&](const LonLat& p, Index owner) {
+      // A feature's own corners were judged by exact signs already, except for those shifted by 360
+      // degrees, which are rounded.
+      if (owner == feature_ && is_own(p)) return;
       const double x = p.lon_deg - west.lon_deg;
       const double y = p.lat_deg - west.lat_deg;
       const double part = (x * along + y * up) / squared;
       if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
       if (is_one_place(p, from) || is_one_place(p, to)) return;
-      // A feature's own corners were judged by exact signs already, except for those shifted by 360
-      // degrees, which are rounded.
-      if (owner == feature_ && is_own(p)) return;
       found_.emplace_back(goes_east ? part : 1 - part, p);
     });
     std::ranges::sort(found_, [](const auto& p, const auto& q) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "exact/point_order.h"
 #include "system/distinct.h"
 
 namespace rondel::overlay {
@@ -78,6 +79,64 @@ void merge_equal_points(CellRings& cells) {
   system::Distinct<Point> places = system::distinct<Point>(cells.points);
   for (Index& corner : cells.corners) corner = places.numbers[corner];
   cells.points = std::move(places.values);
+}
+
+MergedCells::MergedCells(const CellRings& set, std::size_t num_others)
+    : set_(set), of_set_(set.points.size(), no_index), known_(others_, num_others) {
+  made_.corners.reserve(set.corners.size());
+  made_.points.reserve(set.points.size());
+}
+
+void MergedCells::append_of_set(Index cell) {
+  if (set_.is_whole(cell)) made_.whole.push_back(static_cast<Index>(made_.num_cells()));
+  for (std::uint64_t r = set_.cells[cell]; r < set_.cells[cell + std::size_t{1}]; ++r) {
+    for (const Index corner : set_.corners_of(r)) {
+      if (of_set_[corner] == no_index) {
+        of_set_[corner] = static_cast<Index>(made_.points.size());
+        made_.points.push_back(set_.points[corner]);
+      }
+      made_.corners.push_back(of_set_[corner]);
+    }
+    made_.end_ring();
+  }
+  made_.end_cell();
+}
+
+// Returns the number of a point, and appends the point if it is new.
+Index MergedCells::number(const Point& point) {
+  const auto near = std::ranges::lower_bound(set_.points, point, exact::is_less);
+  const bool is_of_set = near != set_.points.end() && *near == point;
+  const auto added = static_cast<Index>(made_.points.size());
+  if (is_of_set) {
+    Index& known = of_set_[static_cast<std::size_t>(near - set_.points.begin())];
+    if (known != no_index) return known;
+    known = added;
+  } else {
+    const Index other = known_.number(point, system::hash_of(point));
+    if (other < of_others_.size()) return of_others_[other];
+    of_others_.push_back(added);
+  }
+  made_.points.push_back(point);
+  return added;
+}
+
+void MergedCells::append(const CellRings& one) {
+  std::vector<Index> numbers;
+  numbers.reserve(one.points.size());
+  for (const Point& point : one.points) numbers.push_back(number(point));
+  const std::size_t begin = made_.corners.size();
+  for (const Index corner : one.corners) made_.corners.push_back(numbers[corner]);
+  for (std::size_t r = 1; r < one.rings.size(); ++r) made_.rings.push_back(begin + one.rings[r]);
+  if (!one.whole.empty()) made_.whole.push_back(static_cast<Index>(made_.num_cells()));
+  made_.end_cell();
+}
+
+void MergedCells::append_by_corners(const CellRings& one) {
+  const std::size_t begin = made_.corners.size();
+  for (const Index corner : one.corners) made_.corners.push_back(number(one.points[corner]));
+  for (std::size_t r = 1; r < one.rings.size(); ++r) made_.rings.push_back(begin + one.rings[r]);
+  if (!one.whole.empty()) made_.whole.push_back(static_cast<Index>(made_.num_cells()));
+  made_.end_cell();
 }
 
 }  // namespace rondel::overlay

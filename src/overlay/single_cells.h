@@ -9,10 +9,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "rondel/cell_rings.h"
 #include "rondel/types.h"
+#include "system/distinct.h"
 
 namespace rondel::overlay {
 
@@ -30,5 +32,34 @@ CellRings beyond_cell(CellRings one);
 void append(const CellRings& one, CellRings& all);
 // Merges points that are equal bit by bit, so that cells share their common sides.
 void merge_equal_points(CellRings& cells);
+
+// Appends single cells one after the other as append() does and merges their points as
+// merge_equal_points() does. Where most cells are some of a set that shares its points, most points
+// are found by their numbers.
+class MergedCells {
+ public:
+  // The points of the set, if there is one, are different and in the order of their coordinates.
+  explicit MergedCells(const CellRings& set, std::size_t num_others);
+
+  // Appends a cell of the set, with its points in the order of its corners.
+  void append_of_set(Index cell);
+  // Appends a cell that is not of the set, with its points in their order.
+  void append(const CellRings& one);
+  // Appends a cell that is not of the set, with its points in the order of its corners.
+  void append_by_corners(const CellRings& one);
+
+  // Returns the cells. No cell may be appended any more.
+  [[nodiscard]] CellRings made() { return std::move(made_); }
+
+ private:
+  [[nodiscard]] Index number(const Point& point);
+
+  const CellRings& set_;
+  CellRings made_;
+  std::vector<Index> of_set_;      // of each point of the set, or no_index
+  std::vector<Index> of_others_;   // of each other point
+  std::vector<Point> others_;
+  system::KnownValues<Point> known_;
+};
 
 }  // namespace rondel::overlay
