@@ -41,7 +41,7 @@ class PolygonFlood {
         descending_(result.edges.size()),
         is_reached_(faces_.size()),
         has_ghosts_(result.triangulation.num_ghost_faces() > 0),
-        edges_of_sides_(faces_.size()) {
+        nets_(faces_.size()) {
     list_edges();
     list_faces();
     list_chains(constraints);
@@ -67,10 +67,13 @@ class PolygonFlood {
   [[nodiscard]] bool is_ghost(Index face) const {
     return has_ghosts_ && result_.triangulation.is_ghost(face);
   }
-  // True if the face has the interior of the polygon, which this edge of it bounds.
-  [[nodiscard]] bool is_left(Index edge, const SideOfFace& side) const {
-    const Index from = faces_[side.face][(side.corner + 1) % 3];
-    return (from == result_.edges[edge][0]) == (net_[edge] > 0);
+  // Lets the faces on both sides of an edge know how many sides of the polygon have them on their
+  // left, less those that have them on their right.
+  void set_net(Index edge, int net) {
+    const SideOfFace& up = ascending_[edge];
+    const SideOfFace& down = descending_[edge];
+    if (up.face != no_index) nets_[up.face][up.corner] = net;
+    if (down.face != no_index) nets_[down.face][down.corner] = -net;
   }
 
   const ConstrainedTriangulation& result_;
@@ -82,9 +85,9 @@ class PolygonFlood {
   std::vector<SideOfFace> descending_;  // and on their right
   std::vector<std::uint8_t> is_reached_;
   bool has_ghosts_;
-  std::vector<Triple> edges_of_sides_;   // by face: the edges that its constrained sides are
-  CompressedRows<DirectedEdge> chains_;  // of each constraint
-  std::vector<Index> reached_;           // the faces in the polygon
+  std::vector<std::array<int, 3>> nets_;  // by side of a face: see set_net()
+  CompressedRows<DirectedEdge> chains_;   // of each constraint
+  std::vector<Index> reached_;            // the faces in the polygon
 };
 
 Index PolygonFlood::edge_of(const SideOfFace& side) const {
@@ -112,7 +115,6 @@ void PolygonFlood::list_faces() {
     for (unsigned i = 0; i < 3; ++i) {
       if ((result_.sides[f] >> i & 1U) == 0) continue;
       const Index edge = edge_of({f, i});
-      edges_of_sides_[f][i] = edge;
       const bool is_ascending = faces_[f][(i + 1) % 3] == result_.edges[edge][0];
       (is_ascending ? ascending_ : descending_)[edge] = {f, i};
     }
@@ -206,6 +208,7 @@ bool PolygonFlood::is_covered_from(std::span<const Index> sides, std::size_t pol
   bool is_covered = true;
   for_edges(sides, polygon, [&](const DirectedEdge& e) {
     if (net_[e.edge] == 0) return;
+    set_net(e.edge, net_[e.edge]);
     const SideOfFace& left = (net_[e.edge] > 0 ? ascending_ : descending_)[e.edge];
     if (left.face == no_index) {
       is_covered = false;
@@ -223,12 +226,10 @@ bool PolygonFlood::spread(bool& is_closed) {
   for (std::size_t k = 0; k < reached_.size(); ++k) {
     const Index face = reached_[k];
     const Triple& neighbors = neighbors_[face];
-    const auto bits = static_cast<unsigned>(result_.sides[face]);
+    const std::array<int, 3>& nets = nets_[face];
     for (unsigned i = 0; i < 3; ++i) {
-      const bool is_constrained = (bits >> i & 1U) != 0;
-      const Index edge = is_constrained ? edges_of_sides_[face][i] : no_index;
-      if (is_constrained && net_[edge] != 0) {
-        is_closed = is_closed && is_left(edge, {face, i});
+      if (nets[i] != 0) {
+        is_closed = is_closed && nets[i] > 0;
         continue;
       }
       const Index next = neighbors[i];
@@ -270,7 +271,10 @@ std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std:
             [&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
   bool is_covered = is_covered_from(sides, polygon);
   is_covered = spread(is_closed) && is_covered;
-  for_edges(sides, polygon, [&](const DirectedEdge& e) { net_[e.edge] = 0; });
+  for_edges(sides, polygon, [&](const DirectedEdge& e) {
+    net_[e.edge] = 0;
+    set_net(e.edge, 0);
+  });
   if (!is_closed) {
     throw InvalidInput(
         "polygon " + std::to_string(polygon) + " has sides that do not divide in and out", polygon);

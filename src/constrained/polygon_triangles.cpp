@@ -327,7 +327,8 @@ std::optional<SidesOfPolygons> sides_by_numbers(const CellRings& polygons) {
 // them. Returns nothing if two are in one place or anything is wrong.
 std::optional<PolygonTriangles> triangles_by_numbers(const CellRings& polygons,
                                                      const Execution& execution) {
-  const bool may_be_apart = polygons.rings.size() > 2 && polygons.points.size() >= polygons.corners.size();
+  const bool may_be_apart =
+      polygons.rings.size() > 2 && polygons.points.size() >= polygons.corners.size();
   if (may_be_apart) return std::nullopt;
   const std::optional<SidesOfPolygons> sides = sides_by_numbers(polygons);
   if (!sides) return std::nullopt;

@@ -8,35 +8,35 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 
 #include "rondel/arrangement.h"
+#include "system/distinct.h"
+#include "system/hash.h"
 
 namespace rondel::constrained {
 namespace {
 
-auto coordinates(const Point& p) { return std::tie(p.x, p.y, p.z); }
-
-// Returns for each node a site with its coordinates; nodes without one are appended to the points.
+// Returns for each node the first site with its coordinates; nodes without one, which are different,
+// are appended to the points.
 std::vector<Index> sites_at(const std::vector<Point>& nodes, std::vector<Point>& points) {
-  std::vector<Index> sorted(points.size());
-  for (Index i = 0; i < sorted.size(); ++i) sorted[i] = i;
-  const auto of_site = [&](Index i) { return coordinates(points[i]); };
-  std::ranges::sort(sorted, {}, of_site);
+  std::vector<Point> places;  // different ones: of the sites, then of other nodes
+  std::vector<Index> at_places;
+  places.reserve(points.size());
+  at_places.reserve(points.size());
+  system::KnownValues<Point> known(places, points.size());
+  const auto site_at = [&](const Point& point, std::size_t otherwise) {
+    const Index place = known.number(point, system::hash_of(point));
+    if (place == at_places.size()) at_places.push_back(static_cast<Index>(otherwise));
+    return at_places[place];
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) (void)site_at(points[i], i);
   std::vector<Index> sites;
   sites.reserve(nodes.size());
-  std::vector<Point> added;
   for (const Point& node : nodes) {
-    const auto found = std::ranges::lower_bound(sorted, coordinates(node), {}, of_site);
-    if (found != sorted.end() && points[*found] == node) {
-      sites.push_back(*found);
-    } else {
-      sites.push_back(static_cast<Index>(points.size() + added.size()));
-      added.push_back(node);
-    }
+    sites.push_back(site_at(node, points.size()));
+    if (sites.back() == points.size()) points.push_back(node);
   }
-  points.insert(points.end(), added.begin(), added.end());
   return sites;
 }
 
@@ -58,6 +58,7 @@ SplitConstraints split_constraints(const Sites& sites,
 
   SplitConstraints split;
   const std::vector<Index> at = sites_at(arrangement.nodes, points);
+  split.ends.reserve(arrangement.edges.size());
   for (const auto& [a, b] : arrangement.edges) split.ends.push_back({at[a], at[b]});
   std::vector<std::pair<Index, Index>> sources;  // edge, constraint
   for (Index i = 0; i < constraints.size(); ++i) {

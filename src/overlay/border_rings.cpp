@@ -106,8 +106,8 @@ std::vector<Index> in_order(std::span<const Point> points) {
     while (end < points.size() && sorted.keys[end] == sorted.keys[first]) ++end;
     if (end - first > 1) {
       const auto begin = sorted.indices.begin();
-      std::sort(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end),
-                is_before);
+      std::sort(begin + static_cast<std::ptrdiff_t>(first),
+                begin + static_cast<std::ptrdiff_t>(end), is_before);
     }
     first = end;
   }

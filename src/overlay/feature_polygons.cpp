@@ -555,6 +555,13 @@ class FeatureCells {
                              if (known(f) == nullptr) regions[f] = swept(f);
                            }
                          });
+    std::size_t num_sides = 0;
+    for (const PlaneRegion& region : regions) num_sides += region.sides.size();
+    for (const CheckedFeature& feature : checked_) {
+      if (feature.region) num_sides += feature.region->sides.size();
+    }
+    sides.reserve(num_sides);
+    owners.reserve(num_sides);
     for (std::size_t f = 0; f < regions.size(); ++f) {
       const PlaneRegion* before = known(f);
       const PlaneRegion& region = before != nullptr ? *before : regions[f];

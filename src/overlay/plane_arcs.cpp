@@ -238,6 +238,8 @@ void append_divided(const LonLat& from, const LonLat& to, double tolerance,
 SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads)
     : sides_(sides), threads_(threads) {
   std::vector<LonLat> added;
+  pieces_.reserve(sides.size());
+  added.reserve(2 * sides.size());
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const bool goes_east = is_west_of(sides[s].from, sides[s].to);
     const auto [west, east] =
@@ -313,6 +315,7 @@ DividedSides SideDivider::divided() {
   sort_pieces(along);
   DividedSides result;
   result.values.reserve(pieces_.size());
+  result.offsets.reserve(sides_.size() + 1);
   for (std::size_t first = 0; first < pieces_.size();) {
     std::size_t end = first;
     while (end < pieces_.size() && pieces_[end].side == pieces_[first].side) ++end;

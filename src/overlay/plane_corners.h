@@ -65,12 +65,13 @@ class PlaneCorners {
     const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
     const double lowest = south - margin_deg - 1e-9;
     const double highest = north + margin_deg + 1e-9;
+    const std::size_t first = band_of(south - margin_deg);
     const std::size_t last = band_of(north + margin_deg);
-    for (std::size_t band = band_of(south - margin_deg); band <= last; ++band) {
+    for (std::size_t band = first; band <= last; ++band) {
       if (begins_[band * parts_] == begins_[(band + 1) * parts_]) continue;
       double low = west.lon_deg;
       double high = east.lon_deg;
-      if (north > south) {
+      if (north > south && first < last) {
         // Only the part of the line in this band is searched, with a margin for rounding.
         const double floor = static_cast<double>(band) - 90 - margin_deg;
         const double ceiling = static_cast<double>(band) - 89 + margin_deg;

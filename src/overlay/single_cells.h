@@ -56,8 +56,8 @@ class MergedCells {
 
   const CellRings& set_;
   CellRings made_;
-  std::vector<Index> of_set_;      // of each point of the set, or no_index
-  std::vector<Index> of_others_;   // of each other point
+  std::vector<Index> of_set_;     // of each point of the set, or no_index
+  std::vector<Index> of_others_;  // of each other point
   std::vector<Point> others_;
   system::KnownValues<Point> known_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "exact/exact_sign.h"
@@ -67,7 +68,26 @@ Sign compare_rays(const Point& a, const Point& b, const Point& center) {
   return sign != Sign::zero ? sign : compare_slopes((axis + 2) % 3);
 }
 
+namespace {
+
+// True if doubles show that two points are on different rays: with v and w off by u of themselves, a
+// coordinate of v x w is off by less than 2^-51 |v| |w|, with sums of coordinates for the lengths.
+bool are_surely_on_different_rays(const Point& a, const Point& b, const Point& center) {
+  constexpr double bound = 0x1p-48;
+  constexpr double least = 0x1p-900;  // products may underflow below it
+  const Vector v = to_vector(a) - to_vector(center);
+  const Vector w = to_vector(b) - to_vector(center);
+  const Vector normal = cross(v, w);
+  const double lengths = (std::abs(v.x) + std::abs(v.y) + std::abs(v.z)) *
+                         (std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+  const double largest = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+  return lengths > least && lengths < 1 / least && largest > bound * lengths;
+}
+
+}  // namespace
+
 bool are_on_one_ray(const Point& a, const Point& b, const Point& center) {
+  if (are_surely_on_different_rays(a, b, center)) return false;
   const auto product = [&](auto formula) {
     return exact::sign_of_cubic(
         [&](const auto& step) { return formula(step(center, a), step(center, b)); });

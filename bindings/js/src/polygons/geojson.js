@@ -8,24 +8,29 @@ import { RondelError } from "../errors.js";
 /**
  * Polygon p of all has the rings polygons[p] ... polygons[p + 1] - 1, ring r the positions rings[r] ... rings[r + 1] - 1,
  * and feature f the polygons features[f] ... features[f + 1] - 1. `isSphere` tells the features that are the whole sphere.
- * @typedef {{features: number[], polygons: number[], rings: number[], lonLat: number[], isSphere: boolean[]}} FlatPolygons
+ * @typedef {{features: number[], polygons: number[], rings: number[], lonLat: Float64Array, isSphere: boolean[]}} FlatPolygons
  */
 
 const withoutInside = ["Point", "MultiPoint", "LineString", "MultiLineString"];
 
 /**
- * @param {any} position
+ * Writes the positions of a ring.
+ * @param {any[]} ring
  * @param {number} feature
- * @param {number[]} lonLat
+ * @param {Float64Array} lonLat
+ * @param {number} place of the first number
  */
-function addPosition(position, feature, lonLat) {
-  const isArray = Array.isArray(position) || ArrayBuffer.isView(position);
-  const lon = isArray ? /** @type {any} */ (position)[0] : undefined;
-  const lat = isArray ? /** @type {any} */ (position)[1] : undefined;
-  if (typeof lon !== "number" || typeof lat !== "number") {
-    throw new RondelError(`feature ${feature}: ${JSON.stringify(position)} is no [longitude, latitude]`, feature);
+function placeRing(ring, feature, lonLat, place) {
+  for (const position of ring) {
+    const isArray = Array.isArray(position) || ArrayBuffer.isView(position);
+    const lon = isArray ? /** @type {any} */ (position)[0] : undefined;
+    const lat = isArray ? /** @type {any} */ (position)[1] : undefined;
+    if (typeof lon !== "number" || typeof lat !== "number") {
+      throw new RondelError(`feature ${feature}: ${JSON.stringify(position)} is no [longitude, latitude]`, feature);
+    }
+    lonLat[place++] = lon;
+    lonLat[place++] = lat;
   }
-  lonLat.push(lon, lat);
 }
 
 /**
@@ -38,8 +43,15 @@ function addPolygon(rings, feature, flat) {
     throw new RondelError(`feature ${feature}: the coordinates of a polygon are an array of rings`, feature);
   }
   for (const ring of rings) {
-    for (const position of ring) addPosition(position, feature, flat.lonLat);
-    flat.rings.push(flat.lonLat.length / 2);
+    const first = flat.rings[flat.rings.length - 1];
+    const end = first + ring.length;
+    if (2 * end > flat.lonLat.length) {
+      const longer = new Float64Array(Math.max(4 * first, 2 * end));
+      longer.set(flat.lonLat.subarray(0, 2 * first));
+      flat.lonLat = longer;
+    }
+    placeRing(ring, feature, flat.lonLat, 2 * first);
+    flat.rings.push(end);
   }
   flat.polygons.push(flat.rings.length - 1);
 }
@@ -71,11 +83,12 @@ export function flatPolygons(object) {
   const features = object.type === "FeatureCollection" ? object.features : [object];
   if (!Array.isArray(features)) throw new TypeError("a FeatureCollection has an array of features");
   /** @type {FlatPolygons} */
-  const flat = { features: [0], polygons: [0], rings: [0], lonLat: [], isSphere: [] };
+  const flat = { features: [0], polygons: [0], rings: [0], lonLat: new Float64Array(1024), isSphere: [] };
   features.forEach((item, feature) => {
     flat.isSphere.push(false);
     addGeometry(item?.type === "Feature" ? item.geometry : item, feature, flat);
     flat.features.push(flat.polygons.length - 1);
   });
+  flat.lonLat = flat.lonLat.subarray(0, 2 * flat.rings[flat.rings.length - 1]);
   return flat;
 }

@@ -118,7 +118,7 @@ export function triangulate(object, { spacing = 0, ...options } = {}) {
         n,
         scope.copy(wideOffsets(polygons)),
         scope.copy(wideOffsets(rings)),
-        scope.copy(new Float64Array(lonLat)),
+        scope.copy(lonLat),
       ),
     (made) =>
       withMade(
