@@ -96,8 +96,8 @@ constexpr std::size_t few_corners = 11;
 
 // Where all corners are nearer than the chord d to the first one, d^2 <= 0.1, each triangle (a, b, c)
 // at that corner with the sine s has the cosine 4 - 3 d^2 or more, since b and c are no farther apart
-// than 2 d. Its area 2 atan(s / cosine) differs from s / 2 by less than 0.05 |s|: by |s| / 2 times
-// (4 / 3.7 - 1), and by 2/3 |s / 3.7|^3 with |s| <= d^2. Each sine is off by less than 1e-15 d^2.
+// than 2 d. Its area 2 atan(s / cosine) differs from s / 2 by less than d^2 |s| / 2: by |s| / 2
+// times 3 d^2 / 3.7, and by 2/3 |s / 3.7|^3 with |s| <= d^2. Each sine is off by less than 1e-14 d^2.
 bool is_surely_larger_than(std::span<const Point> ring, double area) {
   constexpr double widest = 0.1;
   constexpr double most_sines = 1;  // less than a hemisphere, however often triangles overlap
@@ -115,7 +115,7 @@ bool is_surely_larger_than(std::span<const Point> ring, double area) {
   }
   if (squared > widest || sizes > most_sines) return false;
   const double rounding = 1e-14 * squared * static_cast<double>(ring.size());
-  return std::abs(sum) / 2 > 2 * area + 0.05 * sizes + rounding;
+  return std::abs(sum) / 2 > 2 * area + 0.5 * squared * sizes + rounding;
 }
 
 }  // namespace

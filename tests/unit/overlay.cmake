@@ -12,6 +12,7 @@ rondel_add_test(overlay_test
   overlay/inside_plane_test.cpp
   overlay/limiter_test.cpp
   overlay/measure_test.cpp
+  overlay/merged_cells_test.cpp
   formats/arrow_test.cpp
   formats/mesh_blocks_test.cpp
   formats/mesh_faults_test.cpp

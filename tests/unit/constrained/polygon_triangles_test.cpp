@@ -140,6 +140,37 @@ TEST(polygon_triangles, neighbors_share_edges_and_overlaps_are_divided) {
   }
 }
 
+// Polygons may share points, or have equal ones each; some points are no corners.
+TEST(polygon_triangles, points_may_be_shared_or_repeated) {
+  CellRings apart = polygon_of({square, {{10, 10}, {10, 20}, {20, 20}, {20, 10}}});
+  append_ring(apart, {{40, 0}, {80, 0}, {80, 40}, {40, 40}});
+  apart.end_cell();
+  append_ring(apart, {{10, 10}, {20, 10}, {20, 20}, {10, 20}});
+  apart.end_cell();
+  CellRings shared = apart;
+  shared.points.assign(1, {0, 0, -1});
+  for (Index& corner : shared.corners) {
+    const Point& point = apart.points[corner];
+    const auto known = std::ranges::find(shared.points, point);
+    corner = static_cast<Index>(known - shared.points.begin());
+    if (known == shared.points.end()) shared.points.push_back(point);
+  }
+  ASSERT_LT(shared.points.size(), shared.corners.size());
+  // One corner has a point of its own again, which is in the place of another one.
+  CellRings repeated = shared;
+  repeated.points.push_back(repeated.points[repeated.corners.back()]);
+  repeated.corners.back() = static_cast<Index>(repeated.points.size() - 1);
+  const PolygonTriangles expected = triangles_of_polygons(apart);
+  for (const CellRings& polygons : {shared, repeated}) {
+    const PolygonTriangles made = triangles_of_polygons(polygons);
+    EXPECT_EQ(made.points, expected.points);
+    EXPECT_EQ(made.triangles.offsets, expected.triangles.offsets);
+    EXPECT_EQ(made.triangles.values, expected.triangles.values);
+  }
+  EXPECT_EQ(expected.triangles.size(), 3U);
+  EXPECT_EQ(expected.triangles[2].size(), 2U);
+}
+
 TEST(polygon_triangles, a_spacing_bounds_sides) {
   const CellRings polygons = polygon_of({{{0, 40}, {60, 40}, {60, 80}, {0, 80}}});
   const PolygonTriangles made = triangles_of_polygons(polygons, 4);

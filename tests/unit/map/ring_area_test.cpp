@@ -108,5 +108,33 @@ TEST(ring_area, is_surely_larger_than_a_part_of_it) {
   EXPECT_FALSE(map::is_surely_larger(Corners{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.01));
 }
 
+// Stars of many corners, whose triangles turn both ways.
+TEST(ring_area, is_surely_larger_for_many_corners) {
+  for (const double radius : {1e-9, 0.001, 0.1}) {
+    for (const int tips : {6, 20, 50}) {
+      Corners star;
+      for (int k = 0; k < 2 * tips; ++k) {
+        const double angle = pi * k / tips;
+        const double away = k % 2 == 0 ? radius : 0.6 * radius;
+        star.push_back(
+            {std::cos(away), std::sin(away) * std::cos(angle), std::sin(away) * std::sin(angle)});
+      }
+      const double area = std::abs(map::area_on_left(star));
+      for (const Corners& ring : {star, backward(star)}) {
+        EXPECT_TRUE(map::is_surely_larger(ring, area / 20)) << radius << ' ' << tips;
+        EXPECT_FALSE(map::is_surely_larger(ring, area)) << radius << ' ' << tips;
+      }
+      // There and back is no area.
+      Corners back = star;
+      back.insert(back.end(), star.rbegin(), star.rend());
+      EXPECT_FALSE(map::is_surely_larger(back, 0)) << radius << ' ' << tips;
+      // A corner that is far away may make the area any.
+      Corners wide = star;
+      wide[3] = {0, 1, 0};
+      EXPECT_FALSE(map::is_surely_larger(wide, area / 20)) << radius << ' ' << tips;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test::of_ring_area
