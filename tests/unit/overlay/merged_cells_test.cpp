@@ -40,17 +40,17 @@ void append_ring(std::vector<KeyedArc>& arcs, Index key, const std::vector<LonLa
 std::vector<KeyedArc> arcs_of_cells(int size, Index& num_keys) {
   std::vector<KeyedArc> arcs;
   num_keys = 0;
-  const double step = 40.0 / size;
+  // The meridian 90 has corners whose x is 0 but for rounding.
+  const auto corner = [size](int row, int column) {
+    return LonLat{70 + 40.0 * column / size, -20 + 40.0 * row / size};
+  };
   for (int row = 0; row < size; ++row) {
     for (int column = 0; column < size; ++column) {
-      const double west =
-          70 + step * column;  // the meridian 90 has corners whose x is 0 but for rounding
-      const double south = -20 + step * row;
       const bool is_joined = column % 3 == 0 && row % 2 == 1;
       const Index key = is_joined ? num_keys - static_cast<Index>(size) : num_keys;
-      append_ring(
-          arcs, key,
-          {{west, south}, {west + step, south}, {west + step, south + step}, {west, south + step}});
+      append_ring(arcs, key,
+                  {corner(row, column), corner(row, column + 1), corner(row + 1, column + 1),
+                   corner(row + 1, column)});
       ++num_keys;
     }
   }
@@ -96,7 +96,7 @@ TEST(overlay_merged_cells, are_those_that_are_appended_and_merged) {
   set.end_cell();
   set.whole = {num_keys};
   // Others have points of the set, points of their own, and both.
-  const CellRings here = overlay::one_cell(set, 9);
+  const CellRings here = overlay::one_cell(set, 8);
   CellRings there = here;
   for (Point& p : there.points) p = {-p.x, -p.y, p.z};
   CellRings partly = here;
@@ -173,7 +173,9 @@ TEST(overlay_plane_corners, all_near_a_line_are_visited_once) {
                            std::max(west.lat_deg, east.lat_deg));
           const bool is_near = std::abs(p.lon_deg - x) < 0.999 * margins.lon_deg &&
                                std::abs(p.lat_deg - y) < 0.999 * margins.lat_deg;
-          if (is_near) EXPECT_EQ(count(p), 1) << p.lon_deg << ' ' << p.lat_deg;
+          if (is_near) {
+            EXPECT_EQ(count(p), 1) << p.lon_deg << ' ' << p.lat_deg;
+          }
         }
       }
     }
