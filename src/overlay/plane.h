@@ -22,7 +22,7 @@ inline bool is_west_of(const LonLat& p, const LonLat& q) {
   return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
 }
 
-// The same order for algorithms, which compilers put into their loops.
+// This is is_west_of() as an object, which compilers put into the loops of algorithms.
 struct IsWestOf {
   bool operator()(const LonLat& p, const LonLat& q) const { return is_west_of(p, q); }
 };
