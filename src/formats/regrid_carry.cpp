@@ -171,7 +171,8 @@ std::vector<double> TileCarrier::applied_second(RemapTile& tile, SourceValues& v
   for (const double fraction : tile.fractions) {
     covered.push_back(is_enough(fraction, job_.max_missing) ? 1 : 0);
   }
-  SecondOrder(std::move(tile.part), std::move(covered), false).apply(in, result, rules, execution_);
+  SecondOrder weights(std::move(tile.part), std::move(covered), false);
+  weights.apply(in, result, rules, execution_);
   return result;
 }
 

@@ -210,7 +210,8 @@ TEST_F(CPolygons, relate_as_in_cpp) {
     rondel::CompressedRows<Index> wanted;
     for (std::size_t i = 0; i < cells_.num_cells(); ++i) {
       for (std::size_t k = 0; k < cells_.num_cells(); ++k) {
-        const std::vector<std::array<Index, 2>> pair = {{static_cast<Index>(i), static_cast<Index>(k)}};
+        const std::vector<std::array<Index, 2>> pair = {
+            {static_cast<Index>(i), static_cast<Index>(k)}};
         const rondel::Relation how = rondel::relate_pairs(cells_, cells_, pair)[0];
         std::int32_t matches = -1;
         ASSERT_EQ(rondel_relation_matches(std::string(how.text()).c_str(), pattern, &matches),

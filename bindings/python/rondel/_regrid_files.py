@@ -221,8 +221,8 @@ def regrid_file(
         vectors=vectors,
         resume=resume,
     )
-    files = [os.fspath(each) for each in (path, target, out)]
-    return report_of(_core.regrid_file(*files, options, as_threads(threads), progress))
+    path, target, out = (os.fspath(each) for each in (path, target, out))
+    return report_of(_core.regrid_file(path, target, out, options, as_threads(threads), progress))
 
 
 def report_of(made: _core.RegridFileReport) -> RegridReport:

@@ -442,10 +442,10 @@ def regrid_file(
 
     """
     ranks = Ranks(comm)
-    files = [""] * 3
+    files = ("", "", "")
     wanted = _regrid_files.as_options()
     try:
-        files = [os.fspath(each) for each in (path, target, out)]
+        files = (os.fsdecode(path), os.fsdecode(target), os.fsdecode(out))
         for name in ("statistics", "weigh_by"):
             if name in options:
                 raise TypeError(f"{name} is of one process: rondel.regrid_file")
