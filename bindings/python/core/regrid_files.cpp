@@ -46,7 +46,7 @@ Extrapolation extrapolation_of(const std::string& word) {
 
 void add_regrid_files(nb::module_& module) {
   add_report(module);
-  nb::class_<RegridFileOptions>(module, "RegridFileOptions");
+  const nb::class_<RegridFileOptions> type_of_options(module, "RegridFileOptions");
   module.def(
       "regrid_options",
       [](const std::vector<std::string>& names, const std::optional<std::string>& source,
