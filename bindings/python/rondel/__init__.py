@@ -38,10 +38,10 @@ make_valid, is_valid, validity_reason
     Polygons that are not valid.
 interpolate
     Values at longitudes and latitudes, from values at others.
-native_isolines
-native_bands
 native_weights
     Weights that interpolate in the faces of a mesh.
+native_isolines, native_bands
+    Lines and areas of equal values in the faces of a mesh.
 unit_vectors, lonlat
     Degrees to unit vectors and back.
 
