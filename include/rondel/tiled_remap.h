@@ -76,7 +76,8 @@ class RONDEL_API TiledRemap {
  public:
   /// Sorts the cells of both sides by latitude; this needs 8 bytes for each cell that is not
   /// between parallels. \throws InvalidInput if a mask has another length than its side, if the
-  /// order is not 1 or 2, or 2 and the sources are in memory, or if neither side covers the sphere (CellSet::covers_sphere()) or is between parallels
+  /// order is not 1 or 2, or 2 and the sources are in memory, or if neither side covers the sphere
+  /// (CellSet::covers_sphere()) or is between parallels
   TiledRemap(const TiledCells& source, const TiledCells& target, TiledRemapOptions options = {},
              const Execution& execution = {});
   ~TiledRemap();

@@ -216,11 +216,7 @@ class NetcdfSink : public FieldSink {
     for (const FieldArray& array : fields.arrays) {
       attributes_of_all.push_back(with_attributes(array));
       remove_marks_of_coordinates(attributes_of_all.back());
-      headers.push_back(
-          {.name = netcdf_name(array.name), .dimensions = {"point"}, .shape = {1}, .texts = {}});
-      for (const io::NetcdfAttribute& attribute : attributes_of_all.back()) {
-        headers.back().texts.emplace_back(attribute.name, attribute.text);
-      }
+      headers.push_back(header_with(netcdf_name(array.name), attributes_of_all.back()));
     }
     std::ranges::move(columns_.headers(), std::back_inserter(headers));
     const std::vector<std::string> names = take_names_of_fields(std::move(headers), taken_);

@@ -41,6 +41,15 @@ bool is_enough(double fraction, double max_missing) {
   return fraction > 0 && fraction >= 1 - max_missing - rounding;
 }
 
+std::vector<std::int32_t> enough_covered(std::span<const double> fractions, double max_missing) {
+  std::vector<std::int32_t> covered;
+  covered.reserve(fractions.size());
+  for (const double fraction : fractions) {
+    covered.push_back(is_enough(fraction, max_missing) ? 1 : 0);
+  }
+  return covered;
+}
+
 void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,
                 const std::function<RegridRanks::Message(std::size_t)>& compute,
                 const std::function<void(std::size_t, std::span<const std::byte>)>& take) {
@@ -166,12 +175,8 @@ std::vector<double> TileCarrier::applied_second(RemapTile& tile, SourceValues& v
         values.of(row / components, row % components, tile.first_source, tile.weights.num_columns);
     for (const Index source : tile.sources) in.push_back(window[source - tile.first_source]);
   }
-  std::vector<std::int32_t> covered;
-  covered.reserve(tile.fractions.size());
-  for (const double fraction : tile.fractions) {
-    covered.push_back(is_enough(fraction, job_.max_missing) ? 1 : 0);
-  }
-  SecondOrder weights(std::move(tile.part), std::move(covered), false);
+  SecondOrder weights(std::move(tile.part), enough_covered(tile.fractions, job_.max_missing),
+                      false);
   weights.apply(in, result, rules, execution_);
   return result;
 }

@@ -317,10 +317,7 @@ class RegridJob {
     options.norm = options_.norm;
     options.overlap = options_.overlap;
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
-    covered_.clear();
-    for (const double fraction : made.target_fractions) {
-      covered_.push_back(formats::is_enough(fraction, options_.max_missing) ? 1 : 0);
-    }
+    covered_ = formats::enough_covered(made.target_fractions, options_.max_missing);
     if (options.order == 1) return with_rows(made.weights, covered_);
     second_.emplace(std::move(made), covered_, options_.is_limited);
     return {};

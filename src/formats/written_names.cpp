@@ -12,15 +12,6 @@
 namespace rondel::formats {
 namespace {
 
-// Returns a header with the attributes of a variable at some points.
-VariableHeader header_with(const std::vector<io::NetcdfAttribute>& attributes) {
-  VariableHeader header{.name = {}, .dimensions = {"point"}, .shape = {1}, .texts = {}};
-  for (const io::NetcdfAttribute& attribute : attributes) {
-    header.texts.emplace_back(attribute.name, attribute.text);
-  }
-  return header;
-}
-
 // True if the name or the units of a variable make it a longitude or latitude, or bounds of one.
 bool is_like_coordinate(const VariableHeader& variable) {
   const auto is_of = [&](CoordinateKind kind, std::string_view coordinate) {
@@ -33,13 +24,22 @@ bool is_like_coordinate(const VariableHeader& variable) {
 
 }  // namespace
 
+VariableHeader header_with(std::string name, const std::vector<io::NetcdfAttribute>& attributes) {
+  VariableHeader header{
+      .name = std::move(name), .dimensions = {"point"}, .shape = {1}, .texts = {}};
+  for (const io::NetcdfAttribute& attribute : attributes) {
+    header.texts.emplace_back(attribute.name, attribute.text);
+  }
+  return header;
+}
+
 void remove_marks_of_coordinates(std::vector<io::NetcdfAttribute>& attributes) {
   std::erase_if(attributes, [](const io::NetcdfAttribute& attribute) {
     return attribute.name == "cf_role" || attribute.name == "_CoordinateAxisType" ||
            (attribute.name == "standard_name" &&
             (attribute.text == "longitude" || attribute.text == "latitude"));
   });
-  const VariableHeader header = header_with(attributes);
+  const VariableHeader header = header_with({}, attributes);
   if (coordinate_evidence(header, CoordinateKind::lon) == 0 &&
       coordinate_evidence(header, CoordinateKind::lat) == 0) {
     return;

@@ -18,6 +18,9 @@
 
 namespace rondel::formats {
 
+// Returns a header of a variable at some points with its attributes.
+VariableHeader header_with(std::string name, const std::vector<io::NetcdfAttribute>& attributes);
+
 // Removes the attributes that say that a variable holds longitudes, latitudes or numbers of corners:
 // values of a field may be longitudes, but no places are there. Their units become degrees.
 void remove_marks_of_coordinates(std::vector<io::NetcdfAttribute>& attributes);

@@ -15,7 +15,7 @@
 //               \ /  5  \ /               (i, j + 1), and down (i, j) the corners (i + 1, j),
 //            (i,j-1)--(i+1,j-1)           (i + 1, j + 1), (i, j + 1)
 //
-// Those beyond the face are in its neighbors.
+// Triangles beyond the face are in its neighbors.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -39,15 +39,6 @@ std::pair<unsigned, unsigned> rows_touching(const std::vector<double>& latitudes
   return {std::min(first, end), end};
 }
 
-// Returns the centers of mass of cells, not on the sphere; 0 for cells without an area.
-std::vector<Point> centers_of(const CellSetData& cells) {
-  std::vector<Point> centers(cells.areas().size());
-  for (std::size_t i = 0; i < centers.size(); ++i) {
-    if (cells.areas()[i] > 0) centers[i] = cells.moments()[i] / cells.areas()[i];
-  }
-  return centers;
-}
-
 }  // namespace
 
 // Returns the bands that the targets of a tile are in.
@@ -176,7 +167,7 @@ void TiledRemap::TileMaker::complete_second(RemapTile& tile, unsigned begin, uns
   for (std::size_t i = 0; i < num_sources; ++i) {
     if (const double sum = sums[i].hi + sums[i].lo; sum > 0) means[i] = means[i] / sum;
   }
-  std::vector<Point> centers = centers_of(data);
+  std::vector<Point> centers = overlay::means_of(data.areas(), data.moments());
   whole.moments = overlay::moments_around(means, whole, std::move(moments));
   const std::vector<double> covered_areas = take_own_rows(tile, all, whole, begin, end);
   const overlay::CellGradients gradients =

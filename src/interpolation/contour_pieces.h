@@ -60,8 +60,8 @@ struct ContourPiece {
   [[nodiscard]] std::size_t edge_of(std::size_t side) const;
 };
 
-// The surface on which contours are drawn: all faces that count and whose three corners have values. A face
-// that is not on it is missing.
+// The surface on which contours are drawn: all faces that count and whose three corners have values. A
+// face that is not on it is missing.
 class ValuedFaces {
  public:
   ValuedFaces(const ContourSurface& surface, std::span<const double> values)

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <unordered_map>
 
+#include "exact/point_order.h"
 #include "interpolation/contour_surface.h"
 #include "interpolation/contour_tracing.h"
 #include "rondel/error.h"
@@ -36,13 +36,10 @@ void require_values(const Triangulation& triangulation, std::span<const double> 
 // with the smallest coordinates, so that the order of the sites does not matter.
 std::unordered_map<Index, Index> find_representatives(const Triangulation& triangulation) {
   const Sites& sites = triangulation.sites();
-  const auto key = [&](Index site) {
-    return std::tuple(sites[site].x, sites[site].y, sites[site].z);
-  };
   std::unordered_map<Index, Index> representatives;
   for (const auto& [site, representative] : triangulation.duplicates()) {
     Index& first_site = representatives.try_emplace(representative, representative).first->second;
-    if (key(site) < key(first_site)) first_site = site;
+    if (exact::is_less(sites[site], sites[first_site])) first_site = site;
   }
   return representatives;
 }

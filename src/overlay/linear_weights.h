@@ -29,6 +29,9 @@ struct CellGradients {
   std::vector<Point> slopes;
 };
 
+// Returns the mean of each region, not on the sphere, from its area and its moment; 0 without an area.
+std::vector<Point> means_of(std::span<const double> areas, std::span<const Point> moments);
+
 // Returns the least squares gradients over the neighbors of each cell that share an edge with it,
 // weighted by the inverse squares of distances, in the tangent plane of the cell's center of mass.
 // The gradient is 0 along a direction that the neighbors do not determine. `centers` are centers of

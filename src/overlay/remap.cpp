@@ -178,6 +178,14 @@ std::vector<double> fractions(const std::vector<double>& covered,
 
 namespace overlay {
 
+std::vector<Point> means_of(std::span<const double> areas, std::span<const Point> moments) {
+  std::vector<Point> means(areas.size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (areas[i] > 0) means[i] = moments[i] / areas[i];
+  }
+  return means;
+}
+
 // The moments of a source sum up to zero except for rounding, which gradients would multiply by the
 // inverse of a cell's width; the largest piece of the source is corrected by the sum.
 std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
@@ -262,13 +270,8 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
 
   overlay::CellGradients gradients;
   if (is_second) {
-    std::vector<Point> means(num_sources);
-    std::vector<Point> centers(num_sources);
-    for (std::size_t i = 0; i < num_sources; ++i) {
-      if (pieces.column_sums[i] > 0) means[i] = moments_of_sources[i] / pieces.column_sums[i];
-      if (source_sizes.areas()[i] > 0)
-        centers[i] = source_sizes.moments()[i] / source_sizes.areas()[i];
-    }
+    const std::vector<Point> means = overlay::means_of(pieces.column_sums, moments_of_sources);
+    std::vector<Point> centers = overlay::means_of(source_sizes.areas(), source_sizes.moments());
     result.moments = overlay::moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, source_mask, execution.threads);
     result.source_centers = std::move(centers);
