@@ -154,7 +154,9 @@ class RegridStreams(unittest.TestCase):
         command = [TOOL, "regrid", self.input, "healpix:6", "-o", self.out, "--quiet", "--resume"]
         first = subprocess.Popen(command)
         try:
-            while first.poll() is None and not self.out.with_name("out.nc.partial").exists():
+            # The file is locked before anything is written to it.
+            partial = self.out.with_name("out.nc.partial")
+            while first.poll() is None and not (partial.exists() and partial.stat().st_size > 0):
                 time.sleep(0.0005)
             self.assertIsNone(first.poll())
             first.send_signal(signal.SIGSTOP)
