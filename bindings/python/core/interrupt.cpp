@@ -100,11 +100,43 @@ class Work {
   std::thread thread_;  // the last member, since it uses the others
 };
 
+bool is_silent(const nb::object& progress) {
+  return progress.is_none() || progress.ptr() == Py_False;
+}
+
+// What is told how far the work is: a function that was given, or a bar of its own, which goes with it.
+class Listener {
+ public:
+  explicit Listener(const nb::object& progress) {
+    if (is_silent(progress)) return;
+    is_own_ = progress.ptr() == Py_True;
+    function_ = is_own_ ? nb::module_::import_("rondel").attr("ProgressBar")() : progress;
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  ~Listener() {
+    if (!is_own_) return;
+    try {
+      function_.attr("close")();
+    } catch (nb::python_error& error) {
+      error.discard_as_unraisable("rondel.ProgressBar.close");
+    }
+  }
+
+  void tell(Work& work) const {
+    if (function_.is_valid()) work.tell(function_);
+  }
+
+ private:
+  nb::object function_;  // or invalid: nobody is told
+  bool is_own_ = false;
+};
+
 // Runs signal handlers, then the listener; returns what one of them raises.
-std::exception_ptr watch(Work& work, const nb::object& listener) {
+std::exception_ptr watch(Work& work, const Listener& listener) {
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    if (!listener.is_none()) work.tell(listener);
+    listener.tell(work);
   } catch (const nb::python_error&) {
     return std::current_exception();
   }
@@ -113,8 +145,9 @@ std::exception_ptr watch(Work& work, const nb::object& listener) {
 
 }  // namespace
 
-void run_watched_until_asked(unsigned threads, const nb::object& listener,
+void run_watched_until_asked(unsigned threads, const nb::object& progress,
                              const WatchedWork& work) {
+  const Listener listener(progress);
   std::exception_ptr raised;
   std::exception_ptr error;
   {
@@ -137,14 +170,14 @@ void run_watched_until_asked(unsigned threads, const nb::object& listener,
   if (error) std::rethrow_exception(error);
 }
 
-void run_watched(std::size_t size, unsigned threads, const nb::object& listener,
+void run_watched(std::size_t size, unsigned threads, const nb::object& progress,
                  const std::function<void(const Execution&)>& work) {
-  if (size < many_items && listener.is_none()) {
+  if (size < many_items && is_silent(progress)) {
     const nb::gil_scoped_release released;
     work({.threads = threads});
     return;
   }
-  run_watched_until_asked(threads, listener,
+  run_watched_until_asked(threads, progress,
                           [&](const Execution& execution, const std::function<bool()>& ask) {
                             work(execution);
                             ask();

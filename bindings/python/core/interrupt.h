@@ -19,10 +19,10 @@ namespace rondel::python {
 // another thread does it, and this one wakes some times a second
 // 1. to run the handlers of signals: Ctrl-C ends the work at its next piece, and raises
 //    KeyboardInterrupt;
-// 2. to tell `listener`, if it is not None, the stage and the fraction done. An exception of the
-//    listener ends the work too.
+// 2. to tell the listener the stage and the fraction done. An exception of the listener ends the work too.
+// `progress` is the listener, True for a rondel.ProgressBar that is removed at the end, or None or False for none.
 // The work passes the Execution that it is given to the library. Call this with the lock of the interpreter.
-void run_watched(std::size_t size, unsigned threads, const nanobind::object& listener,
+void run_watched(std::size_t size, unsigned threads, const nanobind::object& progress,
                  const std::function<void(const Execution&)>& work);
 
 // Work that asks once, at its end, whether a signal handler or the listener has raised. They are
@@ -32,15 +32,15 @@ using WatchedWork =
     std::function<void(const Execution& execution, const std::function<bool()>& ask)>;
 
 // Does the same for work that asks, always in another thread.
-void run_watched_until_asked(unsigned threads, const nanobind::object& listener,
+void run_watched_until_asked(unsigned threads, const nanobind::object& progress,
                              const WatchedWork& work);
 
 // Returns the result of work that run_watched() runs.
 template <class Work>
-auto watched(std::size_t size, unsigned threads, const nanobind::object& listener,
+auto watched(std::size_t size, unsigned threads, const nanobind::object& progress,
              const Work& work) {
   std::optional<std::invoke_result_t<Work, const Execution&>> result;
-  run_watched(size, threads, listener,
+  run_watched(size, threads, progress,
               [&](const Execution& execution) { result.emplace(work(execution)); });
   return std::move(*result);
 }

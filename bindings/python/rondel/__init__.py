@@ -89,7 +89,7 @@ Notes
 -----
 No result depends on `threads`, the largest number of threads that a call uses. What is passed as
 `progress` is called some times a second with the name of a stage of the work and the fraction of
-it that is done; a `ProgressBar` shows that in notebooks and terminals.
+it that is done; with True a `ProgressBar` shows that in notebooks and terminals.
 
 """
 

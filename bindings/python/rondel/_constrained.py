@@ -305,8 +305,9 @@ def constrained_delaunay(
         What becomes of polygons that are not valid, as in `intersection`. For geometries only.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

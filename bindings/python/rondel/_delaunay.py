@@ -301,8 +301,9 @@ def delaunay(
         The center of the sphere; by default the origin.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
     copy : bool, optional
         Whether to copy the points; by default True. With False a C-contiguous array of float64,
         which may be mapped from a file, is used in place. It must not be changed as long as the
@@ -364,8 +365,9 @@ def delaunay_lonlat(
         latitudes are from -90 to 90. Arrays of more dimensions are flattened.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

@@ -134,8 +134,9 @@ class Interpolation:
             most 100.
         threads : int, optional
             The largest number of threads; by default one for each core.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+            True shows a `ProgressBar`.
 
         Returns
         -------
@@ -264,8 +265,9 @@ class Interpolation:
             estimated. 'missing': the gradient is NaN.
         threads : int, optional
             The largest number of threads; by default one for each core.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+            True shows a `ProgressBar`.
 
         Returns
         -------

@@ -56,8 +56,9 @@ class LinearInterpolation:
             As in `SphericalDelaunay.weights`.
         threads : int, optional
             The largest number of threads; by default one for each core.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+            True shows a `ProgressBar`.
 
         Returns
         -------

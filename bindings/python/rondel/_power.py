@@ -46,8 +46,9 @@ def power_diagram(
         Angular radii in degrees, from 0 to less than 90; one number holds for all circles.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

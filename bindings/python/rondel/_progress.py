@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import html
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from types import TracebackType
 from typing import Any, TextIO
+
+from ._types import Listener, Progress
 
 FIRST = 0.3  # seconds before anything is shown: short calls show nothing
 STEP = 0.1  # seconds between two pictures of the bar
@@ -17,7 +20,7 @@ CELLS = 24  # of a bar in a terminal
 
 
 class ProgressBar:
-    """Shows how far a call is: pass it as `progress`.
+    """Shows how far a call is: pass it as `progress`, or True for one that is made for the call.
 
     In a notebook it is a bar, in a terminal a line, and nothing where output goes to a file. It
     names the stage of the work, how much of it is done, and how long the rest of the stage will
@@ -132,6 +135,18 @@ class ProgressBar:
         else:
             return
         self._is_dirty = True
+
+
+@contextlib.contextmanager
+def listening(progress: Progress) -> Iterator[Listener | None]:
+    """What is told how far the work is; a bar for True is removed at the end."""
+    if not isinstance(progress, bool):
+        yield progress
+    elif progress:
+        with ProgressBar() as bar:
+            yield bar
+    else:
+        yield None
 
 
 def _time_left(seconds: float, fraction: float) -> str:

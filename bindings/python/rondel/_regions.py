@@ -333,8 +333,9 @@ class CellRegions:
             As in `CellSet.read`.
         threads : int, optional
             The largest number of threads; by default one for each core.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+            True shows a `ProgressBar`.
 
         Returns
         -------
@@ -397,8 +398,9 @@ class CellRegions:
             None, NaN or NA belongs to no group.
         threads : int, optional
             The largest number of threads; by default one for each core.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+            True shows a `ProgressBar`.
 
         Returns
         -------
@@ -463,8 +465,9 @@ def feature_cells(
         cells are not clipped.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

@@ -165,8 +165,9 @@ def regrid_file(
         the parts along the sphere at the centers of the targets are written.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
     resume : bool, optional
         Whether to keep what is computed in a file beside the output, ``out + ".partial"``, until
         the output is complete, and to begin with what a run that ended early left there; by

@@ -120,8 +120,9 @@ class Regridder(Described):
         Whether to read the weights from `filename` (or `weights`), as in xESMF; by default False.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
     **needless
         `periodic`, `ignore_degenerate` and `parallel` are accepted and have no effect.
 

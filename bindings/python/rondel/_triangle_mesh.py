@@ -371,8 +371,9 @@ def triangles(
         What becomes of polygons that are not valid.
     threads : int, optional
         The largest number of threads; by default one for each core. It changes no result.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

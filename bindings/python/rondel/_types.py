@@ -21,7 +21,8 @@ FloatArray: TypeAlias = npt.NDArray[np.float64]
 IntArray: TypeAlias = npt.NDArray[np.int32]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 Model: TypeAlias = Literal["projected", "weighted"]
-Progress: TypeAlias = Callable[[str, float], Any] | None
+Listener: TypeAlias = Callable[[str, float], Any]
+Progress: TypeAlias = Listener | bool | None
 Properties: TypeAlias = Mapping[str, Any]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 

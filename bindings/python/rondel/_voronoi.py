@@ -42,8 +42,9 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         the others.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
     copy : bool, optional
         Whether to copy the points, as in `delaunay`; by default True.
 

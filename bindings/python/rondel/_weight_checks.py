@@ -224,8 +224,9 @@ def check_weights(
         sources may be above 1, since several targets have one place.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _ugrid
-from ._types import FloatArray, Path, Progress, Triangulated
+from ._types import FloatArray, Listener, Path, Triangulated
 from ._zarr_folder import replaced
 
 _MAX_ROWS = 1 << 20  # of a chunk
@@ -97,7 +97,7 @@ class ZarrGroups:
         write_group(path, content)
 
 
-def write_group(path: Path, content: GroupContent, progress: Progress = None) -> None:
+def write_group(path: Path, content: GroupContent, progress: Listener | None = None) -> None:
     """Writes a group; calls ``progress("group", fraction)`` after each chunk."""
     zarr = require_zarr()
     with replaced(path) as folder:
@@ -134,7 +134,7 @@ _REPEATS = "sites, each with the site that it repeats"
 class _Adder:
     """Adds arrays to a group, chunk by chunk."""
 
-    def __init__(self, root: Any, content: GroupContent, progress: Progress) -> None:
+    def __init__(self, root: Any, content: GroupContent, progress: Listener | None) -> None:
         self._root = root
         self._content = content
         self._progress = progress

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import degrees_of, unit_vectors
+from ._progress import listening
 from ._types import FloatArray, Progress
 from ._zarr import GroupContent, require_zarr, write_group
 from ._zarr_folder import require_replaceable
@@ -83,7 +84,8 @@ class RunIntoGroup:
             kept = {"about": about, "report": report}
             with open(os.path.join(self._folder, _REPORT), "w", encoding="utf-8") as file:
                 json.dump(kept, file)
-        write_group(self._out, self._content(about), progress)
+        with listening(progress) as listener:
+            write_group(self._out, self._content(about), listener)
         self._clean(["faces", "ghost_faces", *self._arrays])
         return report
 

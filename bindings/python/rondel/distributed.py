@@ -181,7 +181,7 @@ class DistributedTriangulation:
         ----------
         threads : int, optional
             The largest number of threads of this rank; by default its share of the cores.
-        progress : callable, optional
+        progress : callable or bool, optional
             Called as ``progress(stage, fraction)``, as in `delaunay`.
 
         Returns
@@ -254,7 +254,7 @@ def delaunay(
     threads : int, optional
         The largest number of threads of this rank; by default its share of the cores of the
         machine.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)`` with the stages of this rank, 'triangulate' and
         'join'. An exception that it raises ends the work on all ranks, even in its last call.
 

@@ -81,8 +81,9 @@ def from_points(
         since models divide by the length of the edge there, which is 0.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)``; an exception that it raises ends the work.
+        True shows a `ProgressBar`.
 
     Returns
     -------
@@ -247,7 +248,7 @@ def scvt(
         obtuse, or cells have other than 5, 6 or 7 sides; by default True.
     threads : int, optional
         The largest number of threads; by default one for each core.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)`` with the name of the stage and an estimate of the
         fraction of all work that is done. An exception that it raises ends the work.
 

@@ -110,7 +110,7 @@ def delaunay(
         Go on with what a run that ended early left in the scratch directory.
     threads : int, optional
         At most so many work; one for each core by default.
-    progress : callable, optional
+    progress : callable or bool, optional
         Called as ``progress(stage, fraction)`` with the stages 'count', 'scatter', 'triangulate',
         'join' and 'write', and 'group' for a Zarr group. If it raises, the run ends and can be
         resumed, as after Ctrl-C.

@@ -130,3 +130,44 @@ def test_calls_take_it():
     assert len(tri.simplices) == 599_996
     assert re.search(r"\[[#.]{24}\] \w+ \d+ %", out.getvalue())
     assert out.getvalue().endswith("\r\x1b[K")
+
+
+@pytest.fixture
+def bars(monkeypatch):
+    """The bars that are made, whose lines go into a text."""
+    made = []
+
+    class Bar(rondel.ProgressBar):
+        def __init__(self):
+            super().__init__(file=io.StringIO())
+            self._next = 0.0  # without the wait
+            made.append(self)
+
+    monkeypatch.setattr(rondel, "ProgressBar", Bar)
+    monkeypatch.setattr(module, "ProgressBar", Bar)
+    return made
+
+
+def test_true_makes_a_bar_for_the_call(bars):
+    rondel.delaunay(clouds.uniform(300_000), threads=1, progress=True)
+    (bar,) = bars
+    assert re.search(r"\[[#.]{24}\] \w+ \d+ %", bar._file.getvalue())
+    assert bar._file.getvalue().endswith("\r\x1b[K")
+
+
+def test_true_removes_the_bar_of_a_call_that_fails(bars, monkeypatch):
+    def stop(self, stage, fraction):
+        rondel.ProgressBar.__mro__[1].__call__(self, stage, fraction)
+        raise KeyError(stage)
+
+    monkeypatch.setattr(rondel.ProgressBar, "__call__", stop)
+    with pytest.raises(KeyError):
+        rondel.delaunay(clouds.uniform(300_000), threads=1, progress=True)
+    assert bars[0]._file.getvalue().endswith("\r\x1b[K")
+
+
+def test_false_is_none(bars):
+    points = clouds.uniform(300)
+    tri = rondel.delaunay(points, progress=False)
+    assert (tri.simplices == rondel.delaunay(points).simplices).all()
+    assert not bars

@@ -291,6 +291,15 @@ def test_a_run_that_fails_leaves_nothing(zarr, tmp_path, monkeypatch):
     assert sorted(os.listdir(tmp_path)) == ["sites.npy", "text.npy"]
 
 
+@pytest.mark.parametrize("progress", [True, False])
+def test_progress_may_be_true_or_false(zarr, tmp_path, progress):
+    points = clouds.uniform(300)
+    np.save(tmp_path / "sites.npy", points)
+    run(tmp_path, progress=progress)
+    tri = rondel.delaunay(points)
+    expect_content(tmp_path / "mesh.zarr", tri, tri.points, tri.lonlat)
+
+
 def test_sites_that_change_meanwhile(zarr, tmp_path):
     def change(stage, _):
         if stage == "group":
