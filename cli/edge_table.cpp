@@ -47,6 +47,9 @@ std::string text_of(const std::string& path) {
 
 EdgeTable read_edge_table(const std::string& path, std::size_t num_sites) {
   const std::string text = text_of(path);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw FileError(path + ": the file is empty");
+  }
   EdgeTable table;
   std::size_t begin = 0;
   for (std::size_t number = 1; begin < text.size(); ++number) {

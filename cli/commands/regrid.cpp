@@ -97,8 +97,9 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
           },
           "conservative (default): means over cells; conservative-2nd: with gradients;\n"
           "largest-share: the most frequent value (default for fields with flag_values or\n"
-          "flag_meanings); nearest, linear, laplace, sibson, hermite, cubic: between the\n"
-          "centers; bilinear: on a grid along axes; native: in the cells of the mesh itself")
+          "flag_meanings, of which conservative, if it is named, makes means); nearest, linear,\n"
+          "laplace, sibson, hermite, cubic: between the centers; bilinear: on a grid along axes;\n"
+          "native: in the cells of the mesh itself")
       ->check(one_of(keys_of(named_values<FieldMethod>())))
       ->type_name("WORD");
   const auto is_of_cells = [&options] {
@@ -122,7 +123,7 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       "--limiter",
       [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
       "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
-      "and the integral is kept");
+      "and the integral over what has values is kept");
   parser.get_option("--limiter")->check(one_of({"none", "bounds"}))->type_name("WORD");
   require_effect(
       options.common, limiter,

@@ -136,7 +136,9 @@ RONDEL_API Weights weights_with_values(const Remap& remap, std::span<const std::
 /// Multiplies fields by the weights, as apply() does, and limits the result of order 2: no value is
 /// outside of the bounds of the sources that its target touches, and the integral stays that of the
 /// weights (clip and assured sum: Bradley et al., SIAM J. Sci. Comput. 41, 2019). What clipping takes
-/// away is given to all targets, in proportion to the room that their bounds leave.
+/// away is given to all targets, in proportion to the room that their bounds leave. Where sources have no
+/// value the integral is that over the others, for which remap.weights should be those of
+/// weights_with_values().
 /// \param in  shape (num_fields, sources); NaN is missing
 /// \param out  shape (num_fields, targets)
 /// \throws InvalidInput as apply() does

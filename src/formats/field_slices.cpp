@@ -8,6 +8,7 @@
 #include "formats/field_slices.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -26,13 +27,20 @@
 namespace rondel::formats {
 namespace {
 
+// True if an attribute says how numbers are stored in a file. A text may say so, too.
+bool is_of_storage(std::string_view name) {
+  constexpr std::array<std::string_view, 5> names = {"scale_factor", "add_offset", "valid_min",
+                                                     "valid_max", "valid_range"};
+  return std::ranges::find(names, name) != names.end();
+}
+
 // Returns the texts that still hold for values at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(
     std::span<const io::NetcdfAttribute> attributes) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
-    if (!is_attribute_of_places(attribute.name) && !attribute.text.empty())
-      kept.emplace_back(attribute.name, attribute.text);
+    if (is_attribute_of_places(attribute.name) || is_of_storage(attribute.name)) continue;
+    if (!attribute.text.empty()) kept.emplace_back(attribute.name, attribute.text);
   }
   return kept;
 }

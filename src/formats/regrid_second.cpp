@@ -29,6 +29,24 @@ SecondOrder::SecondOrder(Remap remap, std::vector<std::int32_t> covered, bool is
   remap_.weights = with_rows(remap_.weights, covered_);
 }
 
+// Returns for each target whether it is covered, and enough of what covers it has values, by area: weights
+// of order 2 are no shares. Areas that should be equal may differ in their last bits.
+std::vector<std::int32_t> SecondOrder::with_enough(std::span<const std::int32_t> has_value,
+                                                   double max_missing) const {
+  constexpr double rounding = 0x1p-40;
+  std::vector<std::int32_t> enough = covered_;
+  for (std::size_t j = 0; j < enough.size(); ++j) {
+    double all = 0;
+    double missing = 0;
+    for (std::uint64_t k = remap_.pieces.offsets[j]; k < remap_.pieces.offsets[j + 1]; ++k) {
+      all += remap_.areas[k];
+      if (has_value[remap_.pieces.values[k]] == 0) missing += remap_.areas[k];
+    }
+    if (missing > max_missing * all * (1 + rounding)) enough[j] = 0;
+  }
+  return enough;
+}
+
 // Applies the weights that are in use, to fields that they are for.
 void SecondOrder::apply_fields(std::span<const double> in, std::span<double> out,
                                const ApplyOptions& rules, const Execution& execution) const {
@@ -46,6 +64,8 @@ void SecondOrder::apply(std::span<const double> in, std::span<double> out,
                         const ApplyOptions& rules, const Execution& execution) {
   const std::size_t sources = remap_.source_areas.size();
   const std::size_t targets = remap_.target_areas.size();
+  ApplyOptions of_rows = rules;
+  of_rows.max_missing = 1;  // rows of which too much is missing have no entries
   // Fields that lack values in the same sources are carried together.
   while (!in.empty()) {
     std::vector<std::int32_t> has_value = values_that_are_there(in.first(sources));
@@ -59,10 +79,11 @@ void SecondOrder::apply(std::span<const double> in, std::span<double> out,
       remap_.weights = {};  // before there are others
       remap_.weights = has_value.empty()
                            ? std::move(whole_)
-                           : with_rows(weights_with_values(remap_, has_value, execution), covered_);
+                           : with_rows(weights_with_values(remap_, has_value, execution),
+                                       with_enough(has_value, rules.max_missing));
       has_value_ = std::move(has_value);
     }
-    apply_fields(in.first(count * sources), out.first(count * targets), rules, execution);
+    apply_fields(in.first(count * sources), out.first(count * targets), of_rows, execution);
     in = in.subspan(count * sources);
     out = out.subspan(count * targets);
   }

@@ -28,6 +28,8 @@ class SecondOrder {
              const Execution& execution);
 
  private:
+  [[nodiscard]] std::vector<std::int32_t> with_enough(std::span<const std::int32_t> has_value,
+                                                      double max_missing) const;
   void apply_fields(std::span<const double> in, std::span<double> out, const ApplyOptions& rules,
                     const Execution& execution) const;
 

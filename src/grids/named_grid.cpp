@@ -77,7 +77,8 @@ double whole_steps(double angle, std::string_view text) {
 // Returns the grid that the text after "grid:" describes.
 GlobalGrid global_grid(std::string_view text, std::string_view name) {
   constexpr const char* why =
-      "grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has NLON by NLAT cells";
+      "grid:DEG divides 180 degrees into equal parts, at most 1000000 of them, grid:NLONxNLAT has "
+      "NLON by NLAT cells";
   if (const std::size_t cross = text.find('x'); cross != std::string_view::npos) {
     const auto num_lon = number_of(text.substr(0, cross));
     const auto num_lat = number_of(text.substr(cross + 1));
@@ -125,8 +126,20 @@ struct IcosahedronParts {
   unsigned bisections;
 };
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// True for "R2B6", with any numbers.
+bool names_icosahedron(std::string_view text) {
+  const std::size_t b = text.find('B');
+  return text.starts_with('R') && b != std::string_view::npos && is_digits(text.substr(1, b - 1)) &&
+         is_digits(text.substr(b + 1));
+}
+
 // Returns what "R2B6" says; the text may be a part of the name.
 IcosahedronParts icosahedron_parts(std::string_view text, std::string_view name) {
+  if (!names_icosahedron(text)) refuse(name, "hexagons:R2B6 is such a name, with any numbers");
   const std::size_t b = text.find('B');
   const std::uint64_t root =
       number_in(text.substr(1, b - 1), 1, max_root, name, "the division of the sides");
@@ -184,17 +197,6 @@ std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides 
   }
 }
 
-bool is_digits(std::string_view text) {
-  return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-}
-
-// True for "R2B6", with any numbers.
-bool names_icosahedron(std::string_view text) {
-  const std::size_t b = text.find('B');
-  return text.starts_with('R') && b != std::string_view::npos && is_digits(text.substr(1, b - 1)) &&
-         is_digits(text.substr(b + 1));
-}
-
 }  // namespace
 
 std::string grid_named_by(const GridMapping& attributes) {
@@ -225,10 +227,9 @@ std::string grid_named_by(const GridMapping& attributes) {
 }
 
 bool NamedGrid::is_name(std::string_view text) {
-  for (const std::string_view kind : {global_kind, healpix_kind, tripolar_kind}) {
+  for (const std::string_view kind : {global_kind, healpix_kind, hexagon_kind, tripolar_kind}) {
     if (text.starts_with(kind)) return true;
   }
-  if (text.starts_with(hexagon_kind)) return names_icosahedron(text.substr(hexagon_kind.size()));
   if (text.size() < 2 || names_icosahedron(text)) return text.size() >= 2;
   const std::string_view rest = text.substr(1);
   return std::string_view("FNOC").find(text.front()) != std::string_view::npos && is_digits(rest);

@@ -28,26 +28,18 @@ struct ValueBounds {
 // Limits one field after another.
 class FieldLimiter {
  public:
-  explicit FieldLimiter(const Remap& remap) : remap_(remap) {
-    for (std::size_t j = 0; j < remap.target_areas.size(); ++j) {
-      covered_.push_back(remap.target_areas[j] * remap.target_fractions[j]);
-    }
-  }
+  FieldLimiter(const Remap& remap, bool keeps_sums) : remap_(remap), keeps_sums_(keeps_sums) {}
 
   // `values` at targets become limited; NaN stays.
   void limit(std::span<const double> sources, std::span<double> values) {
     find_bounds(sources);
-    // With destarea a value counts 0 for what is not covered; bounds are those of what is.
-    const bool is_of_covered = remap_.norm == RemapNorm::fracarea;
-    const auto share = [&](std::size_t j) {
-      return is_of_covered ? 1 : remap_.target_fractions[j];
-    };
+    find_parts(sources);
     exact::DoubleDouble lost{};  // the integral that clipping has taken away
     for (std::size_t j = 0; j < values.size(); ++j) {
       if (!has_value(values, j)) continue;
       const double mean = values[j] / share(j);
       const double clipped = std::clamp(mean, bounds_[j].low, bounds_[j].high);
-      add_term(covered_[j] * (mean - clipped), lost);
+      add_term(area_with_values(j) * (mean - clipped), lost);
       values[j] = clipped;
     }
     give_back(lost.hi + lost.lo, values);
@@ -57,13 +49,38 @@ class FieldLimiter {
   }
 
  private:
+  // A value is this part of the mean over the sources that have values, which the bounds are those of.
+  [[nodiscard]] double share(std::size_t j) const {
+    const double covered = remap_.norm == RemapNorm::fracarea ? 1 : remap_.target_fractions[j];
+    return keeps_sums_ ? covered * parts_[j] : covered;
+  }
+  [[nodiscard]] double area_with_values(std::size_t j) const {
+    return remap_.target_areas[j] * remap_.target_fractions[j] * std::max(parts_[j], 0.0);
+  }
   [[nodiscard]] bool has_value(std::span<const double> values, std::size_t j) const {
-    return !std::isnan(values[j]) && bounds_[j].low <= bounds_[j].high && covered_[j] > 0;
+    return !std::isnan(values[j]) && bounds_[j].low <= bounds_[j].high &&
+           remap_.target_fractions[j] > 0 && (parts_[j] > 0 || !keeps_sums_);
+  }
+
+  // Finds which part of what sources cover of each target is covered by sources that have values: as
+  // apply() does, by the weights.
+  void find_parts(std::span<const double> sources) {
+    parts_.assign(remap_.target_areas.size(), 1);
+    const Weights& weights = remap_.weights;
+    for (std::size_t j = 0; j < parts_.size(); ++j) {
+      double present = 0;
+      double all = 0;
+      for (std::uint64_t k = weights.offsets[j]; k < weights.offsets[j + 1]; ++k) {
+        all += weights.values[k];
+        if (!std::isnan(sources[weights.columns[k]])) present += weights.values[k];
+      }
+      if (present != all) parts_[j] = present / all;
+    }
   }
 
   void find_bounds(std::span<const double> sources) {
-    bounds_.assign(covered_.size(), {});
-    for (std::size_t j = 0; j < covered_.size(); ++j) {
+    bounds_.assign(remap_.target_areas.size(), {});
+    for (std::size_t j = 0; j < bounds_.size(); ++j) {
       for (std::uint64_t k = remap_.pieces.offsets[j]; k < remap_.pieces.offsets[j + 1]; ++k) {
         const double value = sources[remap_.pieces.values[k]];
         if (std::isnan(value)) continue;
@@ -82,7 +99,7 @@ class FieldLimiter {
     };
     exact::DoubleDouble all{};
     for (std::size_t j = 0; j < values.size(); ++j) {
-      if (has_value(values, j)) add_term(covered_[j] * room(j), all);
+      if (has_value(values, j)) add_term(area_with_values(j) * room(j), all);
     }
     const double of_all = all.hi + all.lo;
     if (of_all == 0) return;
@@ -94,8 +111,9 @@ class FieldLimiter {
   }
 
   const Remap& remap_;
-  std::vector<double> covered_;  // the area of each target that sources cover
+  bool keeps_sums_;
   std::vector<ValueBounds> bounds_;
+  std::vector<double> parts_;
 };
 
 }  // namespace
@@ -110,8 +128,8 @@ void apply_limited(const Remap& remap, std::span<const double> in, std::span<dou
   const std::size_t num_sources = remap.weights.num_columns;
   const std::size_t num_targets = remap.weights.num_rows();
   system::parallel_for(execution.threads, num_fields, 1, [&](std::size_t f, std::size_t /*end*/) {
-    FieldLimiter(remap).limit(in.subspan(f * num_sources, num_sources),
-                              out.subspan(f * num_targets, num_targets));
+    FieldLimiter(remap, options.keeps_sums)
+        .limit(in.subspan(f * num_sources, num_sources), out.subspan(f * num_targets, num_targets));
   });
   for (double& value : out) {
     if (std::isnan(value)) value = options.fill;

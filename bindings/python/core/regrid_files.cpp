@@ -56,7 +56,8 @@ void add_regrid_files(nb::module_& module) {
          const std::string& statistics, nb::handle weigh_by, nb::handle corners,
          const std::optional<std::string>& extrapolate, std::optional<double> max_distance_km,
          unsigned num_sources, unsigned exponent, unsigned levels,
-         const std::vector<std::pair<std::string, std::string>>& vectors, bool resume) {
+         const std::vector<std::pair<std::string, std::string>>& vectors, bool resume,
+         bool is_limited) {
         RegridFileOptions options;
         options.names = names;
         if (source) options.source = FileName{*source, {}};
@@ -81,6 +82,7 @@ void add_regrid_files(nb::module_& module) {
         options.netcdf.deflate = deflate;
         options.history = history;
         options.resume = resume;
+        options.is_limited = is_limited;
         if (!statistics.empty()) options.statistics = zonal_statistics_of(statistics);
         options.statistic_weights = named<ZonalWeights>("weigh_by", weigh_by);
         return options;
@@ -91,7 +93,7 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
       nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
       nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("vectors"),
-      nb::arg("resume"));
+      nb::arg("resume"), nb::arg("is_limited"));
   module.def(
       "regrid_file",
       [](const std::string& in, const std::string& target, const std::string& out,

@@ -18,6 +18,7 @@ from ._coordinates import (
     lies_elsewhere,
     mappings,
     parts_of_grids,
+    topologies,
 )
 from ._errors import warn_caller
 from ._places import Places
@@ -131,7 +132,8 @@ def carried(
         for name, array in fields.items()
         if _is_field(array, source) and not source.is_away(data, name)
     }
-    lost_names = {*own_names, *map(str, mappings(data))}
+    lost_names = {*own_names, *map(str, mappings(data)), *topologies(data)}
+    lost_names -= _bounds_of_others(data, own_names)
     rest = data.drop_vars([name for name in lost_names if name in data.variables])
     rest = rest.drop_dims(source.dims, errors="ignore")
     whole = _without_other_places(rest, data, wanted)
@@ -298,6 +300,13 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
         if names:
             warn_caller(f"left out, {why}: {', '.join(names)}")
     return rest.drop_vars([*away, *elsewhere, *taken]).drop_dims(others)
+
+
+def _bounds_of_others(data: xarray.Dataset, own_names: set[str]) -> set[str]:
+    """The variables that are bounds of what does not depend on place, such as a time."""
+    lost = own_names | at_places(data)
+    others = [item for name, item in data.variables.items() if str(name) not in lost]
+    return {str({**item.encoding, **item.attrs}.get("bounds")) for item in others}
 
 
 def _is_same_dimension(rest: xarray.Dataset, dim: Any, size: int, index: Any) -> bool:

@@ -18,6 +18,7 @@ from ._types import Progress
 # The names of `Regridder` for the methods of `regrid_file`. Categories are told by the fields.
 _OF_REGRIDDER = {
     "conservative": "conservative_normed",
+    "conservative_2nd": "conservative_2nd_normed",
     "largest_share": "conservative_normed",
     "nearest": "nearest_s2d",
 }

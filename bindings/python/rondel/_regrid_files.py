@@ -74,6 +74,7 @@ def regrid_file(
     source: Path | None = None,
     method: FieldMethod | None = None,
     norm: Literal["destarea", "fracarea"] = "fracarea",
+    limiter: Literal["none", "bounds"] = "none",
     max_missing: float = 0.5,
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
@@ -123,6 +124,9 @@ def regrid_file(
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.
+    limiter : {'none', 'bounds'}, optional
+        With 'bounds' no value of 'conservative_2nd' is beyond those of its sources, and the
+        integral is kept. It needs the weights of all targets at a time.
     max_missing : float, optional
         The share of a target that may lack values, from 0 to 1; by default 0.5.
     sides : {'parallels', 'great_circles'}, optional
@@ -202,6 +206,7 @@ def regrid_file(
         source=source,
         method=method,
         norm=norm,
+        limiter=limiter,
         max_missing=max_missing,
         sides=sides,
         edges=edges,
@@ -246,6 +251,7 @@ def as_options(
     source: Path | None = None,
     method: FieldMethod | None = None,
     norm: Literal["destarea", "fracarea"] = "fracarea",
+    limiter: Literal["none", "bounds"] = "none",
     max_missing: float = 0.5,
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
@@ -267,6 +273,8 @@ def as_options(
     resume: bool = False,
 ) -> _core.RegridFileOptions:
     """The options of `regrid_file`, as the library has them."""
+    if limiter not in ("none", "bounds"):
+        raise ValueError(f"limiter must be 'none' or 'bounds', not {limiter!r}")
     require_limits(
         extrapolate,
         "extrapolate",
@@ -301,4 +309,5 @@ def as_options(
         extrapolate_levels,
         [(east, north) for east, north in vectors],
         bool(resume),
+        limiter == "bounds",
     )

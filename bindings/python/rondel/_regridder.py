@@ -31,6 +31,7 @@ RegridMethod: TypeAlias = Literal[
     "conservative",
     "conservative_normed",
     "conservative_2nd",
+    "conservative_2nd_normed",
     "nearest_s2d",
     "nearest_d2s",
     "linear",
@@ -44,6 +45,7 @@ _CONSERVATIVE: dict[str, tuple[int, Literal["destarea", "fracarea"]]] = {
     "conservative": (1, "destarea"),
     "conservative_normed": (1, "fracarea"),
     "conservative_2nd": (2, "destarea"),
+    "conservative_2nd_normed": (2, "fracarea"),
 }
 _INTERPOLATING = ("linear", "laplace", "sibson", "hermite", "cubic")
 _METHODS = ("bilinear", *_CONSERVATIVE, "nearest_s2d", "nearest_d2s", *_INTERPOLATING, "native")
@@ -70,10 +72,12 @@ class Regridder(Described):
         cells with a missing corner, are left out with a warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
-        'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' or 'cubic' as in
-        `SphericalDelaunay.weights`. Unless the source has axes, 'bilinear' means 'linear'. With
-        'native' values are interpolated in the cells of the mesh of `ds_in` (`native_weights`): a
-        Dataset with a mesh of UGRID, MPAS, ICON, ESMF or Exodus, whose nodes or faces `lon` and
+        'nearest_d2s' as in ESMF; 'conservative_2nd_normed', whose weights are divided by the
+        covered part of a target, as those of 'conservative_normed' are; or 'linear', 'laplace',
+        'sibson', 'hermite' or 'cubic' as in `SphericalDelaunay.weights`. Unless the source has
+        axes, 'bilinear' means 'linear'. With 'native' values are interpolated in the cells of the
+        mesh of `ds_in` (`native_weights`): a Dataset with a mesh of UGRID, MPAS, ICON, ESMF or
+        Exodus, whose nodes or faces `lon` and
         `lat` are, or a `CellSet`, with values at its cells.
     locstream_in, locstream_out : bool, optional
         Whether a dictionary or tuple has the coordinates of points instead of axes; by default

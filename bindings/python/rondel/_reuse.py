@@ -220,13 +220,12 @@ def _methods_of(text: str, norm: str, are_axes: bool) -> Any:
     words = text.lower().split(_EXTRAPOLATED)[0]
     is_second = any(word in words for word in ("second", "2nd", "higher", "order 2"))
     first = re.split(r"[^a-z0-9_]", words)[0]
-    if first in ("conservative_normed", "conservative_2nd", "nearest_d2s", "nearest_s2d"):
+    if first in ("conservative_normed", "conservative_2nd_normed", "nearest_d2s", "nearest_s2d"):
         return (first,)
     if "conserv" in words:
-        if is_second:
-            return ("conservative_2nd",)
-        known = {"destarea": ("conservative",), "fracarea": ("conservative_normed",)}
-        return known.get(norm, ("conservative", "conservative_normed"))
+        plain = "conservative_2nd" if is_second else "conservative"
+        known = {"destarea": (plain,), "fracarea": (f"{plain}_normed",)}
+        return known.get(norm, (plain, f"{plain}_normed"))
     if "distance weighted" in words:  # what programs write for many methods
         return None
     if any(word in words for word in ("d2s", "dtos", "destination to source")):

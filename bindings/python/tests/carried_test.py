@@ -267,3 +267,38 @@ def test_what_is_on_other_parts_of_a_mesh_is_told(carry):
         "left out, as they are at other places than the source: of_edges, u, said"
     ]
     assert list(found.data_vars) == ["t", "series", "time_bnds"]
+
+
+@WAYS
+@pytest.mark.parametrize("attribute", ["bounds", "climatology"])
+def test_bounds_of_times_stay(carry, attribute):
+    bounds = np.stack([np.arange(2) - 0.5, np.arange(2) + 0.5], axis=1)
+    data = dataset(
+        time_bnds=(("time", "two"), bounds),
+        lat_bnds=(("lat", "two"), np.stack([LAT - 7.5, LAT + 7.5], axis=1)),
+    )
+    data.time.attrs[attribute] = "time_bnds"
+    data.lat.attrs["bounds"] = "lat_bnds"
+    found = carry(data)
+    np.testing.assert_array_equal(found.time_bnds, bounds)
+    assert found.time_bnds.dims == ("time", "two")
+    assert "lat_bnds" not in found.variables
+
+
+@WAYS
+def test_a_mesh_that_is_left_is_not_named(carry):
+    lon, lat = np.meshgrid(LON, LAT)
+    topology = {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "nx ny"}
+    data = xarray.Dataset(
+        {
+            "mesh": ((), 0, topology | {"face_coordinates": "fx fy"}),
+            "t": ("face", lat.ravel(), {"mesh": "mesh", "location": "face"}),
+        },
+        {
+            "fx": ("face", lon.ravel(), {"units": "degrees_east"}),
+            "fy": ("face", lat.ravel(), {"units": "degrees_north"}),
+        },
+    )
+    found = data.pipe(carry)
+    assert "mesh" not in found.variables
+    assert not {"mesh", "location"} & set(found.t.attrs)

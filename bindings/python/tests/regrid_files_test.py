@@ -354,3 +354,85 @@ def test_targets_lack_what_no_source_covers(tmp_path):
             np.testing.assert_allclose(found.one, out.one, rtol=1e-15)
     partly = rondel.Regridder(data, "grid:30", "conservative_normed")(data.one)
     assert np.isfinite(partly).sum() == 4
+
+
+@pytest.mark.parametrize("target", ["grid:9", "healpix:2", "hexagons:R2B2"])
+@pytest.mark.parametrize("method", ["conservative", "conservative_2nd"])
+def test_constants_are_kept_at_the_border_of_a_region(tmp_path, method, target):
+    lon, lat = np.arange(1.0, 60, 2), np.arange(1.0, 40, 2)
+    places = {
+        "lat": ("lat", lat, {"units": "degrees_north"}),
+        "lon": ("lon", lon, {"units": "degrees_east"}),
+    }
+    data = xarray.Dataset({"warm": (("lat", "lon"), np.full((20, 30), 280.0))}, places)
+    data.to_netcdf(tmp_path / "in.nc")
+    rondel.regrid_file(tmp_path / "in.nc", target, tmp_path / "out.nc", method=method)
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        wanted = file.warm.values
+    found = rondel.regrid(data, target, method).warm.values
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
+    assert np.isfinite(found).any()
+    np.testing.assert_allclose(found[np.isfinite(found)], 280, rtol=1e-12)
+
+
+def test_a_text_that_packs_numbers_is_not_applied_twice(made, tmp_path):
+    _, data = made
+    data = data.isel(time=0, drop=True)
+    data.warm.attrs |= {"scale_factor": "0.5", "add_offset": "273"}
+    data.to_netcdf(tmp_path / "in.nc")
+    rondel.regrid_file(tmp_path / "in.nc", "grid:10", tmp_path / "once.nc")
+    rondel.regrid_file(tmp_path / "once.nc", "grid:10", tmp_path / "twice.nc")
+    for name in ("once.nc", "twice.nc"):
+        with xarray.open_dataset(tmp_path / name) as found:
+            wanted = np.roll(273 + 0.5 * data.warm, 18, axis=1)  # from -180 degrees on
+            np.testing.assert_allclose(found.warm, wanted, rtol=1e-12)
+            assert "scale_factor" not in {**found.warm.attrs, **found.warm.encoding}
+
+
+@pytest.mark.parametrize("more", [{}, {"tile": 40}, {"limiter": "bounds"}])
+@pytest.mark.parametrize("max_missing", [0.0, 0.3, 0.5, 1.0])
+def test_targets_are_missing_by_area_with_gradients_as_well(made, tmp_path, more, max_missing):
+    _, data = made
+    gaps = np.random.default_rng(3).random(data.warm.shape) < 0.3
+    # No target is covered by halves, which rounding would decide.
+    data.warm.where(~gaps).assign_coords(lon=data.lon + 0.3).to_netcdf(tmp_path / "in.nc")
+    found = {}
+    for method, options in (("conservative", {}), ("conservative_2nd", more)):
+        out = tmp_path / f"{method}.nc"
+        rondel.regrid_file(
+            tmp_path / "in.nc", "grid:31x16", out, method=method, max_missing=max_missing, **options
+        )
+        with xarray.open_dataset(out) as file:
+            found[method] = file.warm.isnull().values
+    assert 0 < found["conservative"].sum() < found["conservative"].size
+    np.testing.assert_array_equal(found["conservative_2nd"], found["conservative"])
+
+
+@pytest.mark.parametrize("norm", ["destarea", "fracarea"])
+def test_the_limiter_keeps_constants_and_integrals_where_values_are_missing(made, tmp_path, norm):
+    _, data = made
+    values = np.full((18, 36), 7.0)
+    values[np.random.default_rng(3).random(values.shape) < 0.3] = np.nan
+    data["seven"] = (("lat", "lon"), values)
+    data[["seven"]].to_netcdf(tmp_path / "in.nc")
+    found = {}
+    for limiter in ("none", "bounds"):
+        out = tmp_path / f"{limiter}.nc"
+        rondel.regrid_file(
+            tmp_path / "in.nc",
+            "grid:20",
+            out,
+            method="conservative_2nd",
+            norm=norm,
+            max_missing=1.0,
+            limiter=limiter,
+        )
+        with xarray.open_dataset(out) as file:
+            found[limiter] = file.seven.values
+    np.testing.assert_allclose(found["bounds"], found["none"], rtol=1e-13)
+    if norm == "destarea":
+        areas = rondel.CellSet.named("grid:20").areas.reshape(9, 18)
+        wanted = np.nansum(values.ravel() * rondel.CellSet.named("grid:10").areas)
+        assert abs(np.nansum(found["bounds"] * areas) - wanted) < 1e-12 * wanted
+    with pytest.raises(ValueError, match="limiter must be 'none' or 'bounds', not 'both'"):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:20", tmp_path / "o.nc", limiter="both")

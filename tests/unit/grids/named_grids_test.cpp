@@ -158,11 +158,11 @@ TEST(named_grids, have_published_numbers_of_cells) {
 
 TEST(named_grids, names_are_told_from_files) {
   for (const char* name :
-       {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4", "hexagons:R2B4", "tripolar:x"}) {
+       {"grid:1", "healpix:x", "N7", "O1", "F5", "C3", "R2B4", "hexagons:2", "tripolar:x"}) {
     EXPECT_TRUE(NamedGrid::is_name(name)) << name;
   }
   for (const char* name : {"", "N", "N3.nc", "R2", "R2B", "RB4", "grid", "C3.csv", "healpix", "n32",
-                           "hexagons:C3", "hexagons:2", "tripolar"}) {
+                           "hexagons", "tripolar"}) {
     EXPECT_FALSE(NamedGrid::is_name(name)) << name;
   }
 }
@@ -199,10 +199,14 @@ TEST(named_grids, refuse_what_is_none) {
   EXPECT_EQ(why("healpix:3:rings"), "'healpix:3:rings' is no grid: the order is nested or ring");
   EXPECT_EQ(
       why("grid:7"),
-      "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT has "
-      "NLON by NLAT cells");
+      "'grid:7' is no grid: grid:DEG divides 180 degrees into equal parts, at most 1000000 of "
+      "them, grid:NLONxNLAT has NLON by NLAT cells");
   EXPECT_EQ(why("R2B15"), "'R2B15' is no grid: it has too many cells");
   EXPECT_EQ(why("hexagons:R2B15"), "'hexagons:R2B15' is no grid: it has too many cells");
+  for (const char* const name : {"hexagons:", "hexagons:2B2", "hexagons:r2b2", "hexagons:R2B"}) {
+    EXPECT_EQ(why(name), "'" + std::string(name) +
+                             "' is no grid: hexagons:R2B6 is such a name, with any numbers");
+  }
   for (const char* const name :
        {"tripolar:7", "tripolar:40", "tripolar:-1", "tripolar:x", "tripolar:0.001"}) {
     EXPECT_EQ(why(name), "'" + std::string(name) +

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rondel/error.h"
+#include "rondel/named_grids.h"
 #include "rondel/remap.h"
 #include "unit/overlay/support.h"
 
@@ -22,16 +23,33 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// The integral over what sources cover of the targets that have values.
-long double integral_of(const Remap& remap, const std::vector<double>& values) {
+// The area of a target that sources with values cover.
+long double area_with_values(const Remap& remap, const std::vector<double>& sources,
+                             std::size_t j) {
+  long double area = 0;
+  for (auto k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+    if (!std::isnan(sources[remap.pieces.values[k]])) area += remap.areas[k];
+  }
+  return area;
+}
+
+// What a value of the target is of the mean over the sources that have values.
+double share_of(const Remap& remap, const std::vector<double>& sources, bool keeps_sums,
+                std::size_t j) {
+  const double covered = remap.target_areas[j] * remap.target_fractions[j];
+  const double part =
+      keeps_sums ? static_cast<double>(area_with_values(remap, sources, j)) / covered : 1;
+  return remap.norm == RemapNorm::fracarea ? part : part * remap.target_fractions[j];
+}
+
+// The integral over what sources with values cover of the targets that have values.
+long double integral_of(const Remap& remap, const std::vector<double>& sources,
+                        const std::vector<double>& values, bool keeps_sums) {
   long double sum = 0;
   for (std::size_t j = 0; j < values.size(); ++j) {
     if (std::isnan(values[j])) continue;
-    const long double area =
-        remap.norm == RemapNorm::fracarea
-            ? static_cast<long double>(remap.target_areas[j]) * remap.target_fractions[j]
-            : remap.target_areas[j];
-    sum += area * values[j];
+    const long double mean = values[j] / share_of(remap, sources, keeps_sums, j);
+    sum += area_with_values(remap, sources, j) * mean;
   }
   return sum;
 }
@@ -50,8 +68,8 @@ BoundsOfTarget bounds_of(const Remap& remap, const std::vector<double>& sources,
   return bounds;
 }
 
-void expect_limited(const Remap& remap, const std::vector<double>& sources, double max_missing) {
-  const ApplyOptions options{.max_missing = max_missing};
+void expect_limited(const Remap& remap, const std::vector<double>& sources,
+                    const ApplyOptions& options) {
   std::vector<double> plain(remap.target_areas.size());
   std::vector<double> limited(remap.target_areas.size());
   apply(remap.weights, sources, plain, 1, options);
@@ -61,7 +79,7 @@ void expect_limited(const Remap& remap, const std::vector<double>& sources, doub
   for (std::size_t j = 0; j < limited.size(); ++j) {
     ASSERT_EQ(std::isnan(plain[j]), std::isnan(limited[j])) << j;
     if (std::isnan(limited[j])) continue;
-    const double share = remap.norm == RemapNorm::fracarea ? 1 : remap.target_fractions[j];
+    const double share = share_of(remap, sources, options.keeps_sums, j);
     const auto [low, high] = bounds_of(remap, sources, j);
     const double rounding = 4e-16 * std::max(std::abs(low), std::abs(high));
     EXPECT_GE(limited[j], low * share - rounding) << j;
@@ -70,7 +88,10 @@ void expect_limited(const Remap& remap, const std::vector<double>& sources, doub
     largest = std::max(largest, std::abs(limited[j]));
   }
   EXPECT_GT(num_beyond, 0U);
-  EXPECT_NEAR(static_cast<double>(integral_of(remap, limited) - integral_of(remap, plain)), 0,
+  const auto integral = [&](const std::vector<double>& values) {
+    return integral_of(remap, sources, values, options.keeps_sums);
+  };
+  EXPECT_NEAR(static_cast<double>(integral(limited) - integral(plain)), 0,
               1e-14 * 4 * 3.2 * largest);
 }
 
@@ -79,14 +100,45 @@ TEST(overlay_limiter, bounds_and_integrals_are_kept) {
   for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
     const CellSet source = CellSet::voronoi(triangulation_of("uniform", 300, 1));
     const CellSet target = CellSet::voronoi(triangulation_of("uniform", 2000, 2));
-    const Remap remap = rondel::remap(source, target, {.order = 2, .norm = norm});
+    Remap remap = rondel::remap(source, target, {.order = 2, .norm = norm});
     std::vector<double> step(300);
     for (double& value : step) value = random() % 2 == 0 ? 0 : 1;
-    expect_limited(remap, step, 0);
+    expect_limited(remap, step, {});
     for (double& value : step) value = std::uniform_real_distribution<double>(-5, 9)(random);
-    expect_limited(remap, step, 0);
-    for (std::size_t i = 0; i < 300; i += 7) step[i] = no_value;
-    expect_limited(remap, step, 0.5);
+    expect_limited(remap, step, {});
+    std::vector<std::int32_t> has_value(300, 1);
+    for (std::size_t i = 0; i < 300; i += 3) {
+      step[i] = no_value;
+      has_value[i] = 0;
+    }
+    remap.weights = weights_with_values(remap, has_value);
+    for (const double max_missing : {0.3, 1.0}) {
+      expect_limited(remap, step, {.max_missing = max_missing});
+      expect_limited(remap, step, {.max_missing = max_missing, .keeps_sums = true});
+    }
+  }
+}
+
+// A constant with gaps is within its bounds, so that nothing is to limit.
+TEST(overlay_limiter, constants_with_gaps_stay) {
+  const CellSet source = NamedGrid("grid:10").cells();
+  const CellSet target = NamedGrid("grid:20").cells();
+  std::vector<double> values(source.num_cells(), 7);
+  std::vector<std::int32_t> has_value(values.size(), 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % 7 < 2) values[i] = no_value;
+    if (i % 7 < 2) has_value[i] = 0;
+  }
+  for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
+    Remap remap = rondel::remap(source, target, {.order = 2, .norm = norm});
+    remap.weights = weights_with_values(remap, has_value);
+    const ApplyOptions options{.max_missing = 1, .keeps_sums = norm == RemapNorm::destarea};
+    std::vector<double> limited(target.num_cells());
+    apply_limited(remap, values, limited, 1, options);
+    for (std::size_t j = 0; j < limited.size(); ++j) {
+      const double share = share_of(remap, values, options.keeps_sums, j);
+      EXPECT_NEAR(limited[j], 7 * share, 1e-13) << j;
+    }
   }
 }
 
@@ -99,7 +151,7 @@ TEST(overlay_limiter, parts_of_the_sphere_are_limited_as_well) {
   std::vector<double> values(source.num_cells());
   for (double& value : values) value = random() % 3 == 0 ? 4 : 1;
   for (const RemapNorm norm : {RemapNorm::destarea, RemapNorm::fracarea}) {
-    expect_limited(rondel::remap(source, target, {.order = 2, .norm = norm}), values, 0);
+    expect_limited(rondel::remap(source, target, {.order = 2, .norm = norm}), values, {});
   }
 }
 
