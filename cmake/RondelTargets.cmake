@@ -12,6 +12,11 @@ function(rondel_target_settings target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion
                                            -Wshadow)
+  # GCC collects its garbage once it has a gigabyte, which saves a seventh of the time and takes up to 1.7 GB.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(
+      ${target} PRIVATE "$<$<CONFIG:RelWithDebInfo>:--param=ggc-min-expand=1000;--param=ggc-min-heapsize=1000000>")
+  endif()
   # Where pointers have 32 bits, 64 of them are the offsets of results, which are the same everywhere, and
   # hashes and keys that were shifted to a position: both name elements of arrays that lie in memory.
   if(CMAKE_SIZEOF_VOID_P EQUAL 4)
