@@ -42,6 +42,20 @@ Extrapolation extrapolation_of(const std::string& word) {
   return *known;
 }
 
+void add_call(nb::module_& module) {
+  module.def(
+      "regrid_file",
+      [](const std::string& in, const std::string& target, const std::string& out,
+         const RegridFileOptions& options, unsigned threads, const nb::object& progress) {
+        constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
+        return watched(many, threads, progress, [&](const Execution& execution) {
+          return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
+        });
+      },
+      nb::arg("path"), nb::arg("target"), nb::arg("out"), nb::arg("options"), nb::arg("threads"),
+      nb::arg("progress").none());
+}
+
 }  // namespace
 
 void add_regrid_files(nb::module_& module) {
@@ -94,17 +108,7 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
       nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("vectors"),
       nb::arg("resume"), nb::arg("is_limited"));
-  module.def(
-      "regrid_file",
-      [](const std::string& in, const std::string& target, const std::string& out,
-         const RegridFileOptions& options, unsigned threads, const nb::object& progress) {
-        constexpr std::size_t many = std::size_t{1} << 20U;  // a file is worth watching
-        return watched(many, threads, progress, [&](const Execution& execution) {
-          return regrid_file({in, {}}, {target, {}}, {out, {}}, options, execution);
-        });
-      },
-      nb::arg("path"), nb::arg("target"), nb::arg("out"), nb::arg("options"), nb::arg("threads"),
-      nb::arg("progress").none());
+  add_call(module);
 }
 
 }  // namespace rondel::python
