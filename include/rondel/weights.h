@@ -50,8 +50,7 @@ struct ApplyOptions {
   /// with 1 one value is enough.
   double max_missing = 0;
   /// Whether the sum of the other values stays what it is: integrals are then those of the values that
-  /// are there, as RemapNorm::destarea has them. apply_largest_share() does not look
-  /// at it.
+  /// are there, as RemapNorm::destarea has them. apply_largest_share() does not look at it.
   bool keeps_sums = false;
 };
 

@@ -66,6 +66,7 @@ class FieldLimiter {
   // apply() does, by the weights.
   void find_parts(std::span<const double> sources) {
     parts_.assign(remap_.target_areas.size(), 1);
+    if (std::ranges::none_of(sources, [](double value) { return std::isnan(value); })) return;
     const Weights& weights = remap_.weights;
     for (std::size_t j = 0; j < parts_.size(); ++j) {
       double present = 0;

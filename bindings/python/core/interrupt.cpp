@@ -104,7 +104,7 @@ bool is_silent(const nb::object& progress) {
   return progress.is_none() || progress.ptr() == Py_False;
 }
 
-// What is told how far the work is: a function that was given, or a bar of its own, which goes with it.
+// The function that is told how far the work is: one that was given, or a bar that goes when this does.
 class Listener {
  public:
   explicit Listener(const nb::object& progress) {

@@ -33,7 +33,7 @@ long double area_with_values(const Remap& remap, const std::vector<double>& sour
   return area;
 }
 
-// What a value of the target is of the mean over the sources that have values.
+// The value of the target divided by the mean over the sources that have values.
 double share_of(const Remap& remap, const std::vector<double>& sources, bool keeps_sums,
                 std::size_t j) {
   const double covered = remap.target_areas[j] * remap.target_fractions[j];
