@@ -91,7 +91,7 @@ std::vector<LonLat> random_positions(std::size_t n) {
 TEST(write_triangles, and_cells_have_the_same_bytes_for_any_number_of_threads) {
   const TemporaryDirectory directory;
   SiteTable table;
-  table.sites = unit_vectors(random_positions(20000));
+  table.sites = unit_vectors(random_positions(is_shortened() ? 9000U : 20000U));
   std::vector<std::string> expected;
   for (const unsigned threads : thread_counts) {
     if (is_shortened() && threads != 1 && threads != 3) continue;
