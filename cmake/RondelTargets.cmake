@@ -47,6 +47,7 @@ endfunction()
 # shared library of those of the static one.
 function(rondel_library_settings target)
   rondel_target_settings(${target})
+  target_compile_options(${target} PRIVATE -Wpedantic)  # other compilers take no extensions of GNU's
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON

@@ -12,6 +12,7 @@
 #include "formats/field_layout.h"
 #include "io/bad_value.h"
 #include "io/number.h"
+#include "system/checked_product.h"
 
 namespace rondel::formats {
 namespace {
@@ -199,7 +200,7 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(
   for (std::size_t begin = 0; begin < rank; ++begin) {
     std::uint64_t product = 1;
     for (std::size_t end = begin + 1; end <= rank; ++end) {
-      if (__builtin_mul_overflow(product, shape[end - 1], &product)) break;
+      if (!system::multiply_checked(product, shape[end - 1], product)) break;
       if (product != num_points_) continue;
       const bool is_single = end == begin + 1;
       const std::string& name = file_.dimensions()[variable.dimensions[begin]].name;

@@ -21,6 +21,7 @@
 #include "io/csv_records.h"
 #include "io/npy_header.h"
 #include "io/number.h"
+#include "system/checked_product.h"
 
 namespace rondel::formats {
 namespace {
@@ -236,8 +237,8 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   const std::uint64_t count = rank == 2 ? header.shape[0] : 1;
   std::uint64_t size = 0;
   if (rank < 1 || rank > 2 || (wanted.num_points != 0 && n != wanted.num_points) ||
-      (rank == 2 && header.is_fortran_order) || __builtin_mul_overflow(n, count, &size) ||
-      __builtin_mul_overflow(size, std::uint64_t{item}, &size)) {
+      (rank == 2 && header.is_fortran_order) || !system::multiply_checked(n, count, size) ||
+      !system::multiply_checked(size, item, size)) {
     throw io::BadValue("shape " + io::shape_text(header.shape) +
                        " where (n,) or (fields, n) in C "
                        "order is needed, n being " +

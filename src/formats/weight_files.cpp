@@ -16,6 +16,7 @@
 #include "io/file_bytes.h"
 #include "rondel/error.h"
 #include "rondel/remap.h"
+#include "system/checked_product.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -56,7 +57,7 @@ void require_side(const WeightSide& side, std::size_t size) {
   if (side.shape.empty()) return;
   std::uint64_t product = 1;
   for (const std::uint64_t length : side.shape) {
-    if (__builtin_mul_overflow(product, length, &product)) product = 0;
+    if (!system::multiply_checked(product, length, product)) product = 0;
   }
   // A product of 0, also in place of an overflow, must not pass for a shape that is not known.
   require_number("the points of the shape", product == 0 ? ~std::size_t{0} : product, size);

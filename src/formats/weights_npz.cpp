@@ -15,6 +15,7 @@
 #include "io/number.h"
 #include "io/zip_file.h"
 #include "io/zip_reader.h"
+#include "system/checked_product.h"
 
 namespace rondel::formats {
 namespace {
@@ -31,7 +32,7 @@ class NpzArray {
     if (dtype.size() != 3 || dtype[0] == '=' || header_.shape.size() != 1) refuse();
     const auto item = static_cast<std::uint64_t>(dtype[2] - '0');
     std::uint64_t needed = 0;
-    if (item < 1 || item > 8 || __builtin_mul_overflow(header_.shape[0], item, &needed) ||
+    if (item < 1 || item > 8 || !system::multiply_checked(header_.shape[0], item, needed) ||
         needed != bytes_.size() - header_.data_offset) {
       refuse();
     }

@@ -13,6 +13,7 @@
 #include "io/netcdf_groups.h"
 #include "io/netcdf_slabs.h"
 #include "io/number.h"
+#include "system/checked_product.h"
 
 namespace rondel::io {
 namespace {
@@ -124,10 +125,10 @@ class Netcdf4Header {
       variable.dimensions.push_back(static_cast<std::size_t>(at - numbers_.begin()));
       const std::uint64_t size = header_.dimensions[variable.dimensions.back()].size;
       variable.shape.push_back(size);
-      if (__builtin_mul_overflow(variable.num_values, size, &variable.num_values)) return;
+      if (!system::multiply_checked(variable.num_values, size, variable.num_values)) return;
     }
     std::uint64_t num_bytes = 0;
-    if (__builtin_mul_overflow(variable.num_values, sizeof(double), &num_bytes)) return;
+    if (!system::multiply_checked(variable.num_values, sizeof(double), num_bytes)) return;
     variable.record_values = variable.num_values;
     variable.attributes = attributes_of(group, number, num_attributes);
     header_.variables.push_back(std::move(variable));

@@ -13,6 +13,7 @@
 #include "io/netcdf_header.h"
 #include "io/number.h"
 #include "io/wide_integers.h"
+#include "system/checked_product.h"
 
 namespace rondel::io {
 namespace {
@@ -26,13 +27,13 @@ namespace {
 // overflow.
 std::uint64_t product(const VariableInFile& variable, std::uint64_t a, std::uint64_t b) {
   std::uint64_t result = 0;
-  if (__builtin_mul_overflow(a, b, &result)) refuse(variable, "is too large");
+  if (!system::multiply_checked(a, b, result)) refuse(variable, "is too large");
   return result;
 }
 
 std::uint64_t sum(const VariableInFile& variable, std::uint64_t a, std::uint64_t b) {
   std::uint64_t result = 0;
-  if (__builtin_add_overflow(a, b, &result)) refuse(variable, "is too large");
+  if (!system::add_checked(a, b, result)) refuse(variable, "is too large");
   return result;
 }
 
@@ -361,8 +362,8 @@ std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file, const Variabl
   std::vector<std::uint64_t> shape;
   std::uint64_t product = 1;
   for (const std::int64_t length : file.integers(lengths)) {
-    if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
     shape.push_back(static_cast<std::uint64_t>(length));
+    if (length < 1 || !system::multiply_checked(product, shape.back(), product)) product = 0;
   }
   // Some programs write 0 or 1 for points that are on no grid.
   const bool is_unknown = shape.empty() || (shape.size() == 1 && product < 2);

@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "io/number.h"
+#include "system/checked_product.h"
 
 namespace rondel::io {
 namespace {
@@ -165,8 +166,8 @@ NpyTable NpyTable::piece(std::string_view bytes, std::size_t num_rows) const {
 // Throws BadValue if the shape does not match the size of the file, before anything is allocated.
 void NpyTable::check_size(std::uint64_t num_bytes) const {
   std::uint64_t needed = 0;
-  if (__builtin_mul_overflow(header_.shape[0], header_.shape[1], &needed) ||
-      __builtin_mul_overflow(needed, std::uint64_t{item_size()}, &needed)) {
+  if (!system::multiply_checked(header_.shape[0], header_.shape[1], needed) ||
+      !system::multiply_checked(needed, item_size(), needed)) {
     throw BadValue("shape " + shape() + " is too large");
   }
   if (needed != num_bytes) {

@@ -7,33 +7,34 @@
 #include <bit>
 #include <cmath>
 
+#include "exact/long_integer.h"
+
 namespace rondel::map {
 namespace {
 
-__extension__ using GridProduct = __int128;
+using exact::LongInteger;
 
 constexpr double half_steps_per_degree = 0x1p45;
 
-GridProduct doubled_area_of(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
-  return GridProduct{b.x - a.x} * (c.y - a.y) - GridProduct{b.y - a.y} * (c.x - a.x);
+LongInteger doubled_area_of(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  return LongInteger::product(b.x - a.x, c.y - a.y) - LongInteger::product(b.y - a.y, c.x - a.x);
 }
-
-int sign_of(const GridProduct& product) { return product > 0 ? 1 : (product < 0 ? -1 : 0); }
 
 // Returns the floor of length * part / whole, with 0 <= part <= whole < 2^110. It is computed digit
 // by digit, so that no intermediate number reaches 3 * 2^110.
-std::int64_t floor_of_share(std::int64_t length, const GridProduct& part,
-                            const GridProduct& whole) {
+std::int64_t floor_of_share(std::int64_t length, const LongInteger& part,
+                            const LongInteger& whole) {
   const auto size = static_cast<std::uint64_t>(length < 0 ? -length : length);
   std::int64_t quotient = 0;
-  GridProduct rest = 0;
+  LongInteger rest;
   for (auto bit = static_cast<int>(std::bit_width(size)); bit-- > 0;) {
-    rest = 2 * rest + (((size >> bit) & 1U) != 0 ? part : 0);
+    rest = rest + rest;
+    if (((size >> bit) & 1U) != 0) rest = rest + part;
     quotient *= 2;
-    for (; rest >= whole; rest -= whole) ++quotient;
+    for (; rest >= whole; rest = rest - whole) ++quotient;
   }
   if (length >= 0) return quotient;
-  return rest == 0 ? -quotient : -quotient - 1;
+  return rest.sign() == 0 ? -quotient : -quotient - 1;
 }
 
 // Returns the even number c whose interval [c - 1, c + 1) contains all numbers with the given
@@ -54,12 +55,14 @@ LonLat off_grid(const GridPlace& place) {
 }
 
 int turn_on_grid(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
-  return sign_of(doubled_area_of(a, b, c));
+  return doubled_area_of(a, b, c).sign();
 }
 
 bool is_before_along(const GridPlace& a, const GridPlace& b, const GridPlace& p,
                      const GridPlace& q) {
-  return GridProduct{b.x - a.x} * (q.x - p.x) + GridProduct{b.y - a.y} * (q.y - p.y) > 0;
+  const LongInteger along =
+      LongInteger::product(b.x - a.x, q.x - p.x) + LongInteger::product(b.y - a.y, q.y - p.y);
+  return along.sign() > 0;
 }
 
 // A line whose rectangle does not meet the square does not meet it either. Otherwise the line meets
@@ -80,13 +83,13 @@ bool meets_pixel(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
 
 GridPlace crossing_pixel(const GridPlace& a, const GridPlace& b, const GridPlace& c,
                          const GridPlace& d) {
-  GridProduct at_a = doubled_area_of(c, d, a);
-  GridProduct at_b = doubled_area_of(c, d, b);
-  if (at_a < 0) {
+  LongInteger at_a = doubled_area_of(c, d, a);
+  LongInteger at_b = doubled_area_of(c, d, b);
+  if (at_a.sign() < 0) {
     at_a = -at_a;
     at_b = -at_b;
   }
-  const GridProduct whole = at_a - at_b;
+  const LongInteger whole = at_a - at_b;
   return {pixel_of(a.x + floor_of_share(b.x - a.x, at_a, whole)),
           pixel_of(a.y + floor_of_share(b.y - a.y, at_a, whole))};
 }

@@ -16,6 +16,7 @@
 #include "rondel/error.h"
 #include "rondel/read_cells.h"
 #include "rondel/remap.h"
+#include "system/checked_product.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -115,7 +116,7 @@ CellSet CellSet::with_facts(CellFacts facts) const {
   }
   std::uint64_t of_shape = facts.shape.empty() ? 0 : 1;
   for (const std::uint64_t length : facts.shape) {
-    if (__builtin_mul_overflow(of_shape, length, &of_shape)) of_shape = no_index;
+    if (!system::multiply_checked(of_shape, length, of_shape)) of_shape = no_index;
   }
   require_size("the shape has ", of_shape, size);
   return CellSet(data_, std::move(facts));

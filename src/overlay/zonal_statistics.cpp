@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "rondel/error.h"
+#include "system/checked_product.h"
 #include "system/job.h"
 #include "system/message_text.h"
 
@@ -247,10 +248,10 @@ void require_arguments(const Remap& remap, std::span<const ZonalStatistic> stati
   }
   std::size_t values = 0;
   std::size_t numbers = 0;
-  const bool is_large = __builtin_mul_overflow(num_fields, sources, &values) ||
-                        __builtin_mul_overflow(num_fields, targets, &numbers) ||
-                        __builtin_mul_overflow(numbers, statistics.size(), &numbers);
-  if (is_large || in != values) {
+  const bool fits = system::multiply_checked(num_fields, sources, values) &&
+                    system::multiply_checked(num_fields, targets, numbers) &&
+                    system::multiply_checked(numbers, statistics.size(), numbers);
+  if (!fits || in != values) {
     throw InvalidInput("there are " + std::to_string(in) + " values for " +
                        std::to_string(num_fields) + " fields of " + std::to_string(sources) +
                        " sources");

@@ -4,6 +4,7 @@ rondel_add_test(predicates_test
   exact/ball_test.cpp
   exact/big_integer_test.cpp
   exact/integer_rays_test.cpp
+  exact/long_integer_test.cpp
   predicates/distance_test.cpp
   predicates/perturbation_test.cpp
   predicates/rung_test.cpp
