@@ -102,6 +102,8 @@ struct CellFacts {
   std::string convention =
       {};  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON", "OASIS", "Exodus" or "CF"
   std::vector<LonLat> centers = {};  ///< one for each cell, as given
+  /// How many of `centers` the file lacks, as ocean models do on land: they are the middles of corners.
+  std::size_t num_made_centers = 0;
   /// The centers of a grid along lines, if `centers` is empty. Without both, the center of a cell
   /// is its center of mass.
   LonLatAxes axes = {};

@@ -21,6 +21,13 @@
 
 namespace rondel {
 
+/// An attribute of netCDF that is a list of numbers.
+struct NumericAttribute {
+  std::string name;
+  std::vector<double> numbers;
+  std::string type = "f8";  ///< NumPy's name of the type in the file, "f4", "i2" ...
+};
+
 /// An array of a file: values at points, or the numbers of an axis such as time.
 struct FieldArray {
   std::string name;
@@ -31,8 +38,8 @@ struct FieldArray {
   std::vector<double> values;  ///< the points change fastest; NaN is missing
   /// units, long_name ...: attributes of netCDF that still hold for values at other points
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::vector<std::pair<std::string, std::vector<double>>> numbers =
-      {};  ///< flag_values, flag_masks
+  /// Those that are numbers: flag_values, level ...
+  std::vector<NumericAttribute> numbers = {};
   /// True if single precision holds the values: netCDF has floats, or packed integers.
   bool is_single = false;
   /// True for texts, which only FieldSet::others has. They have no values, but `characters`, of which
@@ -59,7 +66,8 @@ struct FieldSet {
   /// FieldExtras ask for them.
   std::vector<FieldArray> others = {};
   std::vector<std::pair<std::string, std::string>> attributes =
-      {};  ///< of the file: title, history ...
+      {};                                      ///< of the file: title, history ...
+  std::vector<NumericAttribute> numbers = {};  ///< attributes of the file that are numbers
   /// netCDF with longitudes and latitudes of the points: unit vectors; else empty
   std::vector<Point> points;
   std::vector<LonLat> positions;  ///< the same places in degrees, as in the file

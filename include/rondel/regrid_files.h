@@ -59,7 +59,8 @@ struct RegridFileOptions {
   /// (apply_limited()).
   bool is_limited = false;
   /// The share of a target that may lack values: that no source covers, or whose sources have none.
-  /// With 0 any lack is too much, with 1 any value is enough.
+  /// With 0 any lack is too much, with 1 any value is enough. At the limit, up to 1e-9, a target has a
+  /// value (may_be_missing()).
   double max_missing = 0.5;
   CellFileOptions cells = {};                ///< of both sides
   CellOverlap overlap = CellOverlap::error;  ///< of both sides

@@ -146,6 +146,40 @@ RONDEL_API void apply_limited(const Remap& remap, std::span<const double> in, st
                               std::size_t num_fields = 1, const ApplyOptions& options = {},
                               const Execution& execution = {});
 
+/// Applies a remapping of order 2 to fields that may lack values in some sources: as apply() does where all
+/// are there, and otherwise with the weights of weights_with_values(). A target has no value if more than
+/// `max_missing` of what covers it lacks values, by area: weights of order 2 are no shares.
+class SecondOrderRemap {
+ public:
+  /// \param covered  0 for each target that gets no value; empty: none of them
+  /// \param is_limited  whether values are those of apply_limited()
+  /// \throws InvalidInput if `remap` is of order 1, or `covered` has another length
+  RONDEL_API explicit SecondOrderRemap(Remap remap, std::vector<std::int32_t> covered = {},
+                                       bool is_limited = false);
+
+  /// Fields follow each other in both arrays. Weights are computed again where a field lacks values in
+  /// other sources than the one before it, also that of the call before.
+  /// \throws InvalidInput as rondel::apply() does
+  RONDEL_API void apply(std::span<const double> in, std::span<double> out,
+                        const ApplyOptions& rules = {}, const Execution& execution = {});
+
+ private:
+  [[nodiscard]] std::vector<std::int32_t> with_enough(std::span<const std::int32_t> has_value,
+                                                      double max_missing) const;
+  void use_weights(std::vector<std::int32_t> has_value, double max_missing,
+                   const Execution& execution);
+  void apply_fields(std::span<const double> in, std::span<double> out, const ApplyOptions& rules,
+                    const Execution& execution) const;
+
+  Remap remap_;    // its weights are those for has_value_
+  Weights whole_;  // those for fields without gaps, while others are in use
+  std::vector<std::int32_t> covered_;
+  std::vector<std::int32_t> has_value_;
+  double max_missing_ = 0;  // of those weights
+  bool is_whole_ = true;    // whether all sources have values, instead
+  bool is_limited_;
+};
+
 /// Computes the target means of order 2 with given gradients, for which linear fields are
 /// reproduced up to rounding.
 /// \param means  one for each source cell

@@ -41,13 +41,25 @@ struct Weights {
 /// coordinates x y z of each point, as little-endian doubles, with -0 as 0. It is never 0.
 RONDEL_API std::uint64_t point_set_hash(std::span<const Point> points);
 
+/// True if a part may be missing of a whole: its share is at most `max_missing`, or larger by no more than
+/// 1e-9, since shares that should be equal, such as halves of cells, differ in their last bits. This
+/// rule holds wherever a share of a target may lack values, by weights or by areas.
+/// \param missing  the part, not negative
+/// \param all  the whole, in the same unit
+RONDEL_API bool may_be_missing(double missing, double all, double max_missing) noexcept;
+
+/// Returns 1 for each target that is covered, and of which the rest may be missing, and 0 for others.
+/// \param fractions  the share of each target that is covered
+RONDEL_API std::vector<std::int32_t> covered_enough(std::span<const double> fractions,
+                                                    double max_missing);
+
 /// The treatment of missing values (NaN) by apply().
 struct ApplyOptions {
   /// The value of rows without entries, and of rows in which too much is missing.
   double fill = std::numeric_limits<double>::quiet_NaN();
-  /// The share of the sum of a row's absolute weights that missing values may have. The sum of the
-  /// other values is divided by their share of the row's sum. With 0 one missing value is too many,
-  /// with 1 one value is enough.
+  /// The share of the sum of a row's absolute weights that missing values may have (may_be_missing()).
+  /// The sum of the other values is divided by their share of the row's sum. With 0 one missing value
+  /// is too many if its share is above 1e-9, with 1 one value is enough.
   double max_missing = 0;
   /// Whether the sum of the other values stays what it is: integrals are then those of the values that
   /// are there, as RemapNorm::destarea has them. apply_largest_share() does not look at it.

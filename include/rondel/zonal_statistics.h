@@ -74,7 +74,7 @@ RONDEL_API std::vector<ZonalStatistic> zonal_statistics_of(std::string_view list
 struct ZonalOptions {
   ZonalWeights weights = ZonalWeights::area;
   /// The share of a zone that no cell may cover, and the share of what cells cover in which values
-  /// may be missing. With 0 any lack is too much, with 1 any value is enough.
+  /// may be missing (may_be_missing()). With 0 any lack is too much, with 1 any value is enough.
   double max_missing = 1;
 };
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/vector.h"
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/grid_of_file.h"
@@ -115,19 +116,33 @@ CellRings cells_of(formats::MeshContent& mesh) {
   return cells;
 }
 
-// Completes the centers: missing ones of masked cells become (0, 0). If centers of other cells are
-// missing, the mesh gets no centers.
-void require_centers(formats::MeshContent& mesh) {
+// Returns the middle of the corners of a cell; (0, 0) for a cell without corners.
+LonLat middle_of_corners(const CellRings& cells, std::size_t cell) {
+  Point sum{0, 0, 0};
+  const std::uint64_t end = cells.rings[cells.cells[cell + 1]];
+  for (std::uint64_t k = cells.rings[cells.cells[cell]]; k < end; ++k) {
+    sum = sum + cells.points[cells.corners[k]];
+  }
+  if (!(dot(sum, sum) > 0)) return {0, 0};
+  const Point middle = normalized(sum);
+  return lonlats({&middle, 1}).front();
+}
+
+// Completes the centers: missing ones of masked cells become (0, 0), and those of others, as ocean models have
+// none on land, the middle of the corners. A mesh without any center gets none.
+void require_centers(const CellRings& cells, formats::MeshContent& mesh) {
+  if (std::ranges::all_of(mesh.centers, formats::is_missing_place)) mesh.centers.clear();
   for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
     const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
     LonLat& center = mesh.centers[i];
-    if (!formats::is_missing_place(center) && !is_masked) {
-      center = formats::require_position("the centers of cells", i, center);
-    } else if (is_masked) {
+    if (is_masked) {
       const bool is_place = std::isfinite(center.lon_deg) && std::abs(center.lat_deg) <= 90;
       if (!is_place) center = {0, 0};
+    } else if (formats::is_missing_place(center)) {
+      center = middle_of_corners(cells, i);
+      ++mesh.num_made_centers;
     } else {
-      mesh.centers.clear();
+      center = formats::require_position("the centers of cells", i, center);
     }
   }
 }
@@ -212,7 +227,7 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
   // A grid of meridians and parallels has lines in place of rings.
   CellTable table;
   if (!mesh.grid) table.cells = cells_of(mesh);
-  require_centers(mesh);
+  require_centers(table.cells, mesh);
   // CF has no `center_names`: its centers are compared at the end, by a weaker rule.
   if (!mesh.center_names.empty() && !mesh.centers.empty()) {
     std::string remark = require_own_centers(mesh, table.cells);

@@ -29,6 +29,15 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// The types of netCDF by NumPy's names.
+constexpr std::pair<std::string_view, io::NetcdfType> names_of_types[] = {
+    {"i1", io::NetcdfType::int8},    {"i2", io::NetcdfType::int16},
+    {"i4", io::NetcdfType::int32},   {"i8", io::NetcdfType::int64},
+    {"u1", io::NetcdfType::uint8},   {"u2", io::NetcdfType::uint16},
+    {"u4", io::NetcdfType::uint32},  {"u8", io::NetcdfType::uint64},
+    {"f4", io::NetcdfType::float32}, {"f8", io::NetcdfType::float64},
+    {"", io::NetcdfType::text}};
+
 // True for the types of netCDF that are numbers of single or double precision.
 bool is_floating(io::NetcdfType type) {
   return type == io::NetcdfType::float32 || type == io::NetcdfType::float64;
@@ -307,34 +316,29 @@ bool ValueRules::is_lost(double value, double rounding) const {
   return (number < lowest_ && beyond(lowest_)) || (number > highest_ && beyond(highest_));
 }
 
-}  // namespace rondel::formats
-
-namespace rondel {
-namespace {
-
-// Returns the type that NumPy calls by this name. Throws InvalidInput for other names.
-io::NetcdfType type_of(std::string_view name) {
-  constexpr std::pair<std::string_view, io::NetcdfType> types[] = {
-      {"i1", io::NetcdfType::int8},    {"i2", io::NetcdfType::int16},
-      {"i4", io::NetcdfType::int32},   {"i8", io::NetcdfType::int64},
-      {"u1", io::NetcdfType::uint8},   {"u2", io::NetcdfType::uint16},
-      {"u4", io::NetcdfType::uint32},  {"u8", io::NetcdfType::uint64},
-      {"f4", io::NetcdfType::float32}, {"f8", io::NetcdfType::float64},
-      {"", io::NetcdfType::text}};
-  for (const auto& [known, type] : types) {
-    if (name == known) return type;
-  }
+io::NetcdfType type_named(std::string_view name) {
+  const auto* const known =
+      std::ranges::find(names_of_types, name, &std::pair<std::string_view, io::NetcdfType>::first);
+  if (known != std::end(names_of_types)) return known->second;
   throw InvalidInput("there is no type '" + std::string(name) + "'", 0);
 }
 
-}  // namespace
+std::string_view name_of(io::NetcdfType type) {
+  return std::ranges::find(names_of_types, type,
+                           &std::pair<std::string_view, io::NetcdfType>::second)
+      ->first;
+}
+
+}  // namespace rondel::formats
+
+namespace rondel {
 
 void mark_missing(std::span<double> values, std::string_view type,
                   std::span<const ValueAttribute> attributes) {
-  io::NetcdfVariable variable{"values", type_of(type), {}, {}};
+  io::NetcdfVariable variable{"values", formats::type_named(type), {}, {}};
   for (const ValueAttribute& attribute : attributes) {
     variable.attributes.push_back(
-        {attribute.name, type_of(attribute.type), attribute.text, attribute.numbers});
+        {attribute.name, formats::type_named(attribute.type), attribute.text, attribute.numbers});
   }
   try {
     formats::ValueRules(variable).apply_to_unpacked(values);

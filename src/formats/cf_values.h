@@ -26,6 +26,11 @@
 
 namespace rondel::formats {
 
+// Returns the type that NumPy calls by this name, and "" a text. Throws InvalidInput for others.
+io::NetcdfType type_named(std::string_view name);
+// Returns NumPy's name of a type; it is empty for a text.
+std::string_view name_of(io::NetcdfType type);
+
 // The rules for the numbers of one variable.
 class ValueRules {
  public:

@@ -141,26 +141,28 @@ bool formats::has_mesh(std::span<const VariableHeader> variables) {
 }
 
 bool is_attribute_of_places(std::string_view name) {
-  constexpr std::array<std::string_view, 19> names = {"coordinates",
-                                                      "bounds",
-                                                      "climatology",
-                                                      "cell_measures",
-                                                      "grid_mapping",
-                                                      "formula_terms",
-                                                      "ancillary_variables",
-                                                      "mesh",
-                                                      "location",
-                                                      "compress",
-                                                      "interpolation",
-                                                      "grid",
-                                                      "CDI_grid_type",
-                                                      "_Unsigned",
-                                                      "_FillValue",
-                                                      "missing_value",
-                                                      grid_attribute,
-                                                      formats::source_corners_name,
-                                                      formats::target_corners_name};
-  return std::ranges::find(names, name) != names.end();
+  constexpr std::string_view names[] = {
+      // of CF, UGRID and CDI
+      "coordinates", "bounds", "climatology", "cell_measures", "grid_mapping", "formula_terms",
+      "ancillary_variables", "mesh", "location", "compress", "interpolation", "grid",
+      "actual_range", "number_of_grid_in_reference", "number_of_grid_used", "uuidOfHGrid",
+      // of MPAS
+      "on_a_sphere", "sphere_radius", "is_periodic", "x_period", "y_period", "mesh_spec", "mesh_id",
+      // of how numbers are stored
+      "_Unsigned", "_FillValue", "missing_value", "_ChunkSizes", "_DeflateLevel", "_Shuffle",
+      "_Storage", "_Endianness", "_Fletcher32", "_Filter", "_NoFill", "GRIB_missingValue",
+      // of GRIB by cfgrib
+      "GRIB_gridType", "GRIB_gridDefinitionDescription", "GRIB_numberOfPoints", "GRIB_Nx",
+      "GRIB_Ny", "GRIB_N", "GRIB_pl", "GRIB_iScansNegatively", "GRIB_jScansPositively",
+      "GRIB_jPointsAreConsecutive",
+      // of own files
+      grid_attribute, formats::source_corners_name, formats::target_corners_name};
+  constexpr std::string_view beginnings[] = {
+      "CDI_grid_",       "GRIB_latitudeOf",           "GRIB_longitudeOf",         "GRIB_iDirection",
+      "GRIB_jDirection", "geospatial_lat_resolution", "geospatial_lon_resolution"};
+  return std::ranges::find(names, name) != std::end(names) ||
+         std::ranges::any_of(
+             beginnings, [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
 
 bool is_planar(std::span<const std::pair<std::string, std::string>> texts) {

@@ -17,10 +17,12 @@
 
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
+#include "formats/cf_values.h"
 #include "formats/field_choice.h"
 #include "io/bad_value.h"
 #include "io/netcdf_groups.h"
 #include "io/number.h"
+#include "io/wide_integers.h"
 #include "rondel/delaunay.h"
 #include "system/message_text.h"
 
@@ -45,13 +47,25 @@ std::vector<std::pair<std::string, std::string>> kept_attributes(
   return kept;
 }
 
-// Returns the numbers that still hold: what flags mean.
-std::vector<std::pair<std::string, std::vector<double>>> kept_numbers(
-    std::span<const io::NetcdfAttribute> attributes) {
-  std::vector<std::pair<std::string, std::vector<double>>> kept;
+bool are_doubles(const io::NetcdfAttribute& attribute) {
+  return std::ranges::all_of(attribute.integers, [&](std::int64_t integer) {
+    return io::is_double(integer, attribute.type);
+  });
+}
+
+// Returns the numbers that still hold. The range of values is another one at other points, while axes and what
+// else is not `at_points` keep theirs. Integers of 64 bits are left out if they are no doubles.
+std::vector<NumericAttribute> kept_numbers(std::span<const io::NetcdfAttribute> attributes,
+                                           bool at_points) {
+  std::vector<NumericAttribute> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
-    const bool is_kept = attribute.name == "flag_values" || attribute.name == "flag_masks";
-    if (is_kept && !attribute.numbers.empty()) kept.emplace_back(attribute.name, attribute.numbers);
+    const std::string& name = attribute.name;
+    const bool is_range = name == "actual_range" && !at_points;
+    const bool is_lost = (is_attribute_of_places(name) && !is_range) || is_of_storage(name) ||
+                         !are_doubles(attribute);
+    if (!is_lost && !attribute.numbers.empty()) {
+      kept.push_back({name, attribute.numbers, std::string(name_of(attribute.type))});
+    }
   }
   return kept;
 }
@@ -81,9 +95,10 @@ std::string written_name(std::string name) {
   return name;
 }
 
-// Returns the array without values; its dimensions are the leading ones.
+// Returns the array without values; its dimensions are the leading ones. It is that of an axis, or of another
+// variable without points, unless it is `at_points`.
 FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
-                    const std::vector<std::size_t>& leading) {
+                    const std::vector<std::size_t>& leading, bool at_points = false) {
   FieldArray array;
   array.name = written_name(variable.name);
   for (const std::size_t d : leading) {
@@ -91,7 +106,7 @@ FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& vari
     array.shape.push_back(variable.shape[d]);
   }
   array.attributes = kept_attributes(variable.attributes);
-  array.numbers = kept_numbers(variable.attributes);
+  array.numbers = kept_numbers(variable.attributes, at_points);
   array.is_single = is_of_floats(variable.type);
   return array;
 }
@@ -138,6 +153,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
   fields_.attributes = kept_attributes(file.attributes());
+  fields_.numbers = kept_numbers(file.attributes(), true);
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.is_unlimited) fields_.unlimited.push_back(written_name(dimension.name));
   }
@@ -190,7 +206,7 @@ bool FieldSlices::add_one_of_several(const std::string& name) {
     if (!layout || layout->leading.empty()) continue;
     std::vector<FieldArray> axes;
     add_axes(*variable, *layout, axes);
-    FieldArray several = array_of(file_, *variable, layout->leading);
+    FieldArray several = array_of(file_, *variable, layout->leading, true);
     several.name = variable->name;
     const std::vector<std::string> names = names_of_fields(several, axes);
     const std::string rest = name.substr(variable->name.size());
@@ -222,7 +238,13 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
   std::size_t num_points = 1;
   for (const std::size_t d : layout.points) num_points *= variable.shape[d];
   if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
-  fields_.arrays.push_back(array_of(file_, variable, layout.leading));
+  fields_.arrays.push_back(array_of(file_, variable, layout.leading, true));
+  for (const io::NetcdfAttribute& attribute : variable.attributes) {
+    if (are_doubles(attribute)) continue;
+    fields_.remarks.push_back("attribute " + io::in_quotes(attribute.name) + " of variable " +
+                              io::in_quotes(variable.name) +
+                              " has integers that are no doubles; it is left out");
+  }
   // All arrays are at the places of the first one that has some.
   if (fields_.shape.empty() && fields_.points.empty() &&
       layout.places.first_not(is_place) == layout.places.size()) {

@@ -5,14 +5,17 @@
 // section 5), the places of the points as `lat` and `lon`, then each array with its attributes,
 // `_FillValue`, and `coordinates` where the points are no grid along axes.
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <iterator>
 #include <set>
 
+#include "formats/cf_values.h"
 #include "formats/field_columns.h"
 #include "formats/field_formats.h"
 #include "formats/weight_formats.h"
 #include "formats/written_names.h"
+#include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 
 namespace rondel::formats {
@@ -24,15 +27,22 @@ NetcdfType type_of(const FieldArray& array) {
   return array.is_single ? NetcdfType::float32 : NetcdfType::float64;
 }
 
+// Adds attributes that are numbers, but for those whose name another one has.
+void add_numbers(const std::vector<NumericAttribute>& numbers,
+                 std::vector<io::NetcdfAttribute>& attributes) {
+  for (const NumericAttribute& attribute : numbers) {
+    if (io::find_attribute(attributes, attribute.name) != nullptr) continue;
+    attributes.push_back({attribute.name, type_named(attribute.type), {}, attribute.numbers});
+  }
+}
+
 // Returns the attributes of an array, as netCDF has them.
 std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
   std::vector<io::NetcdfAttribute> attributes;
   for (const auto& [name, text] : array.attributes) {
     attributes.push_back({name, NetcdfType::text, text, {}});
   }
-  for (const auto& [name, numbers] : array.numbers) {
-    attributes.push_back({name, type_of(array), {}, numbers});
-  }
+  add_numbers(array.numbers, attributes);
   return attributes;
 }
 
@@ -70,7 +80,7 @@ class PointsOut {
     std::set<std::string> names;
     if (has_places()) names = {"lat", "lon"};
     if (is_grid_) return names;
-    for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert("axis_" + std::to_string(d));
+    for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert(name_of_axis(d));
     if (side_.shape.size() <= 1) names.insert(dimension_);
     return names;
   }
@@ -80,7 +90,7 @@ class PointsOut {
       dimensions_ = {out.add_dimension("lat", side_.shape[0]), out.add_dimension("lon", num_lon_)};
     } else if (side_.shape.size() > 1) {
       for (std::size_t d = 0; d < side_.shape.size(); ++d) {
-        dimensions_.push_back(out.add_dimension("axis_" + std::to_string(d), side_.shape[d]));
+        dimensions_.push_back(out.add_dimension(name_of_axis(d), side_.shape[d]));
       }
     } else {
       dimensions_ = {out.add_dimension(dimension_, num_points_)};
@@ -115,6 +125,12 @@ class PointsOut {
   [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
 
  private:
+  // Returns the name of a dimension of curvilinear places: y and x, of a cubed sphere behind its tiles.
+  [[nodiscard]] std::string name_of_axis(std::size_t d) const {
+    constexpr std::array<const char*, 3> names = {"tile", "y", "x"};
+    const std::size_t rank = side_.shape.size();
+    return rank <= names.size() ? names[names.size() - rank + d] : "axis_" + std::to_string(d);
+  }
   [[nodiscard]] bool has_places() const { return has_axes_ || !side_.points.empty(); }
 
   const WeightSide& side_;
@@ -177,6 +193,10 @@ class NetcdfSink : public FieldSink {
     out_.add_attribute("Conventions", "CF-1.8");
     for (const auto& [name, text] : fields.attributes) {
       if (name != "Conventions") out_.add_attribute(name, text);
+    }
+    for (const NumericAttribute& attribute : fields.numbers) {
+      if (io::find_attribute(out_.attributes(), attribute.name) != nullptr) continue;
+      out_.add_attribute({attribute.name, type_named(attribute.type), {}, attribute.numbers});
     }
     taken_ = points_.names();
     std::vector<std::vector<std::size_t>> leading;

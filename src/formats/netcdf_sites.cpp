@@ -56,6 +56,7 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
     CellFacts& cells = table.facts;
     std::vector<LonLat> centers = cells.given_centers();
     if (centers.empty() || centers.size() != table.num_cells()) return std::nullopt;
+    if (cells.num_made_centers > 0) return std::nullopt;  // values are between places of the file
     for (std::size_t i = 0; i < cells.mask.size(); ++i) {
       // read_cells() puts missing centers to (0, 0).
       if (cells.mask[i] == 0 && centers[i] == LonLat{0, 0}) return std::nullopt;
@@ -114,8 +115,10 @@ NetcdfSites centers_for(const FileName& file, const std::string& variable) {
         variable.empty() ? are_places_faces(reader) : is_on_faces(reader.require(variable));
     return are_faces ? formats::cells_in(reader, bytes.name(), variable) : CellTable();
   }));
-  if (cells.num_cells() == 0 || !cells.facts().given_centers().empty()) return sites;
-  sites.table.positions = cells.places();
+  const bool has_all =
+      !cells.facts().given_centers().empty() && cells.facts().num_made_centers == 0;
+  if (cells.num_cells() == 0 || has_all) return sites;
+  sites.table.positions = lonlats(cells.centers());
   sites.mask = cells.facts().mask;
   sites.remarks = cells.facts().remarks;
   return sites;

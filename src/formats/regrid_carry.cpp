@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "formats/regrid_second.h"
+#include "rondel/remap.h"
 #include "rondel/weights.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -35,20 +35,6 @@ std::vector<T> take_values(std::size_t count, std::span<const std::byte>& messag
 }
 
 }  // namespace
-
-bool is_enough(double fraction, double max_missing) {
-  constexpr double rounding = 1e-9;
-  return fraction > 0 && fraction >= 1 - max_missing - rounding;
-}
-
-std::vector<std::int32_t> enough_covered(std::span<const double> fractions, double max_missing) {
-  std::vector<std::int32_t> covered;
-  covered.reserve(fractions.size());
-  for (const double fraction : fractions) {
-    covered.push_back(is_enough(fraction, max_missing) ? 1 : 0);
-  }
-  return covered;
-}
 
 void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,
                 const std::function<RegridRanks::Message(std::size_t)>& compute,
@@ -175,8 +161,7 @@ std::vector<double> TileCarrier::applied_second(RemapTile& tile, SourceValues& v
         values.of(row / components, row % components, tile.first_source, tile.weights.num_columns);
     for (const Index source : tile.sources) in.push_back(window[source - tile.first_source]);
   }
-  SecondOrder weights(std::move(tile.part), enough_covered(tile.fractions, job_.max_missing),
-                      false);
+  SecondOrderRemap weights(std::move(tile.part), covered_enough(tile.fractions, job_.max_missing));
   weights.apply(in, result, rules, execution_);
   return result;
 }
@@ -188,6 +173,7 @@ std::vector<double> TileCarrier::applied(RemapTile& tile, SourceValues& values,
   std::vector<double> result(count * components * num_targets);
   const ApplyOptions rules{
       .fill = missing_value, .max_missing = job_.max_missing, .keeps_sums = job_.keeps_sums};
+  const std::vector<std::int32_t> covered = covered_enough(tile.fractions, job_.max_missing);
   if (tile.part.order == 2) return applied_second(tile, values, count * components, rules);
   for (std::size_t row = 0; row < count * components; ++row) {
     const auto out = std::span(result).subspan(row * num_targets, num_targets);
@@ -198,8 +184,8 @@ std::vector<double> TileCarrier::applied(RemapTile& tile, SourceValues& values,
     } else {
       apply(tile.weights, in, out, 1, rules, execution_);
     }
-    for (std::size_t r = 0; r < tile.fractions.size(); ++r) {
-      if (!is_enough(tile.fractions[r], job_.max_missing)) out[r] = missing_value;
+    for (std::size_t r = 0; r < covered.size(); ++r) {
+      if (covered[r] == 0) out[r] = missing_value;
     }
   }
   return result;

@@ -39,11 +39,6 @@ struct ArrayToCarry {
   std::span<const Duplicate> coincident = {};  // PlaceTiles::coincident(), without windows
 };
 
-// True if so much of a target is covered that it has a value.
-bool is_enough(double fraction, double max_missing);
-// Returns 1 for each target of which that is true, and 0 for others.
-std::vector<std::int32_t> enough_covered(std::span<const double> fractions, double max_missing);
-
 // Calls compute(unit) for units of work of this process, and take(unit, message) for all of them in
 // turn on rank 0.
 void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,

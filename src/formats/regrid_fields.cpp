@@ -25,6 +25,16 @@ void add_history(const std::string& line, FieldSet& fields) {
 
 }  // namespace
 
+bool is_of_flags(std::string_view attribute) {
+  return attribute == "flag_values" || attribute == "flag_masks" || attribute == "flag_meanings";
+}
+
+bool has_flags(const FieldArray& array) {
+  return std::ranges::any_of(array.attributes,
+                             [](const auto& attribute) { return is_of_flags(attribute.first); }) ||
+         std::ranges::any_of(array.numbers, is_of_flags, &NumericAttribute::name);
+}
+
 std::vector<std::string> wanted_variables(const FileName& in,
                                           const std::vector<std::string>& names) {
   const std::string variable = file_and_variable(in).second;
@@ -51,6 +61,7 @@ FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
   fields.others = in.others;
   fields.unlimited = in.unlimited;
   fields.attributes = in.attributes;
+  fields.numbers = in.numbers;
   fields.dimension = "cell";
   target.add_mapping(fields);
   const auto tell = [&](const RegridSide& side, const char* name) {

@@ -24,6 +24,11 @@ std::vector<std::string> wanted_variables(const FileName& in,
 std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
                                        const RegridSide& side);
 
+// True for an attribute that says what values mean that stand for categories (CF, section 3.5).
+bool is_of_flags(std::string_view attribute);
+// True if the values of an array stand for categories.
+bool has_flags(const FieldArray& array);
+
 // Returns arrays at the targets, with what the input has beside its fields, the attributes that tell of
 // corners that were made, and a line in front of the attribute `history` unless it is empty.
 FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,

@@ -22,7 +22,6 @@
 #include "formats/regrid_output.h"
 #include "formats/regrid_plan.h"
 #include "formats/regrid_processes.h"
-#include "formats/regrid_second.h"
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
 #include "formats/regrid_vectors.h"
@@ -218,10 +217,7 @@ class RegridJob {
       return pair.first == array.name || pair.second == array.name;
     };
     if (std::ranges::any_of(options_.vectors, has_array)) return FieldMethod::conservative;
-    const bool has_meanings = std::ranges::any_of(
-        array.attributes, [](const auto& attribute) { return attribute.first == "flag_meanings"; });
-    return has_meanings || !array.numbers.empty() ? FieldMethod::largest_share
-                                                  : FieldMethod::conservative;
+    return formats::has_flags(array) ? FieldMethod::largest_share : FieldMethod::conservative;
   }
 
   // Returns what the cost of cells depends on.
@@ -317,7 +313,7 @@ class RegridJob {
     options.norm = options_.norm;
     options.overlap = options_.overlap;
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
-    covered_ = formats::enough_covered(made.target_fractions, options_.max_missing);
+    covered_ = covered_enough(made.target_fractions, options_.max_missing);
     if (options.order == 1) return with_rows(made.weights, covered_);
     second_.emplace(std::move(made), covered_, options_.is_limited);
     return {};
@@ -547,8 +543,8 @@ class RegridJob {
   std::optional<formats::RegridVectors> vectors_;
   std::size_t components_ = 1;  // fields that stand for one of the array that is carried
   std::map<FieldMethod, Weights> weights_;
-  std::vector<std::int32_t> covered_;           // targets of which enough is covered
-  std::optional<formats::SecondOrder> second_;  // what applies weights of order 2
+  std::vector<std::int32_t> covered_;       // targets of which enough is covered
+  std::optional<SecondOrderRemap> second_;  // what applies weights of order 2
   formats::RegridPlan plan_;
   std::unique_ptr<formats::RegridTiles> tiles_;
   std::vector<Duplicate> coincident_;  // sources that share a place

@@ -227,7 +227,7 @@ void RegridSide::add_mapping(FieldSet& fields) const {
   crs.name = free_names({"crs"}, taken_names(fields)).front();
   crs.values = {0};
   crs.attributes = mapping.texts;
-  for (const auto& [name, number] : mapping.numbers) crs.numbers.push_back({name, {number}});
+  for (const auto& [name, number] : mapping.numbers) crs.numbers.push_back({name, {number}, "i4"});
   for (FieldArray& array : fields.arrays) array.attributes.emplace_back("grid_mapping", crs.name);
   fields.others.push_back(std::move(crs));
 }

@@ -103,12 +103,13 @@ FieldArray array_of_statistic(const FieldArray& array, const ZonalStatistic& sta
   FieldArray made = array;
   made.name += '_' + statistic.name();
   if (!has_values_of_cells(statistic.operation)) {
-    made.numbers.clear();
-    std::erase_if(made.attributes, [](const auto& a) { return a.first == "flag_meanings"; });
+    std::erase_if(made.numbers, [](const auto& a) { return is_of_flags(a.name); });
+    std::erase_if(made.attributes, [](const auto& a) { return is_of_flags(a.first); });
   }
   if (statistic.operation == ZonalOperation::count ||
       statistic.operation == ZonalOperation::fraction ||
       statistic.operation == ZonalOperation::variety) {
+    made.numbers.clear();
     made.attributes = {{"long_name", statistic.name() + " of " + array.name}, {"units", "1"}};
     made.is_single = false;
     return made;

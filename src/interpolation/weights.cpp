@@ -107,7 +107,7 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
     }
   }
   const bool is_whole = absolute_missing == 0;
-  const bool is_enough = absolute_missing <= options.max_missing * absolute;
+  const bool is_enough = may_be_missing(absolute_missing, absolute, options.max_missing);
   if (!is_whole && (!is_enough || present == 0)) return options.fill;
   const double share = is_whole || options.keeps_sums ? 1 : all / present;
   return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
@@ -180,7 +180,7 @@ double value_of_largest_share(const Weights& weights, std::size_t row, std::span
       known->weight += weight;
     }
   }
-  if (shares.empty() || lacking > options.max_missing * all) return options.fill;
+  if (shares.empty() || !may_be_missing(lacking, all, options.max_missing)) return options.fill;
   return std::ranges::max_element(shares,
                                   [](const ShareOfValue& a, const ShareOfValue& b) {
                                     return a.weight != b.weight ? a.weight < b.weight
@@ -215,6 +215,22 @@ std::uint64_t point_set_hash(std::span<const Point> points) {
   std::uint64_t hash = fnv_offset;
   for (const Point& p : points) hash = hashed(hashed(hashed(hash, p.x), p.y), p.z);
   return hash == 0 ? 1 : hash;
+}
+
+bool may_be_missing(double missing, double all, double max_missing) noexcept {
+  // Areas of pieces are exact to some 1e-13 of their cells; no two shares that are meant to differ are so close.
+  constexpr double rounding = 1e-9;
+  return missing <= (max_missing + rounding) * all;
+}
+
+std::vector<std::int32_t> covered_enough(std::span<const double> fractions, double max_missing) {
+  std::vector<std::int32_t> covered;
+  covered.reserve(fractions.size());
+  for (const double fraction : fractions) {
+    const bool is_enough = fraction > 0 && may_be_missing(1 - fraction, 1, max_missing);
+    covered.push_back(is_enough ? 1 : 0);
+  }
+  return covered;
 }
 
 void apply(const Weights& weights, std::span<const double> in, std::span<double> out,

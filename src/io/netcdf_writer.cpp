@@ -3,6 +3,8 @@
 #include "io/netcdf_writer.h"
 
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "io/bad_value.h"
@@ -20,6 +22,17 @@ constexpr std::uint64_t largest_variable = 0xffff'fffc;
 constexpr std::uint64_t large_file = std::uint64_t{1} << 25U;
 // The largest offset at which a variable may start in CDF-1.
 constexpr std::uint64_t largest_offset = 0x7fff'ffff;
+
+// Returns the type that an attribute has in CDF-1 and CDF-2: its own, or for one of CDF-5 the next larger one
+// that has all of its numbers.
+NetcdfType type_of_cdf1(const NetcdfAttribute& attribute) {
+  if (attribute.type <= NetcdfType::float64) return attribute.type;
+  if (attribute.type == NetcdfType::uint8) return NetcdfType::int16;
+  const bool fits = std::ranges::all_of(attribute.numbers, [](double number) {
+    return std::abs(number) <= std::numeric_limits<std::int32_t>::max();
+  });
+  return fits ? NetcdfType::int32 : NetcdfType::float64;
+}
 
 // Builds the header. Counts have the width of the version.
 class HeaderBytes {
@@ -47,13 +60,16 @@ class HeaderBytes {
   void attributes(const std::vector<NetcdfAttribute>& attributes) {
     list(netcdf_attributes_tag, attributes.size());
     for (const NetcdfAttribute& attribute : attributes) {
+      const NetcdfType type = version_ == 5 ? attribute.type : type_of_cdf1(attribute);
       name(attribute.name);
-      u32(static_cast<std::uint32_t>(attribute.type));
-      if (attribute.type == NetcdfType::text) {
+      u32(static_cast<std::uint32_t>(type));
+      if (type == NetcdfType::text) {
         count(attribute.text.size());
         text(attribute.text);
       } else {
-        numbers(attribute);
+        count(attribute.numbers.size());
+        for (const double value : attribute.numbers) number(value, type);
+        pad();
       }
     }
   }
@@ -66,17 +82,25 @@ class HeaderBytes {
     store(static_cast<T>(value), bytes.data(), std::endian::big);
     bytes_.append(bytes.data(), bytes.size());
   }
-  // Appends the numbers of an attribute, which are doubles, floats or integers of 32 bits.
-  void numbers(const NetcdfAttribute& attribute) {
-    count(attribute.numbers.size());
-    for (const double number : attribute.numbers) {
-      if (attribute.type == NetcdfType::int32) {
-        u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(number)));
-      } else if (attribute.type == NetcdfType::float32) {
-        u32(std::bit_cast<std::uint32_t>(static_cast<float>(number)));
-      } else {
-        assert(attribute.type == NetcdfType::float64);
-        add<std::uint64_t>(std::bit_cast<std::uint64_t>(number));
+  // Appends a number of an attribute, which is one of this type.
+  void number(double value, NetcdfType type) {
+    if (type == NetcdfType::float32) {
+      u32(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+    } else if (type == NetcdfType::float64) {
+      add<std::uint64_t>(std::bit_cast<std::uint64_t>(value));
+    } else {
+      const std::uint64_t bits = type == NetcdfType::uint64
+                                     ? static_cast<std::uint64_t>(value)
+                                     : static_cast<std::uint64_t>(static_cast<std::int64_t>(value));
+      switch (size_of(type)) {
+        case 1:
+          return add<std::uint8_t>(bits);
+        case 2:
+          return add<std::uint16_t>(bits);
+        case 4:
+          return add<std::uint32_t>(bits);
+        default:
+          return add<std::uint64_t>(bits);
       }
     }
   }

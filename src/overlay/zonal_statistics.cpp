@@ -167,10 +167,9 @@ class ZoneComputer {
     const std::size_t counted = values.size();
     values.insert(values.end(), slivers.begin(), slivers.end());
     const double fraction = size > 0 ? with_value / size : 0;
-    constexpr double rounding = 1e-9;
     const bool is_enough = !values.empty() &&
-                           covered >= (1 - options_.max_missing - rounding) * size &&
-                           covered - with_value <= (options_.max_missing + rounding) * covered;
+                           may_be_missing(size - covered, size, options_.max_missing) &&
+                           may_be_missing(covered - with_value, covered, options_.max_missing);
     for (std::size_t s = 0; s < statistics_.size(); ++s) {
       const ZonalOperation operation = statistics_[s].operation;
       if (operation == ZonalOperation::fraction) {

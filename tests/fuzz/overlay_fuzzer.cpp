@@ -92,6 +92,11 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   for (const double value : out) {
     require(std::isnan(value) || std::abs(value - 2) < 1e-9, "constants are kept beside gaps");
   }
+  std::vector<double> of_gaps(out.size());
+  SecondOrderRemap(second).apply(with_gaps, of_gaps, {.max_missing = 1});
+  for (std::size_t j = 0; j < out.size(); ++j) {
+    require(std::isnan(out[j]) || of_gaps[j] == out[j], "these weights are applied");
+  }
   const Remap same = remap(source, source, covered);
   for (std::size_t j = 0; j < source.num_cells(); ++j) {
     if (!(source.areas()[j] > 1e-24)) continue;  // no wider than rounding

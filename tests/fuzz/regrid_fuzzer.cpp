@@ -161,6 +161,11 @@ void test_largest_share(const Weights& weights) {
       require(std::isnan(found[r]), "a row without entries has no value");
       continue;
     }
+    double all = 0;
+    for (const double share : shares) all += share;
+    require(!may_be_missing(shares[0], all, 0.5) == (shares[0] > (0.5 + 1e-9) * all) &&
+                covered_enough(std::vector{1.0, 0.0}, 0) == std::vector<std::int32_t>({1, 0}),
+            "shares are compared up to rounding");
     for (const double share : shares) {
       require(share <= shares[static_cast<std::size_t>(found[r])], "no share is larger");
     }

@@ -222,7 +222,12 @@ void add_grid_mappings(nb::module_& module) {
       [](const std::string& name) {
         const GridMapping mapping =
             NamedGrid::is_name(name) ? NamedGrid(name).mapping() : GridMapping();
-        return std::pair(mapping.texts, mapping.numbers);
+        std::vector<std::pair<std::string, std::int64_t>> numbers;  // a mapping has integers alone
+        numbers.reserve(mapping.numbers.size());
+        for (const auto& [key, number] : mapping.numbers) {
+          numbers.emplace_back(key, static_cast<std::int64_t>(number));
+        }
+        return std::pair(mapping.texts, numbers);
       },
       nb::arg("name"));
 }

@@ -119,6 +119,12 @@ void add_weights(nb::module_& module) {
       .def("without_columns", &weights_without_columns, nb::arg("mask").noconvert())
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
            nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"));
+  module.def(
+      "covered_enough",
+      [](const NumbersIn& fractions, double max_missing) {
+        return to_array<std::int32_t>(covered_enough(rows_of<double>(fractions), max_missing));
+      },
+      nb::arg("fractions").noconvert(), nb::arg("max_missing"));
   module.def("bilinear_weights", &bilinear_of_axes, nb::arg("lon").noconvert(),
              nb::arg("lat").noconvert(), nb::arg("targets").noconvert(), nb::arg("are_single"));
   module.def(

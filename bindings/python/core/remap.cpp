@@ -5,9 +5,13 @@
 
 #include <nanobind/stl/string.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <mutex>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "interrupt.h"
@@ -16,6 +20,8 @@
 
 namespace rondel::python {
 namespace {
+
+using PlainFieldsIn = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 
 Remap remap_of(const CellSet& source, const CellSet& target, unsigned order, nb::handle norm,
                const IndicesIn& source_mask, const IndicesIn& target_mask, nb::handle overlap,
@@ -30,6 +36,41 @@ Remap remap_of(const CellSet& source, const CellSet& target, unsigned order, nb:
   return watched(
       source.num_cells() + target.num_cells(), threads, listener,
       [&](const Execution& execution) { return remap(source, target, options, execution); });
+}
+
+// Applies weights of order 2 for several threads of Python, one after the other: it keeps the weights of the
+// last field.
+class SharedSecondOrder {
+ public:
+  SharedSecondOrder(const Remap& remap, const Weights& weights, const IndicesIn& covered)
+      : second_(with_weights(remap, weights), vector_of<std::int32_t>(covered)) {}
+
+  void apply(std::span<const double> in, std::span<double> out, const ApplyOptions& rules,
+             const Execution& execution) {
+    const std::lock_guard lock(mutex_);
+    second_.apply(in, out, rules, execution);
+  }
+
+ private:
+  static Remap with_weights(Remap remap, const Weights& weights) {
+    remap.weights = weights;
+    return remap;
+  }
+
+  SecondOrderRemap second_;
+  std::mutex mutex_;
+};
+
+ArrayOut<double> apply_second(SharedSecondOrder& self, const PlainFieldsIn& fields,
+                              std::size_t num_targets, double fill, double max_missing,
+                              unsigned threads) {
+  const std::size_t count = fields.shape(0) * num_targets;
+  const std::span<const double> in(fields.data(), fields.size());
+  return to_array<double>(watched_quietly(count, threads, [&](const Execution& execution) {
+    std::vector<double> out(count);
+    self.apply(in, out, {.fill = fill, .max_missing = max_missing}, execution);
+    return out;
+  }));
 }
 
 }  // namespace
@@ -49,6 +90,16 @@ void add_remap(nb::module_& module) {
       .def_prop_rw(
           "norm", [](const Remap& self) { return std::string(name_of(self.norm)); },
           [](Remap& self, nb::handle norm) { self.norm = named<RemapNorm>("norm", norm); });
+  add_array<std::int64_t, &Remap::pieces, &CompressedRows<Index>::offsets>(type, "offsets");
+  add_array<std::int32_t, &Remap::pieces, &CompressedRows<Index>::values>(type, "columns");
+  add_array<double, &Remap::areas>(type, "areas");
+  add_array<double, &Remap::moments>(type, "moments");
+  add_array<double, &Remap::source_centers>(type, "source_centers");
+  nb::class_<SharedSecondOrder>(module, "SecondOrderRemap")
+      .def(nb::init<const Remap&, const Weights&, const IndicesIn&>(), nb::arg("remap"),
+           nb::arg("weights"), nb::arg("covered").noconvert())
+      .def("apply", &apply_second, nb::arg("fields").noconvert(), nb::arg("num_targets"),
+           nb::arg("fill"), nb::arg("max_missing"), nb::arg("threads"));
   add_array<double, &Remap::source_areas>(type, "source_areas");
   add_array<double, &Remap::target_areas>(type, "target_areas");
   add_array<double, &Remap::source_fractions>(type, "source_fractions");

@@ -15,15 +15,17 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ._second_order import SecondOrderWeights
 from ._weights import Weights
 
+AnyWeights: TypeAlias = Weights | SecondOrderWeights
 # The lengths of the blocks along the dimensions of the targets.
 OutputChunks: TypeAlias = int | str | tuple[Any, ...] | Mapping[Hashable, Any] | None
 
 
 def in_blocks(
     values: Any,
-    weights: Weights,
+    weights: AnyWeights,
     num_source_dims: int,
     shape: tuple[int, ...],
     dims: tuple[Hashable, ...],
@@ -67,23 +69,18 @@ def in_blocks(
 
 
 def _applied(
-    values: Any, weights: Weights, apply: Any, shape: tuple[int, ...], num_source_dims: int
+    values: Any, weights: AnyWeights, apply: Any, shape: tuple[int, ...], num_source_dims: int
 ) -> Any:
     found = apply(values, weights)
     return found.reshape(*values.shape[: values.ndim - num_source_dims], *shape)
 
 
 def _rows(
-    weights: Weights, shape: tuple[int, ...], begins: tuple[int, ...], lengths: tuple[int, ...]
-) -> Weights:
+    weights: AnyWeights, shape: tuple[int, ...], begins: tuple[int, ...], lengths: tuple[int, ...]
+) -> AnyWeights:
     """The weights of a block of targets."""
     axes = [np.arange(begin, begin + length) for begin, length in zip(begins, lengths, strict=True)]
-    rows = np.ravel_multi_index(np.ix_(*axes), shape).reshape(-1)
-    sizes = np.diff(weights.indptr)[rows]
-    indptr = np.concatenate([[0], np.cumsum(sizes)])
-    entries = np.repeat(weights.indptr[rows] - indptr[:-1], sizes) + np.arange(indptr[-1])
-    kept = weights.indices[entries], weights.data[entries]
-    return Weights(indptr, *kept, (len(rows), weights.shape[1]))
+    return weights._of_rows(np.ravel_multi_index(np.ix_(*axes), shape).reshape(-1))
 
 
 def _chunks_of(

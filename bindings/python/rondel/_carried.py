@@ -11,7 +11,7 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._blocks import OutputChunks, in_blocks
+from ._blocks import AnyWeights, OutputChunks, in_blocks
 from ._coordinates import (
     at_places,
     describes_places,
@@ -24,7 +24,6 @@ from ._errors import warn_caller
 from ._places import Places
 from ._types import IntArray
 from ._values import OF_VALUES, missing_marker, unpacked
-from ._weights import Weights
 
 # Sums, the value of the largest part of a target, or the latter for flags alone.
 How: TypeAlias = Literal["sum", "largest_share", "by_kind"]
@@ -35,7 +34,7 @@ _ELSEWHERE = "as they are at other places than the source"
 
 def carried(
     data: Any,
-    weights: Weights,
+    weights: AnyWeights,
     source: Places,
     wanted: Places,
     *,
@@ -166,7 +165,7 @@ def in_order(made: xarray.Dataset, data: xarray.Dataset) -> xarray.Dataset:
 
 def _applied_rows(
     values: Any,
-    weights: Weights,
+    weights: AnyWeights,
     *,
     num_dims: int,
     marker: Any,

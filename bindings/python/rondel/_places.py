@@ -52,8 +52,10 @@ class Places:
         are_points: bool = False,
         are_pairs: bool = False,
         are_targets: bool = False,
+        are_cells: bool = False,
         corners: Corners = "error",
     ) -> None:
+        # With `are_cells` cells that have bounds take part where their centers are missing, too.
         if isinstance(data, str):
             data = CellSet.named(data)
         given = data
@@ -111,14 +113,17 @@ class Places:
         located = np.isfinite(self.lon) & np.isfinite(self.lat)
         self._located = None if located.all() else located.reshape(-1)
         self._used = self._located
-        if self._located is not None:
+        self._cells_need_places = not (are_cells and self._found.have_bounds)
+        if self._located is not None and self._cells_need_places:
             count = int(np.count_nonzero(~self._located))
             warn_caller(
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
             )
+        self._masked: BoolArray | None = None  # those that a mask of a convention leaves out
         found = mask_of_convention(data, self._found.lon_name, self.dims)
         if found is not None:
-            name, mask = found
+            name, self._masked = found
+            mask = self._masked
             count = int(np.count_nonzero(~mask))
             warn_caller(f"{count} of {mask.size} cells are masked by {name!r}")
             self._used = mask if self._located is None else mask & self._located
@@ -327,15 +332,22 @@ class Places:
         return self._found.lon.values, self._found.lat.values
 
     def mask(self) -> BoolArray | None:
-        """Which take part: those with a place, where no mask of a convention leaves it out and
-        `mask` is neither 0 nor missing.
+        """Which take part: those with a place, or a cell with bounds, where no mask of a convention
+        leaves it out and `mask` is neither 0 nor missing.
         """
         if self._cells is not None:
             return self._cells.mask
+        return self._mask_with(self._used if self._cells_need_places else self._masked)
+
+    def mask_with_places(self) -> BoolArray | None:
+        """Those of `mask` that have a longitude and a latitude."""
+        return self._cells.mask if self._cells is not None else self._mask_with(self._used)
+
+    def _mask_with(self, used: BoolArray | None) -> BoolArray | None:
         mask = mask_of_variable(self._data, self.dims)
-        if mask is None or self._used is None:
-            return self._used if mask is None else mask
-        return mask & self._used
+        if mask is None or used is None:
+            return used if mask is None else mask
+        return mask & used
 
     def side(self) -> _core.WeightSide:
         """What a file of weights says of the places."""
@@ -433,7 +445,11 @@ class Places:
         kept = np.zeros(0) if mask is None else mask.reshape(-1)
         are_made = self._corners == "made" and not self.are_axes and not self._found.have_bounds
         facts = {"mask": kept.astype(np.int32), "are_corners_made": are_made}
-        return cells._with(centers=self.pairs(), **facts)
+        centers = self.pairs()
+        if self._located is not None and not self._cells_need_places:
+            own = np.asarray(cells._degrees())
+            centers = np.where(self._located[:, None], centers, own)
+        return cells._with(centers=np.ascontiguousarray(centers), **facts)
 
     def _pairs_with_gaps(self, mask: BoolArray | None) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2); NaN where there is none or no part is taken."""

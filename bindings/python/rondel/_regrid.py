@@ -82,7 +82,7 @@ def regrid(
     max_missing : float, optional
         The share of a target that may lack values, from 0 to 1; by default 0.5: with conservative
         methods that no source covers, and with all methods whose sources have none. It is that of
-        `regrid_file`.
+        `regrid_file`; with 'conservative_2nd' gradients end at missing values, as there.
     output_chunks : int, tuple, dict or str, optional
         The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
         `Regridder` takes them; by default 'auto'.

@@ -11,14 +11,16 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_threads, point_set_hash
-from ._blocks import OutputChunks
+from ._blocks import AnyWeights, OutputChunks
+from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
 from ._geometries import Corners, Invalid, require_rules
 from ._native import EXTRAPOLATIONS, Extrapolation, extrapolated, require_limits
-from ._remap import CellOverlap, Remap, remap
+from ._remap import CellOverlap, Remap, remapped
 from ._repr import Described, count
 from ._reuse import reused, said_method
+from ._second_order import SecondOrderWeights
 from ._types import BoolArray, FloatArray, Progress
 from ._weight_files import netcdf_name
 from ._weights import Weights
@@ -69,7 +71,8 @@ class Regridder(Described):
         between their centers. A variable `mask`, also among the coordinates of a DataArray, is 0 or
         missing where places take no part. The masks of SCRIP (`grid_imask`) and OASIS are heeded,
         too. Masked elements of NumPy arrays count as NaN. Places without longitude or latitude, and
-        cells with a missing corner, are left out with a warning that counts them.
+        cells with a missing corner, are left out with a warning that counts them; with conservative
+        methods cells that have bounds need no longitude and latitude of their own.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; 'conservative_2nd_normed', whose weights are divided by the
@@ -153,7 +156,9 @@ class Regridder(Described):
     -----
     These differences from xESMF are deliberate: the sphere is always periodic and always has its
     poles; cells of axes end at meridians and parallels, where those of ESMF end at great circles;
-    missing values never count as zeros, and unmapped targets are NaN.
+    missing values never count as zeros, and unmapped targets are NaN. Gradients of
+    'conservative_2nd' end at missing values, as those of `regrid_file` do; weights that are given
+    (`weights`, `reuse_weights`) have the gradients of fields without gaps.
 
     Examples
     --------
@@ -243,15 +248,19 @@ class Regridder(Described):
         self._extrap_method = extrap_method
         self._remap: Remap | None = None  # what a file says of conservative weights
         self.method = method
-        self._source = Places(ds_in, lon, lat, are_points=locstream_in, corners=corners)
+        rules: Any = {"are_cells": method in _CONSERVATIVE, "corners": corners}
+        self._source = Places(ds_in, lon, lat, are_points=locstream_in, **rules)
         self._target = Places(
-            ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True, corners=corners
+            ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True, **rules
         )
         mask = self._target.mask()
         is_nan = unmapped_to_nan or (mask is not None and not mask.all())
         self._unmapped = np.nan if is_nan else 0.0
+        second: tuple[_core.Remap, CellSet, BoolArray] | None = None
         if weights is None:
-            found = _made(self._source, self._target, method, overlap, invalid, threads, progress)
+            found, pieces = _made(
+                self._source, self._target, method, overlap, invalid, threads, progress
+            )
             made = found.weights if isinstance(found, Remap) else found
             is_whole = True
             if isinstance(found, Remap) and max_uncovered < 1:
@@ -261,6 +270,8 @@ class Regridder(Described):
                     made = made._with_rows(covered)
             if extrap_method is None and isinstance(found, Remap) and is_whole:
                 self._remap = found
+            if isinstance(found, Remap) and pieces is not None:
+                second = pieces, found.source, np.diff(made.indptr) > 0
         else:
             made = reused(weights, method, extrap_method, self._source, self._target, threads)
         if extrap_method is not None:
@@ -281,6 +292,10 @@ class Regridder(Described):
             hashes = [point_set_hash(side.points()) for side in (self._source, self._target)]
             made._weights.know_places(*hashes)
         self.weights = made
+        # What is applied: of order 2, for each field, the weights that its missing values need.
+        self._applied: AnyWeights = (
+            made if second is None else SecondOrderWeights.of(*second[:2], made, second[2])
+        )
 
     @property
     def shape_in(self) -> tuple[int, ...]:
@@ -320,7 +335,8 @@ class Regridder(Described):
             missing value is missing.
         na_thres : float, optional
             With `skipna`, the share of missing values above which a target is missing, from 0 to 1;
-            by default 1.
+            by default 1. It is a share of the target's area with 'conservative_2nd', and of its
+            weights otherwise; 1e-9 more is the same.
         how : {'sum', 'largest_share', 'by_kind'}, optional
             The weighted sum (default); the value that the largest part of a target has, for
             categories; or the latter for arrays with the attribute `flag_values` or
@@ -377,9 +393,9 @@ class Regridder(Described):
             data, source = source.along_cells(data)
             pairs = pairs_of(data, vectors)
             if not pairs:
-                return carried(data, self.weights, source, self._target, **options)
+                return carried(data, self._applied, source, self._target, **options)
             parts = in_space(data, pairs, source)
-            found = carried(parts, self.weights, source, self._target, **options)
+            found = carried(parts, self._applied, source, self._target, **options)
             return on_sphere(found, data, pairs, self._target, keep_attrs)
         if list(vectors):
             raise TypeError("vectors are variables of a Dataset, and the data are none")
@@ -402,7 +418,7 @@ class Regridder(Described):
             data = unpacked(data)
             source.require_same(data)
             source.require_places_of(data)
-        found = carried(data, self.weights, source, self._target, **options)
+        found = carried(data, self._applied, source, self._target, **options)
         return found if is_labeled else found.data
 
     def to_netcdf(self, path: Path | None = None) -> None:
@@ -475,13 +491,14 @@ def _made(
     invalid: Invalid,
     threads: int | None,
     progress: Progress,
-) -> Weights | Remap:
+) -> tuple[Weights | Remap, _core.Remap | None]:
+    """The weights, and of order 2 the pieces of which they are."""
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
         sides = [side.cells(threads) for side in (source, target)]
         if invalid == "repair":
             sides = [side.repaired(threads=threads) for side in sides]
-        return remap(
+        found, pieces = remapped(
             *sides,
             order=order,
             norm=norm,
@@ -489,6 +506,7 @@ def _made(
             threads=threads,
             progress=progress,
         )
+        return found, pieces if order == 2 else None
     if method == "nearest_s2d":
         made = _nearest(source, target)
     elif method == "nearest_d2s":
@@ -508,19 +526,18 @@ def _made(
         if mask is not None:
             made = made._without_columns(mask)
     mask = target.mask()
-    return made if mask is None else made._with_rows(mask)
+    return made if mask is None else made._with_rows(mask), None
 
 
 def _are_covered(fractions: FloatArray, max_uncovered: float) -> BoolArray:
     """Which targets have enough of the source, as `regrid_file` decides it."""
-    rounding = 1e-9
-    covered: BoolArray = (fractions > 0) & (fractions >= 1 - max_uncovered - rounding)
+    covered: BoolArray = _core.covered_enough(fractions, max_uncovered) != 0
     return covered
 
 
 def _nearest(source: Places, target: Places) -> Weights:
     """For each target the nearest source that takes part; no row if none does."""
-    tri, numbers = source.triangulated(source.mask())
+    tri, numbers = source.triangulated(source.mask_with_places())
     shape = (target.lon.size, source.lon.size)
     if len(numbers) == 0:
         return Weights(np.zeros(shape[0] + 1, np.int64), [], [], shape)
@@ -592,10 +609,10 @@ def _filled(
     """Entries where a target has nothing, but for those that take no part."""
     if method not in ("nearest", "nearest_s2d") or limits["distance"] is not None:
         places = source.pairs(), target.pairs()
-        masks = source.mask(), target.mask()
+        masks = source.mask_with_places(), target.mask_with_places()
         return extrapolated(weights, *places, target.shape, masks, method, limits, threads)
     is_kept = np.diff(weights.indptr) > 0
-    mask = target.mask()
+    mask = target.mask_with_places()
     if mask is not None:
         is_kept |= ~mask
     return weights if is_kept.all() else weights._with_rows(is_kept, _nearest(source, target))

@@ -182,6 +182,32 @@ def remap(
     array([3.5, 5.5])
 
     """
+    return remapped(
+        source,
+        target,
+        order=order,
+        norm=norm,
+        source_mask=source_mask,
+        target_mask=target_mask,
+        overlap=overlap,
+        threads=threads,
+        progress=progress,
+    )[0]
+
+
+def remapped(
+    source: Any,
+    target: Any,
+    *,
+    order: int,
+    norm: Literal["destarea", "fracarea"],
+    overlap: CellOverlap,
+    threads: int | None,
+    progress: Progress,
+    source_mask: ArrayLike | None = None,
+    target_mask: ArrayLike | None = None,
+) -> tuple[Remap, _core.Remap]:
+    """The result of `remap`, and all that the library made but the weights."""
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
     cells = [as_cell_set(side, threads) for side in (source, target)]
@@ -203,7 +229,7 @@ def remap(
         side if len(mask) == 0 else CellSet._of(masked, side._origin)
         for side, mask, masked in zip(cells, masks, (made.source, made.target), strict=True)
     )
-    return Remap(made, source, target, norm, int(order))
+    return Remap(made, source, target, norm, int(order)), made
 
 
 def as_cell_set(cells: Any, threads: int | None) -> CellSet:

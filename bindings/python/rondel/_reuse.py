@@ -171,7 +171,8 @@ def _require_places(
         used = cells.mask
         own = cells._degrees()
     if len(side.centers):
-        located = used & np.isfinite(side.centers).all(axis=1)  # empty cells have no center
+        # Empty cells have no center, and those that have bounds need none.
+        located = used & np.isfinite(side.centers).all(axis=1) & places.have_places
         apart = located & ~are_near(own, side.centers)
         if apart.any() and cells is not None:
             # Files of former versions have the centers of mass.

@@ -177,7 +177,8 @@ class Weights(Described):
             are scaled up to the same sum.
         max_missing : float, optional
             With `skipna`, the largest share of its absolute weights for which a target may lack
-            values, from 0 to 1; by default 1, with which one present value suffices.
+            values, from 0 to 1; by default 1, with which one present value suffices. A target at
+            the limit, up to 1e-9, has a value.
         fill : float, optional
             The value of targets that have none; by default NaN.
         how : {'sum', 'largest_share'}, optional
@@ -324,6 +325,11 @@ class Weights(Described):
         """The same with empty rows where a column is needed for which `is_kept` is false."""
         return Weights._of(self._weights.without_columns(np.ascontiguousarray(is_kept, np.int32)))
 
+    def _of_rows(self, rows: Any) -> Weights:
+        indptr, entries = rows_of(self.indptr, rows)
+        kept = self.indices[entries], self.data[entries]
+        return Weights(indptr, *kept, (len(rows), self.shape[1]))
+
     def _facts(self) -> list[tuple[str, str]]:
         rows, columns = self.shape
         return [
@@ -344,6 +350,13 @@ def _unpickled(
     made = Weights(indptr, indices, data, shape, **hashes)
     made._places = places
     return made
+
+
+def rows_of(indptr: Any, rows: Any) -> tuple[Any, Any]:
+    """Where some rows begin and end among their own entries, and the numbers of these."""
+    sizes = np.diff(indptr)[rows]
+    offsets = np.concatenate([[0], np.cumsum(sizes)])
+    return offsets, np.repeat(indptr[rows] - offsets[:-1], sizes) + np.arange(offsets[-1])
 
 
 def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:

@@ -123,7 +123,7 @@ def zonal_statistics(
 
     listed = statistics if isinstance(statistics, str) else ",".join(statistics)
     names = _core.names_of_statistics(listed)
-    source = Places(data, lon, lat)
+    source = Places(data, lon, lat, are_cells=True)
     if isinstance(zones, str) and _core.is_grid_name(zones):
         zones = CellSet.named(zones, threads=threads)
     is_set = isinstance(zones, CellSet)

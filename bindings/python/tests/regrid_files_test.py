@@ -436,3 +436,277 @@ def test_the_limiter_keeps_constants_and_integrals_where_values_are_missing(made
         assert abs(np.nansum(found["bounds"] * areas) - wanted) < 1e-12 * wanted
     with pytest.raises(ValueError, match="limiter must be 'none' or 'bounds', not 'both'"):
         rondel.regrid_file(tmp_path / "in.nc", "grid:20", tmp_path / "o.nc", limiter="both")
+
+
+def with_gaps(lon, lat):
+    """Fields with no gap, with one, with the same one, and with another one."""
+    x, y = np.meshgrid(np.radians(lon), np.radians(lat))
+    field = 280 + 20 * np.cos(2 * y) * np.sin(x) + np.random.default_rng(4).normal(size=x.shape)
+    fields = np.stack([field, field, 2 * field, field])
+    fields[1:3, 5:12, 7:15] = np.nan
+    fields[3][np.random.default_rng(5).random(x.shape) < 0.3] = np.nan
+    return fields
+
+
+@pytest.mark.parametrize("target", ["grid:15x7", "healpix:2", "O4"])
+@pytest.mark.parametrize("max_missing", [0.0, 0.4, 1.0])
+def test_gradients_end_at_gaps_of_data_as_at_those_of_files(made, tmp_path, target, max_missing):
+    _, data = made
+    fields = with_gaps(data.lon.values, data.lat.values)
+    data = xarray.Dataset({"t": (("time", "lat", "lon"), fields)}, data.drop_vars("time").coords)
+    data.to_netcdf(tmp_path / "in.nc")
+    path, method = tmp_path / "out.nc", "conservative_2nd"
+    rondel.regrid_file(tmp_path / "in.nc", target, path, method=method, max_missing=max_missing)
+    with xarray.open_dataset(path) as file:
+        wanted = file.t.values
+    found = rondel.regrid(data, target, method, max_missing=max_missing)
+    np.testing.assert_array_equal(found.t, wanted)
+    assert 0 < np.isfinite(wanted[1:]).sum() <= wanted[1:].size
+    regridder = rondel.Regridder(data, target, "conservative_2nd_normed")
+    rules = {"skipna": max_missing > 0, "na_thres": max_missing if max_missing > 0 else 1.0}
+    for each in (regridder, pickle.loads(pickle.dumps(regridder))):
+        np.testing.assert_array_equal(each(data.t, **rules), wanted)
+    # The order of fields, and which ones are carried together, change nothing.
+    for k in (3, 1, 0, 2):
+        np.testing.assert_array_equal(regridder(data.t[k], **rules), wanted[k])
+    if max_missing == 0.4:
+        pytest.importorskip("dask")
+        lazy = data.chunk({"time": 1})
+        blocks = rondel.regrid(lazy, target, method, max_missing=0.4, output_chunks=5)
+        np.testing.assert_array_equal(blocks.t, wanted)
+
+
+def test_gaps_of_second_order_can_be_extrapolated(made):
+    _, data = made
+    fields = with_gaps(data.lon.values, data.lat.values)[1, :, :18]
+    data = xarray.Dataset({"t": (("lat", "lon"), fields)}, data.isel(lon=slice(18)).coords)
+    plain = rondel.Regridder(data, "grid:15", "conservative_2nd_normed")
+    filled = rondel.Regridder(
+        data, "grid:15", "conservative_2nd_normed", extrap_method="nearest_s2d"
+    )
+    found, wanted = filled(data.t, skipna=True), plain(data.t, skipna=True)
+    is_covered = np.diff(plain.weights.indptr).reshape(found.shape) > 0
+    np.testing.assert_array_equal(found.values[is_covered], wanted.values[is_covered])
+    assert np.isfinite(found.values[~is_covered]).all()
+    assert np.isnan(wanted.values[~is_covered]).all()
+
+
+@pytest.mark.parametrize("parts", [2, 3])
+@pytest.mark.parametrize("shift", [0.0, 0.3, 7.7])
+def test_all_ways_decide_exact_shares_of_missing_values_equally(made, tmp_path, parts, shift):
+    """One of 2 or 3 columns of sources in each target has no values: a share of 1/2 or 1/3."""
+    _, data = made
+    lon, share = data.lon.values + shift, 1 / parts
+    gaps = (np.arange(36) % parts == 0) & (np.arange(36) >= parts)  # one column of targets has all
+    values = np.where(gaps, np.nan, with_gaps(lon, data.lat.values)[0])
+    places = {"lat": data.lat, "lon": ("lon", lon, {"units": "degrees_east"})}
+    data = xarray.Dataset({"t": (("lat", "lon"), values)}, places)
+    data.to_netcdf(tmp_path / "in.nc")
+    step = 10 * parts
+    edges = np.arange(0.0, 361, step) + shift
+    target = xarray.Dataset(
+        {},
+        {
+            "lat": ("lat", np.arange(-90 + step / 2, 90, step), {"units": "degrees_north"}),
+            "lon": ("lon", edges[:-1] + step / 2, {"units": "degrees_east"}),
+        },
+    )
+    target.to_netcdf(tmp_path / "target.nc")
+    for most, is_there in ((share, True), (share - 1e-8, False), (share + 1e-8, True)):
+        missing = {}
+        for method in ("conservative", "conservative_2nd", "largest_share"):
+            for tile in (0, 20):
+                out = tmp_path / "out.nc"
+                rondel.regrid_file(
+                    tmp_path / "in.nc",
+                    tmp_path / "target.nc",
+                    out,
+                    method=method,
+                    max_missing=most,
+                    tile=tile,
+                )
+                with xarray.open_dataset(out) as file:
+                    missing[f"file {method} {tile}"] = file.t.isnull().values
+            found = rondel.regrid(data, target, method, max_missing=most)
+            missing[f"memory {method}"] = found.t.isnull().values
+        for method in ("conservative", "conservative_2nd", "conservative_2nd_normed"):
+            regridder = rondel.Regridder(data, target, method)
+            found = regridder(data.t, skipna=True, na_thres=most)
+            missing[f"regridder {method}"] = found.isnull().values
+        cells = [rondel.CellSet.read(tmp_path / name) for name in ("in.nc", "target.nc")]
+        weights = rondel.remap(*cells).weights
+        found = weights.apply(values.ravel(), skipna=True, max_missing=most)
+        missing["weights"] = np.isnan(found).reshape(target.lat.size, -1)
+        zones = rondel.zonal_statistics(data, cells[1], ["mean"], max_missing=most)
+        missing["zones"] = np.isnan(np.asarray(zones["t_mean"])).reshape(target.lat.size, -1)
+        wanted = np.zeros((target.lat.size, target.lon.size), bool)
+        wanted[:, 1:] = not is_there
+        for way, found in missing.items():
+            np.testing.assert_array_equal(found, wanted, f"{way} {most}")
+
+
+@pytest.mark.parametrize("end", ["nc", "nc4"])
+def test_attributes_that_are_numbers_are_those_of_data(made, tmp_path, end):
+    _, data = made
+    data = data.isel(time=0, drop=True)
+    data.attrs |= {"realization": np.int32(3), "branch_time": 1.5, "sphere_radius": 6371229.0}
+    data.warm.attrs |= {
+        "level": np.float32(850),
+        "table": np.int16(7),
+        "steps": np.array([1, 2, 3], np.int32),
+        "flag_values": np.array([1, 2], np.int8),
+        "actual_range": np.array([250.0, 310.0]),
+        "_ChunkSizes": np.int32(18),
+        "CDI_grid_num_LPE": np.int32(9),
+        "number_of_grid_in_reference": np.int32(1),
+        "GRIB_Nx": np.int32(36),
+        "GRIB_paramId": np.int32(130),
+    }
+    data.to_netcdf(tmp_path / "in.nc", encoding={"warm": {"_FillValue": -9.0, "dtype": "f4"}})
+    out = tmp_path / f"out.{end}"
+    rondel.regrid_file(tmp_path / "in.nc", "healpix:1", out)
+    found = rondel.regrid(xarray.open_dataset(tmp_path / "in.nc"), "healpix:1", "largest_share")
+    kept = {"level": "f4", "table": "i2", "steps": "i4", "flag_values": "i1", "GRIB_paramId": "i4"}
+    lost = {"actual_range", "_ChunkSizes", "CDI_grid_num_LPE", "number_of_grid_in_reference"}
+    with xarray.open_dataset(out) as file:
+        for side in (file, found):
+            for name, kind in kept.items():
+                attribute = np.asarray(side.warm.attrs[name])
+                assert attribute.dtype == kind, (name, attribute.dtype)
+                np.testing.assert_array_equal(attribute, data.warm.attrs[name])
+            assert not {*side.warm.attrs} & (lost | {"GRIB_Nx"})
+            assert np.asarray(side.attrs["realization"]).dtype == "i4"
+            assert side.attrs["branch_time"] == 1.5
+            assert "sphere_radius" not in side.attrs
+            for name, number in (("refinement_level", 1), ("healpix_nside", 2)):
+                assert np.asarray(side.crs.attrs[name]).dtype.kind == "i"
+                assert side.crs.attrs[name] == number
+
+
+def test_attributes_of_types_that_classic_files_lack(made, tmp_path):
+    """Types that netCDF-4 alone has are kept there, and become larger ones of classic files."""
+    netcdf = pytest.importorskip("netCDF4")
+    path, _ = made
+    numbers = {
+        "byte": np.array([200, 1], np.uint8),
+        "short": np.uint16(60000),
+        "word": np.uint32(3_000_000_000),
+        "small": np.int64(-5),
+        "large": np.int64(1 << 40),
+        "natural": np.uint64(1 << 63),
+    }
+    with netcdf.Dataset(tmp_path / "in.nc4", "w") as file, netcdf.Dataset(path) as given:
+        for name, dimension in given.dimensions.items():
+            file.createDimension(name, len(dimension))
+        for name, variable in given.variables.items():
+            copied = file.createVariable(name, "f8", variable.dimensions)
+            copied[...] = variable[...]
+            if "units" in variable.ncattrs():
+                copied.units = variable.units
+        file["warm"].setncatts({**numbers, "lost": np.int64((1 << 60) + 1)})
+    kinds = {
+        "nc4": ("u1", "u2", "u4", "i8", "i8", "u8"),
+        "nc": ("i2", "i4", "f8", "i4", "f8", "f8"),
+    }
+    for end, types in kinds.items():
+        report = rondel.regrid_file(tmp_path / "in.nc4", "grid:30", tmp_path / f"out.{end}")
+        assert any(
+            '"lost" of variable "warm" has integers that are' in text for text in report.remarks
+        )
+        with netcdf.Dataset(tmp_path / f"out.{end}") as file:
+            for (name, number), kind in zip(numbers.items(), types, strict=True):
+                attribute = np.asarray(file["warm"].getncattr(name))
+                assert attribute.dtype == kind, (end, name)
+                np.testing.assert_array_equal(attribute, number)
+            assert "lost" not in file["warm"].ncattrs()
+
+
+@pytest.fixture
+def ocean(tmp_path):
+    """Files of an ocean, with bounds of all cells: without the centers of cells on land, as CICE
+    writes them, and with all centers.
+    """
+    lon, lat = np.meshgrid(np.linspace(0, 60, 25), np.linspace(-30, 30, 13))
+    lon, lat = lon + 5 * np.sin(np.radians(lat)), lat + 3 * np.sin(np.radians(lon))
+    corners = [
+        np.stack([each[:-1, :-1], each[:-1, 1:], each[1:, 1:], each[1:, :-1]], -1)
+        for each in (lon, lat)
+    ]
+    land = np.zeros((12, 24), bool)
+    land[3:6, 4:9] = land[0] = True
+    fields = np.stack([corners[0].mean(-1), corners[0].mean(-1) * corners[1].mean(-1)])
+    made = {}
+    for name, gaps in (("whole", False), ("cice", True)):
+        dims = ("nj", "ni")
+        variables = {"aice": (("time", *dims), np.where(land, np.nan, fields))}
+        for kind, array, units in zip(
+            "TL", corners, ("degrees_east", "degrees_north"), strict=True
+        ):
+            side = "LON" if kind == "T" else "LAT"
+            attrs = {"units": units, "bounds": f"{side.lower()}t_bounds"}
+            center = np.where(land & gaps, np.nan, array.mean(-1))
+            variables[f"T{side}"] = (dims, center, attrs)
+            variables[attrs["bounds"]] = ((*dims, "nvertices"), array, {"units": units})
+        made[name] = xarray.Dataset(variables).set_coords(["TLON", "TLAT"])
+        made[name].to_netcdf(tmp_path / f"{name}.nc")
+    return made
+
+
+@pytest.mark.parametrize("method", ["conservative", "conservative_2nd", "largest_share"])
+def test_cells_with_bounds_need_no_centers(ocean, tmp_path, method, recwarn):
+    for max_missing in (0.3, 1.0):
+        found = {}
+        for name, data in ocean.items():
+            out = tmp_path / "out.nc"
+            options = {"method": method, "max_missing": max_missing}
+            report = rondel.regrid_file(tmp_path / f"{name}.nc", "grid:7.5", out, **options)
+            assert report.remarks == ()
+            with xarray.open_dataset(out) as file:
+                found[f"file {name}"] = file.aice.values
+            found[f"memory {name}"] = rondel.regrid(data, "grid:7.5", **options).aice.values
+        assert np.isfinite(found["file whole"]).sum() > 20
+        for way, values in found.items():
+            np.testing.assert_array_equal(values, found["file whole"], way)
+    # They are targets, too.
+    out, source = tmp_path / "out.nc", rondel.CellSet.named("O16")
+    lon, lat = np.radians(source._degrees()).T
+    field = xarray.DataArray(np.cos(lat) * np.cos(lon), dims="cell", name="t")
+    found = [
+        rondel.Regridder(source, each, "conservative_normed")(field).values
+        for each in ocean.values()
+    ]
+    np.testing.assert_array_equal(*found)
+    assert np.isfinite(found[0]).all()
+    assert not [each for each in recwarn if "no longitude" in str(each.message)]
+
+
+def test_files_of_weights_of_cells_without_centers_are_applied(ocean, tmp_path):
+    """Fields without centers are at the places of weights that have them all, or lack the same."""
+    for source in ocean:
+        cells = rondel.CellSet.read(tmp_path / f"{source}.nc")
+        rondel.remap(cells, "grid:10").to_netcdf(tmp_path / f"w_{source}.nc")
+        weights = rondel.read_weights(tmp_path / f"w_{source}.nc")
+        data = ocean["cice"]
+        regridder = rondel.Regridder(data, "grid:10", "conservative", weights=weights)
+        found = regridder(data.aice, skipna=True)
+        assert np.isfinite(found).sum() > 20
+        wanted = rondel.Regridder(ocean["whole"], "grid:10", "conservative")
+        np.testing.assert_array_equal(found, wanted(ocean["whole"].aice, skipna=True))
+
+
+@pytest.mark.parametrize("extrapolation", ["nearest_s2d", "creep_fill"])
+def test_cells_without_centers_give_nothing_by_extrapolation(ocean, extrapolation):
+    data = ocean["cice"]
+    options = {"extrap_method": extrapolation}
+    regridder = rondel.Regridder(data, "grid:10", "conservative_normed", **options)
+    assert np.isfinite(regridder(data.aice, skipna=True)).mean() > 0.9
+    back = rondel.Regridder(rondel.lonlat_grid(9, 9), data, "conservative_normed", **options)
+    assert np.isfinite(back(np.ones((9, 9)))).all()
+
+
+def test_methods_between_centers_say_that_some_lack(ocean, tmp_path):
+    options = {"method": "linear", "max_missing": 1.0}
+    report = rondel.regrid_file(tmp_path / "cice.nc", "grid:10", tmp_path / "o.nc", **options)
+    assert any("39 of 288 places have no longitude or latitude" in text for text in report.remarks)
+    with pytest.warns(UserWarning, match="39 of 288 places have no longitude or latitude"):
+        rondel.regrid(ocean["cice"], "grid:10", "linear")

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Weights of second order for fields that lack values, whose gradients end at the gaps."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_fields, as_threads
+from ._cell_set import CellSet
+from ._types import ArrayLike, BoolArray, FloatArray
+from ._weights import Weights, rows_of
+
+# Arrays of the pieces of targets, and those of targets and of sources.
+_PIECES = ("columns", "areas", "moments")
+_TARGETS = ("target_areas", "target_fractions")
+_SOURCES = ("source_areas", "source_fractions", "source_centers")
+
+
+class SecondOrderWeights:
+    """Weights that are applied as `Weights` where no value is missing, and otherwise as those of
+    the fields with the same gaps (`SecondOrderRemap` of the library). Rows of targets that are not
+    covered, which may be extrapolated, are applied as they are.
+    """
+
+    def __init__(
+        self,
+        weights: Weights,
+        covered: BoolArray,
+        source: CellSet,
+        norm: str,
+        arrays: dict[str, Any],
+    ) -> None:
+        self._weights, self._covered = weights, covered
+        self._source, self._norm, self._arrays = source, norm, arrays
+        self._made: _core.SecondOrderRemap | None = None
+
+    @classmethod
+    def of(
+        cls, made: _core.Remap, source: CellSet, weights: Weights, covered: BoolArray
+    ) -> SecondOrderWeights:
+        """Those of a remapping of order 2 of some cells, but for its weights."""
+        names = ("offsets", *_PIECES, *_TARGETS, *_SOURCES)
+        arrays = {name: getattr(made, name) for name in names}
+        return cls(weights, covered, source, made.norm, arrays)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_made": None}
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        return self._weights.shape
+
+    @property
+    def indptr(self) -> Any:
+        return self._weights.indptr
+
+    def _of_rows(self, rows: Any) -> SecondOrderWeights:
+        """The weights of some targets."""
+        offsets = self._arrays["offsets"]
+        taken, entries = rows_of(offsets, rows)
+        arrays = {"offsets": taken}
+        arrays |= {name: self._arrays[name][entries] for name in _PIECES}
+        arrays |= {name: self._arrays[name][rows] for name in _TARGETS}
+        arrays |= {name: self._arrays[name] for name in _SOURCES}
+        weights = self._weights._of_rows(rows)
+        return SecondOrderWeights(weights, self._covered[rows], self._source, self._norm, arrays)
+
+    def apply(
+        self,
+        values: ArrayLike,
+        *,
+        skipna: bool = False,
+        max_missing: float = 1.0,
+        how: Literal["sum", "largest_share"] = "sum",
+        threads: int | None = None,
+    ) -> FloatArray:
+        """As `Weights.apply`."""
+        rules: Any = {"skipna": skipna, "max_missing": max_missing, "threads": threads}
+        fields = as_fields(values, self.shape[1])
+        if how != "sum" or not np.isnan(fields).any():
+            return self._weights.apply(fields, how=how, **rules)
+        if self._made is None:
+            covered = np.ascontiguousarray(self._covered, np.int32)
+            self._made = _core.SecondOrderRemap(self._remap(), self._weights._weights, covered)
+        leading = fields.shape[:-1]
+        found: FloatArray = self._made.apply(
+            fields.reshape(int(np.prod(leading)), self.shape[1]),
+            self.shape[0],
+            np.nan,
+            float(max_missing) if skipna else 0.0,
+            as_threads(threads),
+        ).reshape((*leading, self.shape[0]))
+        others = ~self._covered & (np.diff(self.indptr) > 0)
+        if others.any():
+            numbers = np.flatnonzero(others)
+            found[..., numbers] = self._weights._of_rows(numbers).apply(fields, **rules)
+        return found
+
+    def _remap(self) -> _core.Remap:
+        made = _core.Remap()
+        made.source, made.order, made.norm = self._source._cells, 2, self._norm
+        for name, array in self._arrays.items():
+            setattr(made, name, np.ascontiguousarray(array))
+        return made
