@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "command.h"
 #include "double_text.h"
@@ -16,11 +15,14 @@
 namespace rondel::cli {
 namespace {
 
-// Returns the texts between the commas.
+// Returns the texts between the commas, empty ones as well; none of an empty text.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  for (std::size_t begin = 0; !text.empty() && begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
   return parts;
 }
 
@@ -49,6 +51,7 @@ std::string levels_error(const std::string& text) {
   const std::vector<std::string> parts = parts_of(text);
   if (parts.empty()) return "there is no level";
   for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].empty()) return "there is an empty level in '" + text + "'";
     std::string error = finite_error(parts[i]);
     if (!error.empty()) return error;
     if (i > 0 && !(number_of(parts[i - 1]) < number_of(parts[i]))) {

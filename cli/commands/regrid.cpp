@@ -142,8 +142,9 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
 void add_vectors(CLI::App& parser, RegridCommandOptions& options) {
   const auto parts_of = [](const std::string& text) {
     const std::size_t comma = text.find(',');
-    return comma == std::string::npos ? std::pair<std::string, std::string>()
-                                      : std::pair(text.substr(0, comma), text.substr(comma + 1));
+    const bool is_pair = comma != std::string::npos && text.find(',', comma + 1) == text.npos;
+    return is_pair ? std::pair(text.substr(0, comma), text.substr(comma + 1))
+                   : std::pair<std::string, std::string>();
   };
   const CLI::Option* const vector =
       parser
