@@ -110,7 +110,7 @@ RONDEL_API Bands bands(const Triangulation& triangulation, std::span<const doubl
 ///               those of read_native_cells()
 /// \throws InvalidInput as isolines() above, and if the arrays do not fit; if a cell (its index) has
 ///         several rings, is as wide as a hemisphere or is not seen whole from its middle; or if cells
-///         overlap beside a common side
+///         overlap by more than rounding of their corners
 RONDEL_API Isolines isolines(const CellRings& cells, std::span<const double> values,
                              std::span<const double> levels, const Execution& execution = {});
 

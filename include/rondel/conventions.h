@@ -99,8 +99,8 @@ RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHe
                                                       std::size_t variable);
 
 /// Tells which variables describe a mesh or a grid and are no fields: numbers of neighbors and
-/// corners, coordinates of corners, edges and centers, and masks. It knows MPAS, ICON, UGRID (what a
-/// `mesh_topology` names, and `cf_role`), SCRIP, ESMF, OASIS, Exodus, and pairs of NEMO such as
+/// corners, coordinates of corners, edges and centers, and masks. It knows MPAS, ICON, UGRID (a
+/// `mesh_topology`, what it names, and `cf_role`), SCRIP, ESMF, OASIS, Exodus, and pairs of NEMO such as
 /// `glamu` and `gphiu`. Areas and measures of quality are fields.
 /// \returns true or false for each variable
 RONDEL_API std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables);

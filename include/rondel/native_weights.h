@@ -67,8 +67,8 @@ struct NativeCells {
 /// \param file  netCDF with a mesh; `FILE.nc:NAME` names a variable or a topology
 /// \param places  in degrees, those of the values, in the file's order; nodes without a place are
 ///                not among them
-/// \throws FileError if the file has no mesh with common nodes, or the places are others, such as
-///         the middles of its edges
+/// \throws FileError if the file has no mesh with common nodes, the places are others, such as the
+///         middles of its edges, or a face crosses itself (with the face and a place)
 RONDEL_API NativeCells read_native_cells(const FileName& file, std::span<const LonLat> places);
 
 }  // namespace rondel

@@ -44,9 +44,7 @@ class GridParts {
   // `face_node_connectivity` and `node_coordinates`.
   explicit GridParts(std::span<const VariableHeader> variables) : variables_(variables) {
     for (const VariableHeader& variable : variables) {
-      const bool is_topology = variable.text("cf_role") == "mesh_topology" ||
-                               variable.text("standard_name") == "mesh_topology";
-      if (!is_topology) continue;
+      if (!is_topology(variable)) continue;
       for (const auto& [attribute, text] : variable.texts) {
         if (!attribute.ends_with("_connectivity") && !attribute.ends_with("_coordinates")) continue;
         std::ranges::move(formats::words_of(text), std::back_inserter(named_));
@@ -57,12 +55,18 @@ class GridParts {
   // True if the variable belongs to the description of a grid or mesh.
   [[nodiscard]] bool has(const VariableHeader& variable) const {
     const std::string& name = variable.name;
-    return formats::is_connectivity(variable) || std::ranges::count(named_, name) != 0 ||
-           is_of_list(name) || is_of_mpas(name) || is_of_nemo(name) || is_of_oasis(name) ||
-           is_of_exodus(name);
+    return is_topology(variable) || formats::is_connectivity(variable) ||
+           std::ranges::count(named_, name) != 0 || is_of_list(name) || is_of_mpas(name) ||
+           is_of_nemo(name) || is_of_oasis(name) || is_of_exodus(name);
   }
 
  private:
+  // True for a variable that says of which parts a mesh of UGRID consists, or on which of them values are.
+  [[nodiscard]] static bool is_topology(const VariableHeader& variable) {
+    const std::string role = variable.text("cf_role");
+    return role == "mesh_topology" || role == "location_index_set" ||
+           variable.text("standard_name") == "mesh_topology";
+  }
   // True if the file has a variable of this name.
   [[nodiscard]] bool is_there(std::string_view name) const {
     return std::ranges::find(variables_, name, &VariableHeader::name) != variables_.end();

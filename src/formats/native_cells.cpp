@@ -15,9 +15,12 @@
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_groups.h"
+#include "overlay/overlaps.h"
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/native_weights.h"
+#include "rondel/predicates.h"
+#include "rondel/regions.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -50,6 +53,48 @@ bool are_places(const std::vector<LonLat>& all, std::span<const LonLat> places) 
   return next == places.size() && next > 0;
 }
 
+// True if no corner of a ring is on the right of one of its sides, so that it is convex or flat.
+bool is_around_all(std::span<const Point> points, std::span<const Index> ring) {
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point& from = points[ring[k]];
+    const Point& to = points[ring[k + 1 < ring.size() ? k + 1 : 0]];
+    const auto is_right = [&](Index i) {
+      return orientation(from, to, points[i]) == Sign::negative;
+    };
+    if (std::ranges::any_of(ring, is_right)) return false;
+  }
+  return true;
+}
+
+// Throws BadValue for the first face that crosses itself, by exact signs.
+void require_simple_faces(const CellRings& cells) {
+  constexpr std::size_t many = 64;  // corners, of which the other test is the faster one
+  CellRings doubtful;               // few: the others are convex
+  std::vector<std::size_t> numbers;
+  for (std::size_t cell = 0; cell < cells.num_cells(); ++cell) {
+    if (cells.cells[cell] == cells.cells[cell + 1]) continue;
+    std::vector<Index> ring(cells.corners_of(cells.cells[cell]).begin(),
+                            cells.corners_of(cells.cells[cell]).end());
+    if (ring.size() <= 3) continue;
+    if (ring.size() <= many) {
+      if (is_around_all(cells.points, ring)) continue;
+      std::ranges::reverse(ring);
+      if (is_around_all(cells.points, ring)) continue;
+    }
+    doubtful.append_ring(ring);
+    doubtful.end_cell();
+    numbers.push_back(cell);
+  }
+  if (numbers.empty()) return;
+  doubtful.points = cells.points;
+  for (CrossingCells& pair : crossing_cells(doubtful, {.threads = 1})) {
+    if (pair.first != pair.second) continue;
+    pair.first = pair.second = static_cast<Index>(numbers[pair.first]);
+    throw io::BadValue(overlay::message_of(pair) +
+                       ": values are interpolated in cells that do not");
+  }
+}
+
 // Returns the faces of a mesh whose nodes are the places. Each has one ring; others are left out.
 NativeCells faces_of(formats::MeshContent mesh, std::span<const LonLat> places) {
   std::vector<Index> numbers;  // of the nodes among the places
@@ -80,6 +125,7 @@ NativeCells faces_of(formats::MeshContent mesh, std::span<const LonLat> places) 
     if (ring.size() >= 3) native.cells.append_ring(ring);
     native.cells.end_cell();
   }
+  require_simple_faces(native.cells);
   native.remarks = std::move(mesh.remarks);
   if (num_left_out > 0) {
     native.remarks.push_back(std::to_string(num_left_out) + " of " +

@@ -12,19 +12,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrangement/ring_arrays.h"
+#include "exact/angles.h"
 #include "exact/point_order.h"
 #include "exact/vector.h"
 #include "interpolation/contour_surface.h"
 #include "overlay/barycentric.h"
+#include "overlay/overlaps.h"
 #include "rondel/contours.h"
 #include "rondel/error.h"
 #include "rondel/native_weights.h"
 #include "rondel/predicates.h"
+#include "rondel/regions.h"
 #include "system/distinct.h"
 #include "system/job.h"
 
@@ -46,6 +51,7 @@ class CellTriangles {
     for (std::size_t cell = 0; cell < cells.num_cells(); ++cell) take(cells, cell, middles);
     give_values(cells, middles, execution);
     find_neighbors();
+    if (!covers_sphere_once()) require_apart(execution);
   }
 
   [[nodiscard]] const std::vector<double>& values() const { return values_; }
@@ -80,13 +86,26 @@ class CellTriangles {
       while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
     }
     if (ring.size() < 3) return;
+    require_narrow(ring, text, cell);
     if (ring.size() == 3) {
       const Sign turn = orientation(points_[ring[0]], points_[ring[1]], points_[ring[2]]);
       if (turn == Sign::positive) faces_.push_back({ring[0], ring[1], ring[2]});
       if (turn == Sign::negative) faces_.push_back({ring[0], ring[2], ring[1]});
-      return;
+    } else {
+      take_from_middle(ring, text, cell, middles);
     }
-    take_from_middle(ring, text, cell, middles);
+    owners_.resize(faces_.size(), static_cast<Index>(cell));
+  }
+
+  // Throws InvalidInput for a cell as wide as a hemisphere, as native_weights() does: which of the two sides
+  // of its ring is the cell, nothing says.
+  void require_narrow(std::span<const Index> ring, const std::string& text,
+                      std::size_t cell) const {
+    Point sum{0, 0, 0};
+    for (const Index i : ring) sum = sum + points_[i];
+    const bool is_wide =
+        std::ranges::any_of(ring, [&](Index i) { return !(dot(sum, points_[i]) > 0); });
+    if (is_wide) throw InvalidInput(text + " is as wide as a hemisphere", cell);
   }
 
   // The middle is that of the corners, from the one that comes first by coordinates, so that it does
@@ -172,10 +191,43 @@ class CellTriangles {
     }
   }
 
+  // True if the triangles have no border and cover the sphere as often as once, by their area: as all turn to
+  // the left, they do not overlap then.
+  [[nodiscard]] bool covers_sphere_once() const {
+    const auto has_border = [](const Triple& neighbors) {
+      return std::ranges::count(neighbors, no_index) != 0;
+    };
+    if (std::ranges::any_of(neighbors_, has_border)) return false;
+    double area = 0;
+    for (const Triple& face : faces_) {
+      area += exact::triangle_area(points_[face[0]], points_[face[1]], points_[face[2]]);
+    }
+    return area < 6 * std::numbers::pi;
+  }
+
+  // Throws InvalidInput for the first two cells that overlap by more than rounding.
+  void require_apart(const Execution& execution) const {
+    CellRings triangles;
+    triangles.points = points_;
+    for (const Triple& face : faces_) {
+      triangles.append_ring(face);
+      triangles.end_cell();
+    }
+    std::vector<CrossingCells> pairs =
+        overlapping_cells(triangles, {.threads = execution.threads, .stop = execution.stop});
+    for (CrossingCells& pair : pairs) {
+      std::tie(pair.first, pair.second) = std::minmax({owners_[pair.first], owners_[pair.second]});
+    }
+    const auto first = std::ranges::min_element(
+        pairs, {}, [](const CrossingCells& pair) { return std::pair(pair.first, pair.second); });
+    if (first != pairs.end()) throw InvalidInput(overlay::message_of(*first), first->second);
+  }
+
   std::vector<Point> points_;
   std::vector<double> values_;
   std::vector<Index> own_;  // the first point in the place of each
   std::vector<Triple> faces_;
+  std::vector<Index> owners_;  // the cell of each triangle
   std::vector<Triple> neighbors_;
 };
 

@@ -25,10 +25,11 @@ constexpr auto nap = 50ms;
 // The data that the working and the watching thread share.
 class Work {
  public:
-  enum class State { works, asks, has_ended };
+  enum class State { works, tells, asks, has_ended };
 
-  Work(unsigned threads, const WatchedWork& work)
-      : thread_([this, threads, &work] { run(threads, work); }) {}
+  // With `has_listener` the end of each stage waits until the listener knows of it.
+  Work(unsigned threads, bool has_listener, const WatchedWork& work)
+      : has_listener_(has_listener), thread_([this, threads, &work] { run(threads, work); }) {}
 
   // Returns after a short time, or earlier if there is an answer to give or the work has ended.
   State wait() {
@@ -43,13 +44,16 @@ class Work {
     state_ = State::works;
     changed_.notify_all();
   }
-  void tell(const nb::object& listener) {
+  // Calls the listener; for the last time only if there is something new.
+  void tell(const nb::object& listener, bool is_last) {
     std::string stage;
     double fraction = 0;
     {
       const std::lock_guard lock(mutex_);
+      if (is_last && is_told_) return;
       stage = stage_;
       fraction = fraction_;
+      is_told_ = true;
     }
     if (!stage.empty()) listener(stage.c_str(), fraction);
   }
@@ -66,7 +70,8 @@ class Work {
       report(stage, fraction);
     };
     try {
-      work({.threads = threads, .progress = progress, .stop = &stop_}, [this] { return ask(); });
+      work({.threads = threads, .progress = progress, .stop = &stop_},
+           [this] { return ask(State::asks); });
     } catch (...) {
       error = std::current_exception();
     }
@@ -75,20 +80,29 @@ class Work {
     state_ = State::has_ended;
     changed_.notify_all();
   }
-  bool ask() {
+  // Waits until the watching thread has answered whether something was raised.
+  bool ask(State question) {
+    const std::lock_guard one_by_one(asking_);
     std::unique_lock lock(mutex_);
-    state_ = State::asks;
+    state_ = question;
     changed_.notify_all();
     changed_.wait(lock, [this] { return state_ == State::works; });
     return has_raised_;
   }
   void report(std::string_view stage, double fraction) {
     if (stop_) throw Interrupted();
-    const std::lock_guard lock(mutex_);
-    stage_ = stage;
-    fraction_ = fraction;
+    {
+      const std::lock_guard lock(mutex_);
+      stage_ = stage;
+      fraction_ = fraction;
+      is_told_ = false;
+    }
+    // What the listener raises at the end of a stage ends the work before a file is complete.
+    if (has_listener_ && fraction >= 1 && ask(State::tells)) throw Interrupted();
   }
 
+  const bool has_listener_;
+  std::mutex asking_;
   std::mutex mutex_;
   std::condition_variable changed_;
   State state_ = State::works;
@@ -96,6 +110,7 @@ class Work {
   std::atomic<bool> stop_ = false;
   std::string stage_;
   double fraction_ = 0;
+  bool is_told_ = false;  // whether the listener knows these two
   std::exception_ptr error_;
   std::thread thread_;  // the last member, since it uses the others
 };
@@ -123,8 +138,9 @@ class Listener {
     }
   }
 
-  void tell(Work& work) const {
-    if (function_.is_valid()) work.tell(function_);
+  [[nodiscard]] bool is_there() const { return function_.is_valid(); }
+  void tell(Work& work, bool is_last) const {
+    if (is_there()) work.tell(function_, is_last);
   }
 
  private:
@@ -133,10 +149,10 @@ class Listener {
 };
 
 // Runs signal handlers, then the listener; returns what one of them raises.
-std::exception_ptr watch(Work& work, const Listener& listener) {
+std::exception_ptr watch(Work& work, const Listener& listener, bool is_last) {
   try {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    listener.tell(work);
+    listener.tell(work, is_last);
   } catch (const nb::python_error&) {
     return std::current_exception();
   }
@@ -152,16 +168,16 @@ void run_watched_until_asked(unsigned threads, const nb::object& progress,
   std::exception_ptr error;
   {
     const nb::gil_scoped_release released;
-    Work running(threads, work);
+    Work running(threads, listener.is_there(), work);
     bool is_watched = true;
     for (auto state = running.wait(); state != Work::State::has_ended; state = running.wait()) {
       if (is_watched && !raised) {
         const nb::gil_scoped_acquire acquired;
-        raised = watch(running, listener);
+        raised = watch(running, listener, state == Work::State::asks);
         if (raised) running.stop();
       }
-      if (state != Work::State::asks) continue;
-      is_watched = false;
+      if (state == Work::State::works) continue;
+      if (state == Work::State::asks) is_watched = false;
       running.answer(raised != nullptr);
     }
     error = running.join();

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import operator
 import os
+import re
+from fractions import Fraction
 from typing import Any, TypeVar
 
 import numpy as np
@@ -207,6 +209,46 @@ def as_threads(threads: int | None) -> int:
     if threads < 1:
         raise ValueError(f"threads must be at least 1, or None for all cores, not {threads}")
     return min(threads, 1024)
+
+
+def as_count(number: int, name: str) -> int:
+    """A number that counts something."""
+    if isinstance(number, bool) or not hasattr(number, "__index__"):
+        raise TypeError(f"{name} must be an integer, not {type(number).__name__}")
+    number = operator.index(number)
+    if not 0 <= number < 2**31:
+        raise ValueError(f"{name} must be from 0 to {2**31 - 1}, not {number}")
+    return number
+
+
+def as_number(number: float, name: str) -> float:
+    """A real number."""
+    if isinstance(number, (str, bytes, bool)) or not hasattr(number, "__float__"):
+        raise TypeError(f"{name} must be a number, not {type(number).__name__}")
+    return float(number)
+
+
+def as_text(text: str, name: str) -> str:
+    """A text."""
+    if not isinstance(text, str):
+        raise TypeError(f"{name} must be a text, not {type(text).__name__}")
+    return str(text)
+
+
+def as_bytes(memory: int | str) -> int:
+    """A number of bytes."""
+    number = -1
+    if isinstance(memory, str):
+        match = re.fullmatch(r"(\d+)|(\d*\.?\d+)([KMGT])", memory, re.IGNORECASE | re.ASCII)
+        if match and match[1]:
+            number = int(match[1])
+        elif match:
+            number = int(Fraction(match[2]) * 1024 ** (" KMGT".index(match[3].upper())))
+    elif hasattr(memory, "__index__") and not isinstance(memory, bool):
+        number = operator.index(memory)
+    if number < 0:
+        raise ValueError(f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'")
+    return min(number, 2**63)
 
 
 def as_radius(radius: float) -> float:

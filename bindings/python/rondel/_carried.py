@@ -18,7 +18,6 @@ from ._coordinates import (
     lies_elsewhere,
     mappings,
     parts_of_grids,
-    topologies,
 )
 from ._errors import warn_caller
 from ._places import Places
@@ -131,7 +130,7 @@ def carried(
         for name, array in fields.items()
         if _is_field(array, source) and not source.is_away(data, name)
     }
-    lost_names = {*own_names, *map(str, mappings(data)), *topologies(data)}
+    lost_names = {*own_names, *map(str, mappings(data))}
     lost_names -= _bounds_of_others(data, own_names)
     rest = data.drop_vars([name for name in lost_names if name in data.variables])
     rest = rest.drop_dims(source.dims, errors="ignore")

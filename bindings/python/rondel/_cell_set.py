@@ -4,14 +4,22 @@
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, degrees_of, half_turn
+from ._arrays import (
+    as_floats,
+    as_indices,
+    as_lonlat,
+    as_name,
+    as_points,
+    as_threads,
+    degrees_of,
+    half_turn,
+)
 from ._errors import InvalidInput, warn_caller
 from ._geo import Path, arrow_of
 from ._geometries import (
@@ -430,7 +438,7 @@ class CellSet(Described):
             polygons were repaired, or if one of several grids was read.
 
         """
-        name = os.fspath(path)
+        name = as_name(path)
         rules = edges, overlap, invalid, as_threads(threads)
         return cls._of(read_cells(name, *rules, sides=sides, corners=corners))
 

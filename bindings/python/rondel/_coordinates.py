@@ -206,15 +206,6 @@ def parts_of_grids(data: Any) -> set[str]:
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
 
 
-def topologies(data: xarray.Dataset) -> set[str]:
-    """The variables that say of which parts a mesh of UGRID consists."""
-    return {
-        str(name)
-        for name, item in data.variables.items()
-        if item.attrs.get("cf_role") == "mesh_topology"
-    }
-
-
 def at_places(data: xarray.Dataset) -> set[str]:
     """The variables whose values depend on place, on the nodes of a mesh or an axis x as well."""
     headers = _headers(data)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, overload
 import numpy as np
 
 from . import _core, _ugrid
-from ._arrays import degrees_of
+from ._arrays import as_name, degrees_of
 from ._properties import checked_properties, frame_column, json_columns, with_gaps
 from ._types import Divided, FloatArray, IntArray, Properties, Triangulated
 
@@ -235,7 +235,7 @@ class CellShapes:
 def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes | None]) -> Any:
     """What `write` makes, bytes of GeoJSON for None: in the file, or parsed."""
     if isinstance(path, (str, os.PathLike)):
-        name = os.fspath(path)
+        name = as_name(path)
         if not name.endswith(".geojson"):
             raise ValueError(f"the name of a GeoJSON file ends in .geojson: {name}")
         write(name)

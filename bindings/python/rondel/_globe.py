@@ -6,14 +6,13 @@ from __future__ import annotations
 
 import html
 import json
-import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from . import _core
-from ._arrays import require_finite_or_nan, unmasked
+from ._arrays import as_name, require_finite_or_nan, unmasked
 from ._geo import Path
 from ._properties import checked_properties, json_cells
 from ._types import ArrayLike
@@ -93,7 +92,7 @@ class Globes:
 
         """
         text = _page(self, values, name, isolines, properties, title, show, sites, circles, view)
-        _core.write_file(os.fspath(path), text)
+        _core.write_file(as_name(path), text)
 
     def view(
         self: Any,

@@ -4,13 +4,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from . import _core
-from ._arrays import as_threads
+from ._arrays import as_bytes, as_count, as_name, as_number, as_text, as_threads
 from ._geo import Path
 from ._geometries import Corners, Edges, Invalid, Sides
 from ._native import Extrapolation, require_limits
@@ -81,7 +80,7 @@ def regrid_file(
     invalid: Invalid = "error",
     corners: Corners = "error",
     overlap: CellOverlap = "error",
-    memory: int = 2 << 30,
+    memory: int | str = 2 << 30,
     tile: int = 0,
     deflate: int = 1,
     history: str = "",
@@ -137,8 +136,9 @@ def regrid_file(
         made are told by the attribute `source_corners` or `target_corners` of the file.
     overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.
-    memory : int, optional
-        About how many bytes may be in use, beside those of the process; by default 2 GiB. Weights
+    memory : int or str, optional
+        About how many bytes may be in use, beside those of the process, also as "1G" or "500M"; by
+        default 2 GiB. Weights
         that need more are computed tile by tile, with the same values; those of cells that
         overlap, and between two regions are not, nor those of 'conservative_2nd' for sources
         that are neither a named grid nor between parallels.
@@ -228,7 +228,7 @@ def regrid_file(
         vectors=vectors,
         resume=resume,
     )
-    path, target, out = (os.fspath(each) for each in (path, target, out))
+    path, target, out = map(as_name, (path, target, out))
     return report_of(_core.regrid_file(path, target, out, options, as_threads(threads), progress))
 
 
@@ -259,7 +259,7 @@ def as_options(
     invalid: Invalid = "error",
     corners: Corners = "error",
     overlap: CellOverlap = "error",
-    memory: int = 2 << 30,
+    memory: int | str = 2 << 30,
     tile: int = 0,
     deflate: int = 1,
     history: str = "",
@@ -287,28 +287,46 @@ def as_options(
         },
     )
     return _core.regrid_options(
-        [names] if isinstance(names, str) else list(names),
-        None if source is None else os.fspath(source),
+        _as_texts(names, "names"),
+        None if source is None else as_name(source),
         method,
         norm,
-        max_missing,
+        as_number(max_missing, "max_missing"),
         sides,
         edges,
         invalid,
         overlap,
-        memory,
-        tile,
-        deflate,
-        history,
-        statistics if isinstance(statistics, str) else ",".join(statistics),
+        as_bytes(memory),
+        as_count(tile, "tile"),
+        as_count(deflate, "deflate"),
+        as_text(history, "history"),
+        ",".join(_as_texts(statistics, "statistics")),
         weigh_by,
         corners,
-        extrapolate,
-        extrapolate_distance,
-        extrapolate_sources,
-        extrapolate_exponent,
-        extrapolate_levels,
-        [(east, north) for east, north in vectors],
+        None if extrapolate is None else as_text(extrapolate, "extrapolate"),
+        None
+        if extrapolate_distance is None
+        else as_number(extrapolate_distance, "extrapolate_distance"),
+        as_count(extrapolate_sources, "extrapolate_sources"),
+        as_count(extrapolate_exponent, "extrapolate_exponent"),
+        as_count(extrapolate_levels, "extrapolate_levels"),
+        _as_pairs(vectors),
         bool(resume),
         limiter == "bounds",
     )
+
+
+def _as_texts(given: str | Iterable[str], name: str) -> list[str]:
+    if isinstance(given, str):
+        return [given] if given else []
+    return [as_text(each, name) for each in given]
+
+
+def _as_pairs(vectors: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    pairs = []
+    for pair in vectors:
+        if isinstance(pair, str) or len(tuple(pair)) != 2:
+            raise TypeError(f"vectors are pairs of names, not {pair!r}")
+        east, north = pair
+        pairs.append((as_text(east, "vectors"), as_text(north, "vectors")))
+    return pairs

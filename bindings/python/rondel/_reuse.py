@@ -4,14 +4,13 @@
 
 from __future__ import annotations
 
-import os
 import re
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
 import numpy as np
 
 from . import _core
-from ._arrays import degrees_of, point_set_hash
+from ._arrays import as_name, degrees_of, point_set_hash
 from ._errors import warn_caller
 from ._geo import Path
 from ._native import esmf_name
@@ -47,7 +46,7 @@ def reused(
         made = weights
         of_file = [_FileSide(centers=centers) for centers in made._places]
     else:
-        name = os.fspath(weights)
+        name = as_name(weights)
         file = _core.read_weight_file(name)
         text, norm = file.method, file.normalization
         for remark in file.remarks:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import as_threads
+from ._arrays import as_name, as_threads
 from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
@@ -276,9 +276,9 @@ def check_weights(
         file = _core.weight_file(weights._made())
     else:
         numbers = (0, 0) if cells is None else (cells[0].num_cells, cells[1].num_cells)
-        file = _core.read_weights_to_check(os.fspath(weights), *numbers)
+        file = _core.read_weights_to_check(as_name(weights), *numbers)
         for remark in file.remarks:
-            warn_caller(f"{os.fspath(weights)}: {remark}")
+            warn_caller(f"{as_name(weights)}: {remark}")
     found = _core.check_weights(file, allow_negative, cells is not None, overlap == "each")
     faults = list(found.faults)
     comparison = None

@@ -7,13 +7,12 @@ The functions that take `self` are methods of `Weights`.
 
 from __future__ import annotations
 
-import os
 from typing import Any, Literal
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, degrees_of
+from ._arrays import as_floats, as_name, degrees_of
 from ._errors import InvalidInput
 from ._geo import Path
 from ._types import ArrayLike, BoolArray, FloatArray
@@ -105,7 +104,7 @@ def netcdf_name(path: Path, format: str) -> str:
     """The name of a file that is written in a format; refuses others than netCDF."""
     if format not in ("esmf", "scrip"):
         raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
-    name = os.fspath(path)
+    name = as_name(path)
     if not name.lower().endswith(_ENDINGS):
         hint = "; Weights.save() writes .npz" if name.lower().endswith(".npz") else ""
         raise ValueError(f"{name}: netCDF is written to {' '.join(_ENDINGS)}{hint}")

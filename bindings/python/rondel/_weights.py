@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_threads, point_set_hash, require_unmasked
+from ._arrays import as_fields, as_floats, as_name, as_threads, point_set_hash, require_unmasked
 from ._errors import warn_caller
 from ._geo import Path
 from ._repr import Described, count
@@ -398,7 +398,7 @@ def read_weights(path: Path) -> Weights:
         those of the targets.
 
     """
-    name = os.fspath(path)
+    name = as_name(path)
     file = _core.read_weight_file(name)
     for remark in file.remarks:
         warn_caller(f"{name}: {remark}")

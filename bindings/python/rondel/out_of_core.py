@@ -5,14 +5,11 @@
 from __future__ import annotations
 
 import dataclasses
-import operator
 import os
-import re
-from fractions import Fraction
 from typing import Any
 
 from . import _core
-from ._arrays import as_center, as_name, as_result_name, as_threads
+from ._arrays import as_bytes, as_center, as_name, as_result_name, as_threads
 from ._types import ArrayLike, Model, Path, Progress
 from ._zarr_files import RunIntoGroup
 
@@ -165,7 +162,7 @@ def delaunay(
         found: dict[str, Any] = _core.delaunay_file(
             as_name(path),
             [files.get(name, "") for name in (*results, "ghost_faces")],
-            _bytes(memory),
+            as_bytes(memory),
             directory,
             bool(resume),
             bool(radians),
@@ -193,19 +190,3 @@ def _group_name(path: Path | None) -> str:
     """The name of a Zarr group without slashes at its end; empty if the file is none."""
     name = "" if path is None else os.fsdecode(path).rstrip("/")
     return as_name(name) if os.path.splitext(name)[1].lower() == ".zarr" else ""
-
-
-def _bytes(memory: int | str) -> int:
-    """A number of bytes."""
-    number = -1
-    if isinstance(memory, str):
-        match = re.fullmatch(r"(\d+)|(\d*\.?\d+)([KMGT])", memory, re.IGNORECASE | re.ASCII)
-        if match and match[1]:
-            number = int(match[1])
-        elif match:
-            number = int(Fraction(match[2]) * 1024 ** (" KMGT".index(match[3].upper())))
-    elif hasattr(memory, "__index__") and not isinstance(memory, bool):
-        number = operator.index(memory)
-    if number < 0:
-        raise ValueError(f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'")
-    return min(number, 2**63)

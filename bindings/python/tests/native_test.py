@@ -547,6 +547,72 @@ def test_no_line_crosses_a_strait():
     np.testing.assert_allclose(rondel.lonlat(found.points)[[0, -1], 0], 1, atol=1e-3)
 
 
+@pytest.mark.parametrize("contours", [rondel.native_isolines, rondel.native_bands])
+def test_contours_of_cells_that_overlap_or_are_too_wide_are_refused(contours):
+    around = np.radians(144.0 * np.arange(5))
+    overlap = "cells 0 and 1 overlap at"
+    for lon, lat, faces, message in (
+        # One cell within another, two that cross, and a star that winds twice around its middle.
+        (
+            [0, 30, 30, 0, 10, 20, 20, 10],
+            [0, 0, 30, 30, 10, 10, 20, 20],
+            [[0, 1, 2, 3], [4, 5, 6, 7]],
+            overlap,
+        ),
+        ([0, 10, 0, 5, 5, 15], [0, 5, 10, -5, 15, 5], [[0, 1, 2], [3, 4, 5]], overlap),
+        (10 * np.cos(around), 10 * np.sin(around), [[0, 1, 2, 3, 4]], "cell 0 crosses or overlaps"),
+        ([0, 120, 240], [0, 0, 0], [[0, 1, 2]], "cell 0 is as wide as a hemisphere"),
+        ([0, 90, 180, 270], [0, 0, 0, 0], [[0, 1, 2, 3]], "cell 0 is as wide as a hemisphere"),
+    ):
+        with pytest.raises(rondel.InvalidInput, match=message):
+            contours(lon, lat, faces, np.arange(len(lon)) * 1.0, [0.5, 1.5])
+
+
+def test_contours_of_a_mesh_whose_nodes_hang_by_rounding_are_made():
+    """A node in the middle of a long side is on it up to rounding alone: that is no overlap."""
+    lon, lat = [0, 40, 40, 0, 20, 20], [0, 0, 30, 30, -30, 0]
+    x = rondel.unit_vectors(lon, lat)
+    x[5] = x[0] + x[1]
+    lon, lat = rondel.lonlat(x / np.linalg.norm(x, axis=1)[:, None]).T
+    found = rondel.native_bands(
+        lon, lat, [[0, 1, 2, 3], [0, 4, 5, 5], [4, 1, 5, 5]], lat, [-90, 90]
+    )
+    assert found is not None
+
+
+def test_a_face_that_crosses_itself_is_named(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    lon, lat = np.array([0.0, 10, 20, 0, 10, 20]), np.array([0.0, 0, 0, 10, 10, 10])
+    faces = np.array([[0, 1, 4, 3], [1, 5, 2, 4]])
+    mesh = xarray.Dataset(
+        {
+            "mesh": (
+                (),
+                0,
+                {
+                    "cf_role": "mesh_topology",
+                    "topology_dimension": 2,
+                    "node_coordinates": "lon lat",
+                    "face_node_connectivity": "corners",
+                },
+            ),
+            "lon": ("node", lon, {"units": "degrees_east", "standard_name": "longitude"}),
+            "lat": ("node", lat, {"units": "degrees_north", "standard_name": "latitude"}),
+            "corners": (("face", "four"), faces, {"start_index": 0}),
+            "t": ("node", lat, {"mesh": "mesh", "location": "node", "coordinates": "lon lat"}),
+        }
+    )
+    mesh.to_netcdf(tmp_path / "in.nc")
+    message = r"cell 1 crosses or overlaps itself at 15\.0\d* 5\.0"
+    with pytest.raises(ValueError, match=message):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:5", tmp_path / "o.nc", method="native")
+    with pytest.raises(ValueError, match=message):
+        rondel.Regridder(mesh, "grid:5", "native", lon="lon", lat="lat")
+    mesh["corners"][1] = [1, 2, 5, 4]
+    mesh.to_netcdf(tmp_path / "right.nc")
+    rondel.regrid_file(tmp_path / "right.nc", "grid:5", tmp_path / "o.nc", method="native")
+
+
 def test_contours_of_what_is_no_mesh_are_refused():
     lon, lat = [0, 10, 10, 0], [0, 0, 10, 10]
     with pytest.raises(ValueError, match=r"values must have shape \(..., 4\), not \(3,\)"):

@@ -710,3 +710,119 @@ def test_methods_between_centers_say_that_some_lack(ocean, tmp_path):
     assert any("39 of 288 places have no longitude or latitude" in text for text in report.remarks)
     with pytest.warns(UserWarning, match="39 of 288 places have no longitude or latitude"):
         rondel.regrid(ocean["cice"], "grid:10", "linear")
+
+
+def test_arguments_of_other_types_are_told(made, tmp_path):
+    path, _ = made
+    out = tmp_path / "out.nc"
+    for options, kind, message in (
+        ({"memory": "much"}, ValueError, "memory is 'much', which is not a number of bytes"),
+        ({"memory": -1}, ValueError, "memory is -1, which is not a number of bytes"),
+        ({"max_missing": "0.5"}, TypeError, "max_missing must be a number, not str"),
+        ({"tile": "3"}, TypeError, "tile must be an integer, not str"),
+        ({"tile": -1}, ValueError, "tile must be from 0 to 2147483647, not -1"),
+        ({"deflate": 1.5}, TypeError, "deflate must be an integer, not float"),
+        ({"history": 3}, TypeError, "history must be a text, not int"),
+        ({"names": [1]}, TypeError, "names must be a text, not int"),
+        ({"vectors": ["uv"]}, TypeError, "vectors are pairs of names, not 'uv'"),
+        ({"extrapolate": 4}, TypeError, "extrapolate must be a text, not int"),
+        ({"source": 3}, TypeError, "expected str, bytes or os.PathLike object, not int"),
+    ):
+        with pytest.raises(kind, match=message) as caught:
+            rondel.regrid_file(path, "grid:30", out, **options)
+        assert "\n" not in str(caught.value)
+    assert not out.exists()
+
+
+def test_paths_may_be_bytes_and_memory_a_text(made, tmp_path):
+    path, _ = made
+
+    class Named:
+        def __init__(self, name):
+            self.name = name
+
+        def __fspath__(self):
+            return self.name
+
+    wanted = tmp_path / "wanted.nc"
+    rondel.regrid_file(path, "grid:30", wanted)
+    for k, kind in enumerate((str, bytes, lambda p: Named(str(p)), lambda p: Named(bytes(p)))):
+        out = tmp_path / f"{k}.nc"
+        rondel.regrid_file(kind(path), "grid:30", kind(out), source=kind(path), memory="1.5G")
+        assert out.read_bytes() == wanted.read_bytes()
+        assert rondel.CellSet.read(kind(path)).num_cells == 648
+    with pytest.raises(rondel.InvalidInput, match="memory"):
+        rondel.regrid_file(path, "grid:0.1", tmp_path / "o.nc", memory="1K")
+
+
+@pytest.mark.parametrize("statistics", [(), ("mean",)])
+def test_no_file_is_left_by_progress_that_raises(made, tmp_path, statistics):
+    path, _ = made
+    options = {"statistics": statistics}
+    said = []
+    whole = tmp_path / "whole.nc"
+    rondel.regrid_file(
+        path, "grid:30", whole, progress=lambda *state: said.append(state), **options
+    )
+    assert said[-1][1] == 1
+    assert whole.exists()
+    for last in dict.fromkeys(said):
+        out = tmp_path / "out.nc"
+
+        def raises(*state, last=last):
+            if state == last:
+                raise RuntimeError("enough")
+
+        with pytest.raises(RuntimeError, match="enough"):
+            rondel.regrid_file(path, "grid:30", out, progress=raises, **options)
+        assert [each.name for each in tmp_path.iterdir() if "out" in each.name] == []
+
+
+@pytest.mark.parametrize("attribute", ["cf_role", "standard_name"])
+def test_the_variable_of_a_mesh_is_left_with_it(tmp_path, attribute):
+    """Files and data lose what says of which parts the mesh of the source consists."""
+    lon, lat = np.array([0.0, 10, 20, 0, 10, 20]), np.array([0.0, 0, 0, 10, 10, 10])
+    about = {
+        attribute: "mesh_topology",
+        "topology_dimension": 2,
+        "node_coordinates": "lon lat",
+        "face_node_connectivity": "corners",
+    }
+    variables = {
+        "lon": ("node", lon, {"units": "degrees_east", "standard_name": "longitude"}),
+        "lat": ("node", lat, {"units": "degrees_north", "standard_name": "latitude"}),
+        "corners": (("face", "four"), [[0, 1, 4, 3], [1, 2, 5, 4]], {"start_index": 0}),
+        "t": ("node", lat, {"mesh": "mesh", "location": "node", "coordinates": "lon lat"}),
+        "part": ("two", [0, 1], {"cf_role": "location_index_set", "mesh": "mesh"}),
+        "run": ("two", [7.0, 8.0]),
+    }
+    for mesh in (((), np.int32(0), about), ("one", np.int32([0]), about)):
+        data = xarray.Dataset({"mesh": mesh, **variables})
+        data.to_netcdf(tmp_path / "in.nc")
+        rondel.regrid_file(tmp_path / "in.nc", "grid:10", tmp_path / "out.nc", method="linear")
+        found = rondel.regrid(data, "grid:10", "linear", lon="lon", lat="lat")
+        with xarray.open_dataset(tmp_path / "out.nc") as file:
+            assert {*file.variables} == {"t", "run", "lon", "lat"}
+        assert {*found.variables} - {"lon_bnds", "lat_bnds"} == {"t", "run", "lon", "lat"}
+
+
+@pytest.mark.parametrize(
+    ("target", "dims"),
+    [
+        ("tripolar:15", ("y", "x")),
+        ("hexagons:R2B1", ("cell",)),
+        ("C4", ("tile", "y", "x")),
+        ("O8", ("cell",)),
+        ("healpix:1", ("cell",)),
+        ("grid:30", ("lat", "lon")),
+    ],
+)
+def test_dimensions_of_files_are_named(made, tmp_path, target, dims):
+    path, data = made
+    rondel.regrid_file(path, target, tmp_path / "out.nc")
+    found = rondel.regrid(data, target)
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        assert file.warm.dims == ("time", *dims)
+        if target != "C4":
+            assert found.warm.dims == file.warm.dims
+            assert found.warm.shape == file.warm.shape

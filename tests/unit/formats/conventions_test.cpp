@@ -469,7 +469,7 @@ TEST(conventions, variables_of_grids_are_no_fields) {
   expect_all({"connect1", "connect2", "coord", "coordx", "global_id1", "edge_type1", "eb_prop1",
               "elem_num_map"});
   EXPECT_EQ(parts_of({"coordx", "eb_prop1", "tas"}), "");
-  // Those that a topology of UGRID names.
+  // A topology of UGRID, and what it names.
   std::vector<VariableHeader> headers = {header("mesh", {},
                                                 {{"cf_role", "mesh_topology"},
                                                  {"node_coordinates", "nx ny"},
@@ -477,9 +477,9 @@ TEST(conventions, variables_of_grids_are_no_fields) {
                                                  {"long_name", "tas"}}),
                                          header("nx", {"n"}), header("ny", {"n"}),
                                          header("faces", {"n"}), header("tas", {"n"})};
-  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{false, true, true, true, false}));
+  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{true, true, true, true, false}));
   headers[0].texts[0] = {"standard_name", "mesh_topology"};
-  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{false, true, true, true, false}));
+  EXPECT_EQ(parts_of_grids(headers), (std::vector<bool>{true, true, true, true, false}));
   headers[0].texts[0] = {"cf_role", "timeseries_id"};
   EXPECT_EQ(parts_of_grids(headers), std::vector<bool>(5));
 }
