@@ -20,7 +20,7 @@
 
 namespace rondel {
 
-/// What becomes of constraints that cross each other in the inside of both.
+/// What becomes of constraints that cross each other in the inside of both, where no site is.
 enum class ConstraintCrossings : std::uint8_t {
   refuse,  ///< an error, CrossingConstraints
   split,   ///< each crossing, rounded to doubles, becomes a site
@@ -73,7 +73,8 @@ struct ConstrainedTriangulation {
 /// constraint is a chain of edges and every other edge is locally Delaunay.
 ///
 /// 1. A constraint is the shorter arc between two sites. It is divided at each site that lies
-///    exactly on it. Constraints may be repeated, in either direction, and may overlap.
+///    exactly on it: two that have a site in the inside of both meet there, and do not cross.
+///    Constraints may be repeated, in either direction, and may overlap.
 /// 2. Every site is a vertex, a duplicate or in the place of one, as delaunay() has it. The solid
 ///    faces cover what the solid faces of delaunay() cover, and the ghost faces are the same.
 /// 3. Of two solid faces with a common edge that is not constrained, neither has the third corner

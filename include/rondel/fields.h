@@ -38,7 +38,7 @@ struct FieldArray {
   std::vector<double> values;  ///< the points change fastest; NaN is missing
   /// units, long_name ...: attributes of netCDF that still hold for values at other points
   std::vector<std::pair<std::string, std::string>> attributes;
-  /// Those that are numbers: flag_values, level ...
+  /// Further attributes of netCDF, which are numbers: flag_values, level ...
   std::vector<NumericAttribute> numbers = {};
   /// True if single precision holds the values: netCDF has floats, or packed integers.
   bool is_single = false;

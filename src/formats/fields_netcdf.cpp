@@ -80,8 +80,11 @@ class PointsOut {
     std::set<std::string> names;
     if (has_places()) names = {"lat", "lon"};
     if (is_grid_) return names;
-    for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert(name_of_axis(d));
-    if (side_.shape.size() <= 1) names.insert(dimension_);
+    if (side_.shape.size() <= 1) {
+      names.insert(dimension_);
+    } else {
+      for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert(name_of_axis(d));
+    }
     return names;
   }
   // Defines dimensions and coordinates.

@@ -298,7 +298,8 @@ def constrained_delaunay(
         are straight in longitude and latitude (default), or arcs of great circles.
     crossings : {'refuse', 'split'}, optional
         What becomes of constraints that cross between their ends: an error (default), or each
-        crossing, rounded to doubles, becomes a point. Points must be unit vectors then.
+        crossing, rounded to doubles, becomes a point. Points must be unit vectors then. Constraints
+        that both have one of the points exactly on them are divided there, and do not cross.
     center : array_like, shape (3,), optional
         The center of the sphere; by default the origin. For points only.
     invalid : {'error', 'repair'}, optional

@@ -498,3 +498,18 @@ def test_linear_interpolation_outside_and_of_what_is_missing():
         tri.interpolate([1, 2], outside)
     with pytest.raises(rondel.InvalidInput):
         tri.weights([0, 0, 0])
+
+
+def test_constraints_that_meet_in_a_point_of_both_do_not_cross():
+    """The rays of small integers: (1, 0, 0) is exactly on both arcs; without it they cross."""
+    points = np.array([[4, -1, 0], [4, 1, 0], [4, 0, -1], [4, 0, 1], [1, 0, 0]], float)
+    constraints = [[0, 1], [2, 3]]
+    wanted = {(0, 4), (1, 4), (2, 4), (3, 4)}
+    made = rondel.constrained_delaunay(points, constraints)
+    assert {tuple(edge) for edge in made.constrained_edges.tolist()} == wanted
+    with pytest.raises(rondel.CrossingConstraints):
+        rondel.constrained_delaunay(points[:4], constraints)
+    # A point beside both is none of either.
+    points[4] = [1, 2**-40, 2**-40]
+    with pytest.raises(rondel.CrossingConstraints):
+        rondel.constrained_delaunay(points, constraints)
