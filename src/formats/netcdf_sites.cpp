@@ -115,10 +115,8 @@ NetcdfSites centers_for(const FileName& file, const std::string& variable) {
         variable.empty() ? are_places_faces(reader) : is_on_faces(reader.require(variable));
     return are_faces ? formats::cells_in(reader, bytes.name(), variable) : CellTable();
   }));
-  const bool has_all =
-      !cells.facts().given_centers().empty() && cells.facts().num_made_centers == 0;
-  if (cells.num_cells() == 0 || has_all) return sites;
-  sites.table.positions = lonlats(cells.centers());
+  if (cells.num_cells() == 0 || !cells.facts().given_centers().empty()) return sites;
+  sites.table.positions = cells.places();
   sites.mask = cells.facts().mask;
   sites.remarks = cells.facts().remarks;
   return sites;

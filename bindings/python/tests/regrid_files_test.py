@@ -778,6 +778,40 @@ def test_no_file_is_left_by_progress_that_raises(made, tmp_path, statistics):
         assert [each.name for each in tmp_path.iterdir() if "out" in each.name] == []
 
 
+def test_faces_of_a_mesh_may_lack_centers(tmp_path):
+    """Conservative methods need none; others leave out the faces that have none, and say so."""
+    node = {"mesh": "mesh", "location": "face", "coordinates": "face_lon face_lat"}
+    about = {
+        "cf_role": "mesh_topology",
+        "topology_dimension": 2,
+        "node_coordinates": "lon lat",
+        "face_node_connectivity": "corners",
+        "face_coordinates": "face_lon face_lat",
+    }
+    east, north = {"units": "degrees_east"}, {"units": "degrees_north"}
+    mesh = xarray.Dataset(
+        {
+            "mesh": ((), np.int32(0), about),
+            "lon": ("node", [0.0, 10, 20, 0, 10, 20], east),
+            "lat": ("node", [0.0, 0, 0, 10, 10, 10], north),
+            "corners": (("face", "four"), [[0, 1, 4, 3], [1, 2, 5, 4]], {"start_index": 0}),
+            "face_lon": ("face", [4.0, np.nan], east),
+            "face_lat": ("face", [6.0, np.nan], north),
+            "t": ("face", [1.0, 2.0], node),
+        }
+    )
+    mesh.to_netcdf(tmp_path / "in.nc")
+    out = tmp_path / "out.nc"
+    rondel.regrid_file(tmp_path / "in.nc", "grid:5", out)
+    with xarray.open_dataset(out) as file:
+        counts = [int((file.t == value).sum()) for value in (1, 2)]
+    assert counts == [4, 4]
+    report = rondel.regrid_file(tmp_path / "in.nc", "grid:5", out, method="nearest")
+    assert any("1 of 2 places have no longitude or latitude" in text for text in report.remarks)
+    with xarray.open_dataset(out) as file:
+        assert (file.t == 1).all()
+
+
 @pytest.mark.parametrize("attribute", ["cf_role", "standard_name"])
 def test_the_variable_of_a_mesh_is_left_with_it(tmp_path, attribute):
     """Files and data lose what says of which parts the mesh of the source consists."""
