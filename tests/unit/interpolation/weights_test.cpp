@@ -59,6 +59,39 @@ TEST(interpolation_weights, missing_values_are_left_out_up_to_a_share) {
             std::vector<double>({-1, -1, -1}));
 }
 
+// Parts of a row in floating point are no exact shares, such as thirds.
+TEST(interpolation_weights, parts_at_the_limit_may_be_missing) {
+  for (const int parts : {2, 3, 7, 10, 49}) {
+    Weights row;
+    row.num_columns = static_cast<std::size_t>(parts);
+    for (Index i = 0; i < row.num_columns; ++i) {
+      row.columns.push_back(i);
+      row.values.push_back(0.1 * (1.0 / parts));
+    }
+    row.end_row();
+    std::vector<double> in(row.num_columns, 3.0);
+    for (int missing = 0; missing < parts; ++missing) {
+      const double share = static_cast<double>(missing) / parts;
+      std::vector<double> out(1);
+      apply(row, in, out, 1, {.max_missing = share});
+      EXPECT_NEAR(out[0], 0.3, 1e-14) << missing << " of " << parts;
+      apply_largest_share(row, in, out, 1, {.max_missing = share});
+      EXPECT_EQ(out[0], 3) << missing << " of " << parts;
+      EXPECT_EQ(covered_enough(std::vector{1 - share}, share), std::vector<std::int32_t>{1});
+      if (missing > 0) {
+        apply(row, in, out, 1, {.max_missing = share - 1e-8});
+        EXPECT_TRUE(std::isnan(out[0])) << missing << " of " << parts;
+        apply_largest_share(row, in, out, 1, {.max_missing = share - 1e-8});
+        EXPECT_TRUE(std::isnan(out[0])) << missing << " of " << parts;
+        EXPECT_EQ(covered_enough(std::vector{1 - share}, share - 1e-8),
+                  std::vector<std::int32_t>{0});
+      }
+      in[static_cast<std::size_t>(missing)] = nan;
+    }
+  }
+  EXPECT_EQ(covered_enough(std::vector{0.0, 1e-300, 1.0}, 1), std::vector<std::int32_t>({0, 1, 1}));
+}
+
 TEST(interpolation_weights, infinite_values_are_values) {
   const auto out = applied({infinity, -infinity, 0, infinity});
   EXPECT_TRUE(std::isnan(out[0]));  // their difference

@@ -209,6 +209,54 @@ TEST(overlay_gaps, weights_are_those_of_a_mask) {
   EXPECT_THROW((void)weights_with_values(second, std::vector<std::int32_t>(3, 1)), InvalidInput);
 }
 
+// Which fields were carried before, and which limit they had, changes nothing.
+TEST(overlay_gaps, fields_have_the_weights_of_their_own_gaps) {
+  const CellSet source = CellSet::voronoi(triangulation_of("uniform", 500, 1));
+  const CellSet target = CellSet::voronoi(triangulation_of("uniform", 100, 2));
+  const Remap remap = rondel::remap(source, target, {.order = 2, .norm = RemapNorm::fracarea});
+  std::vector<std::vector<double>> fields(3);
+  const std::vector<Point> centers = source.centers();
+  for (std::size_t f = 0; f < 3; ++f) {
+    for (const Point& center : centers) {
+      const bool is_missing = f > 0 && center.z > (f == 1 ? 0.1 : -0.3) * center.x;
+      fields[f].push_back(is_missing ? no_value : center.x - 2 * center.y);
+    }
+  }
+  std::vector<std::int32_t> covered(100, 1);
+  covered[7] = 0;
+  SecondOrderRemap kept(remap, covered);
+  for (const std::size_t f : {1, 0, 2, 2, 1, 0}) {
+    for (const double share : {1.0, 0.3, 0.0}) {
+      std::vector<std::int32_t> has_value;
+      for (const double value : fields[f]) has_value.push_back(std::isnan(value) ? 0 : 1);
+      std::vector<double> wanted(100);
+      apply(weights_with_values(remap, has_value), fields[f], wanted, 1, {.max_missing = 1});
+      for (std::size_t j = 0; j < 100; ++j) {
+        double all = 0;
+        double missing = 0;
+        for (std::uint64_t k = remap.pieces.offsets[j]; k < remap.pieces.offsets[j + 1]; ++k) {
+          all += remap.areas[k];
+          missing += has_value[remap.pieces.values[k]] == 0 ? remap.areas[k] : 0;
+        }
+        if (missing > (share + 1e-9) * all || covered[j] == 0) wanted[j] = no_value;
+      }
+      std::vector<double> found(100);
+      kept.apply(fields[f], found, {.max_missing = share});
+      for (std::size_t j = 0; j < 100; ++j) {
+        ASSERT_EQ(std::isnan(found[j]), std::isnan(wanted[j])) << j;
+        if (std::isnan(found[j])) continue;
+        EXPECT_EQ(found[j], wanted[j]) << j;
+      }
+    }
+  }
+  std::vector<double> out(100);
+  EXPECT_THROW(kept.apply(fields[0], out, {.max_missing = 2}), InvalidInput);
+  out.resize(99);
+  EXPECT_THROW(kept.apply(fields[0], out), InvalidInput);
+  EXPECT_THROW(SecondOrderRemap(remap, {1, 0}), InvalidInput);
+  EXPECT_THROW(SecondOrderRemap(rondel::remap(source, target)), InvalidInput);
+}
+
 // All fields of a call are limited by themselves, for any number of threads.
 TEST(overlay_limiter, fields_do_not_touch_each_other) {
   const CellSet source = CellSet::voronoi(triangulation_of("uniform", 200, 1));
