@@ -45,7 +45,7 @@ void add_word(CLI::App& command, const std::string& name, const Take& take,
 // Returns the two names of "u10,v10"; empty ones unless there is one comma.
 std::pair<std::string, std::string> pair_of(const std::string& text) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string::npos || text.find(',', comma + 1) != text.npos) return {};
+  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) return {};
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
 

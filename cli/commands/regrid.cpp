@@ -142,7 +142,8 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
 void add_vectors(CLI::App& parser, RegridCommandOptions& options) {
   const auto parts_of = [](const std::string& text) {
     const std::size_t comma = text.find(',');
-    const bool is_pair = comma != std::string::npos && text.find(',', comma + 1) == text.npos;
+    const bool is_pair =
+        comma != std::string::npos && text.find(',', comma + 1) == std::string::npos;
     return is_pair ? std::pair(text.substr(0, comma), text.substr(comma + 1))
                    : std::pair<std::string, std::string>();
   };
