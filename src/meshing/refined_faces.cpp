@@ -212,16 +212,40 @@ void RefinedFaces::divide_faces(Index h, Index v) {
   link(second, g);
 }
 
-std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& point,
+bool RefinedFaces::fits(const predicates::Vector& point, Index h) const {
+  return side(point, halfedge(face_of(h), topology::next_corner[edge_of(h)])) == Sign::positive &&
+         side(point, halfedge(face_of(h), topology::previous_corner[edge_of(h)])) == Sign::positive;
+}
+
+// Returns the point, or the nearest one that is found to the left of a halfedge, or on it.
+std::optional<predicates::Vector> RefinedFaces::moved_inside(const predicates::Vector& point,
+                                                             Index h) const {
+  const predicates::Vector normal =
+      exact::normalized(cross(directions_[from(h)], directions_[to(h)]));
+  constexpr double longest_step = 0x1p-48;
+  for (double step = 0; step <= longest_step; step = std::max(2 * step, 0x1p-53)) {
+    const predicates::Vector place = exact::normalized(point + step * normal);
+    if (side(place, h) != Sign::negative && fits(place, h)) return place;
+  }
+  return {};
+}
+
+std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& given,
                                           const std::array<Index, 2>& shells) {
-  const auto fits = [&](Index edge) {
-    return side(point, halfedge(face_of(edge), topology::next_corner[edge_of(edge)])) ==
-               Sign::positive &&
-           side(point, halfedge(face_of(edge), topology::previous_corner[edge_of(edge)])) ==
-               Sign::positive;
-  };
+  predicates::Vector point = given;
+  if (!fits(point, h)) return {};
   const Index g = faces_[face_of(h)].opposite[edge_of(h)];
-  if (!fits(h) || (g != no_index && !fits(g))) return {};
+  if (g != no_index && !fits(point, g)) {
+    // Beside segments that are nearly one arc a face may be narrower than the rounding of the point.
+    // Where nobody asks for it, it is cut off, and what is asked for becomes smaller, never larger.
+    const auto inside = moved_inside(point, h);
+    if (faces_[face_of(g)].region != no_index || !inside) return {};
+    point = *inside;
+    faces_[face_of(h)].opposite[edge_of(h)] = no_index;
+    faces_[face_of(g)].opposite[edge_of(g)] = no_index;
+    faces_[face_of(g)].segment[edge_of(g)] = static_cast<Index>(segments_.size());
+    segments_.push_back({no_index, no_index});
+  }
   changed_.clear();
   const Index v = add_vertex(point, VertexKind::on_segment);
   const Index old = faces_[face_of(h)].segment[edge_of(h)];

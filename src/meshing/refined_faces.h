@@ -78,7 +78,8 @@ class RefinedFaces {
   // segment.
   std::optional<Index> insert(Index face, const predicates::Vector& point);
   // Divides the segment of a halfedge by a vertex. Returns nothing, and changes nothing, if a face
-  // would not be positive. The halves have the shells, from the beginning of the halfedge.
+  // that is asked for would not be positive. The halves have the shells, from the beginning of the
+  // halfedge, whose face is asked for.
   std::optional<Index> divide(Index h, const predicates::Vector& point,
                               const std::array<Index, 2>& shells);
   // Removes a free vertex, a corner of the face.
@@ -98,6 +99,9 @@ class RefinedFaces {
   void flip(Index h);
   void legalize(bool is_star);
   void divide_faces(Index h, Index v);
+  [[nodiscard]] bool fits(const predicates::Vector& point, Index h) const;
+  [[nodiscard]] std::optional<predicates::Vector> moved_inside(const predicates::Vector& point,
+                                                               Index h) const;
 
   std::vector<Point> points_;
   std::vector<predicates::Vector> directions_;
