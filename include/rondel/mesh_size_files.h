@@ -49,7 +49,8 @@ RONDEL_API SizeFunction read_density(const FileName& file, const std::string& na
                                      std::vector<std::string>* remarks = nullptr);
 
 /// Reads heights or depths as read_spacings() reads spacings, and interpolates them linearly at
-/// nodes.
+/// nodes. Outside of the places the value of the nearest one counts, and a remark says how many nodes
+/// are there.
 /// \param nodes  unit vectors
 /// \return metres, positive as in the file. Values are metres, unless the attribute `units` says
 ///         kilometers; other units are refused.

@@ -246,6 +246,13 @@ class LinearValues {
         given_.values, places, {.method = Method::linear, .outside = Outside::nearest}, execution_);
   }
 
+  [[nodiscard]] std::size_t num_outside(std::span<const Point> places) const {
+    const std::vector<double> values = interpolator_.values(
+        given_.values, places, {.method = Method::linear, .outside = Outside::missing}, execution_);
+    return static_cast<std::size_t>(
+        std::ranges::count_if(values, [](double value) { return std::isnan(value); }));
+  }
+
  private:
   const Spacings& given_;
   const Execution& execution_;
@@ -322,7 +329,13 @@ std::vector<double> read_heights(const FileName& file, const std::string& name,
   Spacings heights = spacings_of(file, name, execution);
   drop_missing(file, heights, remarks);
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
-  std::vector<double> result = LinearValues(heights, execution, remarks).at(nodes);
+  const LinearValues values(heights, execution, remarks);
+  std::vector<double> result = values.at(nodes);
+  if (const std::size_t n = values.num_outside(nodes); n > 0 && remarks != nullptr) {
+    remarks->push_back(std::to_string(n) + " of " + std::to_string(nodes.size()) +
+                       (n == 1 ? " nodes is" : " nodes are") +
+                       " outside of the places with values: the value of the nearest place counts");
+  }
   for (double& height : result) height *= metres;
   return result;
 }

@@ -17,16 +17,21 @@
 #include "meshing/scvt_levels.h"
 #include "order/spatial_order.h"
 #include "rondel/constrained_features.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
+#include "rondel/predicates.h"
 #include "rondel/simplify.h"
+#include "system/arithmetic.h"
 #include "system/disjoint_sets.h"
 #include "system/job.h"
+#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {
 
-// Appends geometries from `begin` to before `end`, with the points of their polygons.
+// Appends geometries from `begin` to before `end`, with the points of their polygons. A polygon that
+// is the whole sphere has no sides, and is appended as one without rings.
 void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
   std::vector<Index> numbers(more.polygons.points.size(), no_index);
   std::vector<Index> ring;
@@ -35,9 +40,6 @@ void append(const Geometries& more, std::size_t begin, std::size_t end, Geometri
       all.lines.rows.append(more.lines.rows[k]);
     }
     all.lines.end_group();
-    if (more.polygons.is_whole(i)) {
-      all.polygons.whole.push_back(static_cast<Index>(all.polygons.num_cells()));
-    }
     for (std::uint64_t r = more.polygons.cells[i]; r < more.polygons.cells[i + 1]; ++r) {
       ring.clear();
       for (const Index corner : more.polygons.corners_of(r)) {
@@ -121,6 +123,9 @@ class TrianglesOfDomain {
     end_of_coast_ = all_.size();
     for (const Geometries& more : domain.area) append(more, all_);
     end_of_area_ = all_.size();
+    const auto has_whole = [](const Geometries& more) { return !more.polygons.whole.empty(); };
+    is_everywhere_ = domain.area.empty() || std::ranges::any_of(domain.area, has_whole);
+    if (std::ranges::any_of(domain.coast, has_whole)) refuse_land();
     for (const Geometries& more : domain.lines) append(more, all_);
   }
 
@@ -151,18 +156,33 @@ class TrianglesOfDomain {
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
   }
 
-  // Triangulates all features, and finds the faces of the mesh.
+  [[noreturn]] static void refuse_land() {
+    throw InvalidInput("nothing is left for triangles: the land covers the area");
+  }
+
+  // Triangulates all features, and finds the faces of the mesh. Where corners of the features have
+  // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
   void triangulate() {
     features_ = constraints_of_features(all_.lines, all_.polygons);
     triangulate_sites();
     const Triangulation& first = triangulation_.triangulation;
-    if (end_of_area_ == end_of_coast_ && (first.dimension() < 2 || first.num_ghost_faces() > 0)) {
+    bool has_all_faces = first.dimension() == 2 && first.num_ghost_faces() == 0;
+    if (!has_all_faces && !is_everywhere_ && first.dimension() == 2) {
+      try {
+        regions_ = find_regions();
+        has_all_faces = true;
+      } catch (const InvalidInput&) {  // an area of more than half of the sphere
+      }
+    } else if (has_all_faces) {
+      regions_ = find_regions();
+    }
+    if (!has_all_faces) {
       for (const Point& point : icosahedron()) features_.sites.push_back(point);
       triangulate_sites();
+      regions_ = find_regions();
     }
-    regions_ = find_regions();
     if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
-      throw InvalidInput("nothing is left for triangles: the land covers the area");
+      refuse_land();
     }
   }
 
@@ -258,7 +278,7 @@ class TrianglesOfDomain {
   // Returns 0 for the faces of the mesh, and no_index for others.
   [[nodiscard]] std::vector<Index> find_regions() const {
     const auto inside = faces_inside(triangulation_, features_.constraints, features_.polygons);
-    const Index everywhere = end_of_area_ == end_of_coast_ ? 0 : no_index;
+    const Index everywhere = is_everywhere_ ? 0 : no_index;
     std::vector<Index> regions(triangulation_.triangulation.num_faces(), everywhere);
     for (std::size_t i = end_of_coast_; i < end_of_area_; ++i) {
       for (const Index face : inside[i]) regions[face] = 0;
@@ -285,10 +305,26 @@ class TrianglesOfDomain {
   Geometries all_;
   std::size_t end_of_coast_ = 0;
   std::size_t end_of_area_ = 0;
+  bool is_everywhere_ = false;  // the area is the sphere
   FeatureConstraints features_;
   ConstrainedTriangulation triangulation_;
   std::vector<Index> regions_;  // of each face: 0 in the mesh, else no_index
 };
+
+// Throws InvalidInput for an area or a coast that has features, but no polygon.
+void require_polygons(const MeshDomain& domain) {
+  const auto has_polygon = [](const Geometries& more) {
+    return !more.polygons.whole.empty() || !more.polygons.corners.empty();
+  };
+  if (!domain.area.empty() && std::ranges::none_of(domain.area, has_polygon)) {
+    throw InvalidInput("the area has no polygon");
+  }
+  for (const Geometries& coast : domain.coast) {
+    if (coast.size() > 0 && !has_polygon(coast)) {
+      throw InvalidInput("the coast has no polygon: lines and points are none");
+    }
+  }
+}
 
 void require_shares(const TrianglesOptions& options) {
   const auto is_share = [](double value) { return value >= 0 && value <= 1; };
@@ -303,6 +339,21 @@ void require_shares(const TrianglesOptions& options) {
   }
 }
 
+// Throws InvalidInput that says where a triangle has no area once its corners are longitudes and
+// latitudes, as files have them.
+void require_areas_in_degrees(const TriangleMesh& mesh) {
+  const system::ArithmeticScope arithmetic;
+  const std::vector<LonLat> positions = lonlats(mesh.points);
+  const std::vector<Point> points = unit_vectors(positions);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    if (orientation(points[a], points[b], points[c]) == Sign::positive) continue;
+    throw InvalidInput("coasts, borders or lines come so near to each other at longitude " +
+                       system::shortest_text(positions[a].lon_deg) + ", latitude " +
+                       system::shortest_text(positions[a].lat_deg) +
+                       " that a triangle between them has no area in degrees");
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(FeatureOfEdge feature) noexcept {
@@ -314,6 +365,7 @@ std::string_view name_of(FeatureOfEdge feature) noexcept {
 DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options,
                           const Execution& execution) {
   const system::Call call(execution);
+  require_polygons(domain);
   require_shares(options);
   return TrianglesOfDomain(options, execution).run(domain);
 }
@@ -323,8 +375,10 @@ TriangleMesh triangle_mesh(const DomainTriangles& triangles) {
   for (std::size_t e = 0; e < triangles.features.size(); ++e) {
     if (triangles.features[e] == FeatureOfEdge::coast) coast.push_back(triangles.mesh.edges[e]);
   }
-  return triangle_mesh(triangles.mesh.nodes, {}, triangles.mesh.triangles,
-                       std::span(std::as_const(coast)));
+  TriangleMesh mesh = triangle_mesh(triangles.mesh.nodes, {}, triangles.mesh.triangles,
+                                    std::span(std::as_const(coast)));
+  require_areas_in_degrees(mesh);
+  return mesh;
 }
 
 }  // namespace rondel::mesh

@@ -230,6 +230,98 @@ TEST(domain_triangles, narrow_water_is_filled) {
   EXPECT_EQ(places_of(triangles(domain, options)), places_of(made));
 }
 
+// Returns the longest edge in degrees.
+double longest_edge(const DomainTriangles& made) {
+  double most = 0;
+  for (const auto& [a, b, c] : made.mesh.triangles) {
+    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const Point& from = made.mesh.nodes[p];
+      const Point& to = made.mesh.nodes[q];
+      most = std::max(most, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
+    }
+  }
+  return 2 * std::asin(most / 2) * 180 / std::numbers::pi;
+}
+
+// Islands beside the border of the area, with narrow water between: where it is filled, corners of
+// the new coast are on what was one arc, up to rounding.
+TEST(domain_triangles, borders_beside_filled_water_are_divided) {
+  TrianglesOptions options = spaced(1);
+  options.fill_narrow = 0.5;
+  const Geometries sea = polygon({box(-10, -10, 10, 10)});
+  for (int k = 0; k < 12; ++k) {
+    MeshDomain domain = {{}, {sea}, {}};
+    for (int i = 0; i < 4; ++i) {
+      const double south = -8 + 4 * i + 0.13 * k;
+      const double west = -9.9 + 0.07 * ((i * 5 + k) % 9);
+      domain.coast.push_back(polygon({box(west, south, west + 1.5 + 0.2 * i, south + 2)}));
+    }
+    const DomainTriangles made = triangles(domain, options);
+    EXPECT_GT(made.filled_area, 0) << k;
+    EXPECT_EQ(made.mesh.report.num_too_small, 0U) << k;
+    EXPECT_LE(longest_edge(made), 1.5) << k;
+    double land = made.filled_area;
+    for (const Geometries& island : domain.coast) land += area_of(island);
+    EXPECT_NEAR(area_of(made) + land, area_of(sea), 1e-13) << k;
+  }
+}
+
+TEST(domain_triangles, areas_of_half_of_the_sphere_and_more) {
+  const TrianglesOptions options = spaced(20);
+  for (const double lat : {-20.0, -0.001, 0.0, 5.0, 60.0}) {
+    Ring south = around_pole(lat);
+    std::ranges::reverse(south);
+    for (const bool is_land : {false, true}) {
+      const Geometries part = polygon({is_land ? around_pole(lat) : south});
+      MeshDomain domain;
+      (is_land ? domain.coast : domain.area).push_back(part);
+      const DomainTriangles made = triangles(domain, options);
+      EXPECT_NEAR(area_of(made), area_of(polygon({south})), 1e-12) << lat << is_land;
+      EXPECT_LE(longest_edge(made), 30) << lat << is_land;
+    }
+  }
+  Geometries everything;
+  everything.polygons.whole.push_back(0);
+  everything.polygons.end_cell();
+  everything.lines.end_group();
+  const DomainTriangles made = triangles({{}, {everything}, {}}, options);
+  EXPECT_EQ(places_of(made), places_of(triangles({}, options)));
+  EXPECT_THROW(triangles({{everything}, {}, {}}, options), InvalidInput);
+}
+
+TEST(domain_triangles, areas_and_coasts_have_polygons) {
+  const TrianglesOptions options = spaced(20);
+  const Geometries shore = line({{0, 0}, {3, 4}});
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              triangles({{}, {shore}, {}}, options);
+            }),
+            "the area has no polygon");
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              triangles({{}, {Geometries()}, {}}, options);
+            }),
+            "the area has no polygon");
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              triangles({{shore}, {}, {}}, options);
+            }),
+            "the coast has no polygon: lines and points are none");
+  EXPECT_EQ(places_of(triangles({{Geometries()}, {}, {}}, options)),
+            places_of(triangles({}, options)));
+}
+
+// A strait that doubles tell from land, but not its triangles once they are in degrees.
+TEST(domain_triangles, straits_of_a_few_ulp_are_refused) {
+  const Geometries west = polygon({box(0, 0, 10, 10)});
+  const Geometries east = polygon({box(10.000000000000002, 0, 20, 10)});
+  TrianglesOptions options = spaced(2);
+  const MeshDomain domain = {{west, east}, {polygon({box(-5, -5, 25, 15)})}, {}};
+  const DomainTriangles narrow = triangles(domain, options);
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { triangle_mesh(narrow); }).substr(0, 66),
+            "coasts, borders or lines come so near to each other at longitude 1");
+  options.fill_narrow = 0.5;
+  const mesh::TriangleMesh mesh = triangle_mesh(triangles(domain, options));
+  EXPECT_NO_THROW(require_valid(mesh));
+}
+
 TEST(domain_triangles, lines_and_points_stay_where_narrow_water_is_filled) {
   const Geometries along = line({{2, 2}, {8, 2}});
   const Geometries through = line({{8, 5}, {14, 5}});
