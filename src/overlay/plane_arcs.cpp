@@ -11,8 +11,6 @@
 //
 // A corner that is added may be near a third line, which then gets a corner on the same meridian.
 // Only the meridians of the first corners occur, so this ends.
-#include "overlay/plane_arcs.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -23,6 +21,7 @@
 #include "exact/angles.h"
 #include "exact/vector.h"
 #include "overlay/plane.h"
+#include "overlay/plane_arcs.h"
 #include "overlay/plane_corners.h"
 #include "rondel/delaunay.h"
 #include "system/parallel.h"
@@ -154,38 +153,67 @@ double simple_bulge_deg(const LonLat& west, const LonLat& east) {
   return width * width * (rad_per_deg / 8) + 2 * std::abs(east.lat_deg - west.lat_deg);
 }
 
-// Finds the positions where a piece has to be divided, from west to east: on the meridians of
-// corners near it.
-void find_cuts(const LinePiece& piece, const PlaneCorners& corners, std::vector<LonLat>& cuts) {
+// Finds the corners on a piece of a meridian, from south to north.
+void find_cuts_of_meridian(const LinePiece& piece, const PlaneCorners& corners,
+                           std::vector<LonLat>& cuts) {
   cuts.clear();
-  if (piece.west.lon_deg == piece.east.lon_deg || (is_pole(piece.west) && is_pole(piece.east)))
-    return;
+  corners.visit_near(piece.west, piece.east, {0, 0}, [&](const LonLat& p, Index) {
+    const bool is_between = p.lat_deg > piece.west.lat_deg && p.lat_deg < piece.east.lat_deg;
+    if (p.lon_deg == piece.west.lon_deg && is_between) cuts.push_back(p);
+  });
+}
+
+// Finds the positions where a piece of a side has to be divided, from west to east: on the meridians
+// of corners near it. A corner that is exactly on the side is such a position itself, so that two
+// sides which cross there have one corner there, and not two up to rounding.
+void find_cuts(const LinePiece& piece, const PlaneSide& side, const PlaneCorners& corners,
+               std::vector<LonLat>& cuts) {
+  cuts.clear();
+  if (is_pole(piece.west) && is_pole(piece.east)) return;
+  if (piece.west.lon_deg == piece.east.lon_deg) {
+    return find_cuts_of_meridian(piece, corners, cuts);
+  }
   const auto cut_within = [&](double bulge) {
     cuts.clear();
     corners.visit_near(piece.west, piece.east, {0, bulge}, [&](const LonLat& p, Index) {
       if (p.lon_deg <= piece.west.lon_deg || p.lon_deg >= piece.east.lon_deg) return;
       const double lat = lat_on(piece, p.lon_deg);
-      if (std::abs(p.lat_deg - lat) <= bulge) cuts.push_back({p.lon_deg, lat});
+      if (std::abs(p.lat_deg - lat) > bulge) return;
+      const bool is_on = p.lat_deg != lat && std::abs(p.lat_deg - lat) <= on_side_deg &&
+                         side_of_line(side.from, side.to, p) == Sign::zero;
+      cuts.push_back({p.lon_deg, is_on ? p.lat_deg : lat});
     });
   };
   cut_within(simple_bulge_deg(piece.west, piece.east) + on_side_deg);
   if (cuts.empty()) return;
   cut_within(bulge_deg(piece.west, piece.east) + on_side_deg);
   std::ranges::sort(cuts, IsWestOf{});
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  // One position is kept of each meridian: that of a corner on the side, if there is one.
+  auto kept = cuts.begin();
+  for (auto first = cuts.begin(); first != cuts.end();) {
+    const auto end = std::find_if(first, cuts.end(),
+                                  [&](const LonLat& cut) { return cut.lon_deg != first->lon_deg; });
+    const auto exact = std::find_if(first, end, [&](const LonLat& cut) {
+      return *first == *(end - 1) || side_of_line(side.from, side.to, cut) == Sign::zero;
+    });
+    *kept++ = exact == end ? *first : *exact;
+    first = end;
+  }
+  cuts.erase(kept, cuts.end());
 }
 
 // Divides the pieces at the corners near them. Returns the positions that are new, and appends the
 // divided sides to `changed`.
-std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece>& pieces,
-                              std::vector<Index>& changed, unsigned threads) {
+std::vector<LonLat> divide_at(const PlaneCorners& corners, std::span<const PlaneSide> sides,
+                              std::vector<LinePiece>& pieces, std::vector<Index>& changed,
+                              unsigned threads) {
   std::vector<std::vector<std::pair<std::size_t, std::vector<LonLat>>>> found(
       system::num_pieces(pieces.size(), pieces_per_block));
   system::parallel_for(threads, pieces.size(), pieces_per_block,
                        [&](std::size_t begin, std::size_t end) {
                          std::vector<LonLat> cuts;
                          for (std::size_t k = begin; k < end; ++k) {
-                           find_cuts(pieces[k], corners, cuts);
+                           find_cuts(pieces[k], sides[pieces[k].side], corners, cuts);
                            if (!cuts.empty()) found[begin / pieces_per_block].emplace_back(k, cuts);
                          }
                        });
@@ -259,7 +287,7 @@ SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, uns
 // Divides pieces at the positions that were added, until none is added any more.
 void SideDivider::match(std::vector<LonLat> added) {
   while (!added.empty()) {
-    added = divide_at(corners_at(added), pieces_, changed_, threads_);
+    added = divide_at(corners_at(added), sides_, pieces_, changed_, threads_);
   }
 }
 

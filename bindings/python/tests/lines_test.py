@@ -185,3 +185,27 @@ class TestSimplify:
         found = rondel.simplify([line, box, shapely.Point(1, 1), None], 5, radius=6371.0088)
         assert shapely.get_num_coordinates(found[:3]).tolist() == [2, 5, 1]
         assert found[3] is None
+
+
+def test_lines_that_cross_have_one_point_there():
+    """Crossings of small integers, many of them in a position that divides one of the lines."""
+    generator = np.random.default_rng(5)
+
+    def lines(east, north):
+        for _ in range(400):
+            ends = generator.integers(0, 6, (2, 2))
+            if (ends[0] != ends[1]).any():
+                yield shapely.LineString(ends + np.array([east, north]))
+
+    for east, north in ((0, 0), (30, -4), (-4, 40), (30, 60)):
+        first, second = (np.array([*lines(east, north)][:350]) for _ in range(2))
+        expected = shapely.intersection(first, second)
+        made = rondel.intersection(first, second)
+        assert shapely.is_valid(made).all()
+        np.testing.assert_array_equal(
+            [shape.geom_type for shape in made if not shape.is_empty],
+            [shape.geom_type for shape in expected if not shape.is_empty],
+        )
+        assert np.nanmax(shapely.hausdorff_distance(made, expected)) < 0.02
+        alone = [rondel.intersection(a, b) for a, b in zip(first[:40], second[:40], strict=True)]
+        assert [shape.geom_type for shape in alone] == [shape.geom_type for shape in made[:40]]
