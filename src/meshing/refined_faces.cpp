@@ -230,24 +230,24 @@ std::optional<predicates::Vector> RefinedFaces::moved_inside(const predicates::V
   return {};
 }
 
-std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& given,
+std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& point,
                                           const std::array<Index, 2>& shells) {
-  predicates::Vector point = given;
-  if (!fits(point, h)) return {};
+  predicates::Vector place = point;
+  if (!fits(place, h)) return {};
   const Index g = faces_[face_of(h)].opposite[edge_of(h)];
-  if (g != no_index && !fits(point, g)) {
+  if (g != no_index && !fits(place, g)) {
     // Beside segments that are nearly one arc a face may be narrower than the rounding of the point.
     // Where nobody asks for it, it is cut off, and what is asked for becomes smaller, never larger.
     const auto inside = moved_inside(point, h);
     if (faces_[face_of(g)].region != no_index || !inside) return {};
-    point = *inside;
+    place = *inside;
     faces_[face_of(h)].opposite[edge_of(h)] = no_index;
     faces_[face_of(g)].opposite[edge_of(g)] = no_index;
     faces_[face_of(g)].segment[edge_of(g)] = static_cast<Index>(segments_.size());
     segments_.push_back({no_index, no_index});
   }
   changed_.clear();
-  const Index v = add_vertex(point, VertexKind::on_segment);
+  const Index v = add_vertex(place, VertexKind::on_segment);
   const Index old = faces_[face_of(h)].segment[edge_of(h)];
   const Index added = static_cast<Index>(segments_.size());
   segments_.push_back({segments_[old].source, shells[1]});

@@ -11,6 +11,8 @@
 //
 // A corner that is added may be near a third line, which then gets a corner on the same meridian.
 // Only the meridians of the first corners occur, so this ends.
+#include "overlay/plane_arcs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -21,7 +23,6 @@
 #include "exact/angles.h"
 #include "exact/vector.h"
 #include "overlay/plane.h"
-#include "overlay/plane_arcs.h"
 #include "overlay/plane_corners.h"
 #include "rondel/delaunay.h"
 #include "system/parallel.h"

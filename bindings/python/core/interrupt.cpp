@@ -97,7 +97,7 @@ class Work {
       fraction_ = fraction;
       is_told_ = false;
     }
-    // What the listener raises at the end of a stage ends the work before a file is complete.
+    // An exception of the listener at the end of a stage ends the work before a file is complete.
     if (has_listener_ && fraction >= 1 && ask(State::tells)) throw Interrupted();
   }
 

@@ -292,7 +292,7 @@ class Regridder(Described):
             hashes = [point_set_hash(side.points()) for side in (self._source, self._target)]
             made._weights.know_places(*hashes)
         self.weights = made
-        # What is applied: of order 2, for each field, the weights that its missing values need.
+        # Each field of order 2 is applied by the weights that its missing values need.
         self._applied: AnyWeights = (
             made if second is None else SecondOrderWeights.of(*second[:2], made, second[2])
         )
