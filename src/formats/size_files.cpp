@@ -331,7 +331,7 @@ std::vector<double> read_heights(const FileName& file, const std::string& name,
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
   const LinearValues values(heights, execution, remarks);
   std::vector<double> result = values.at(nodes);
-  if (const std::size_t n = values.num_outside(nodes); n > 0 && remarks != nullptr) {
+  if (const std::size_t n = remarks == nullptr ? 0 : values.num_outside(nodes); n > 0) {
     remarks->push_back(std::to_string(n) + " of " + std::to_string(nodes.size()) +
                        (n == 1 ? " nodes is" : " nodes are") +
                        " outside of the places with values: the value of the nearest place counts");

@@ -166,17 +166,15 @@ class TrianglesOfDomain {
     features_ = constraints_of_features(all_.lines, all_.polygons);
     triangulate_sites();
     const Triangulation& first = triangulation_.triangulation;
-    bool has_all_faces = first.dimension() == 2 && first.num_ghost_faces() == 0;
-    if (!has_all_faces && !is_everywhere_ && first.dimension() == 2) {
+    bool is_found = false;
+    if (first.dimension() == 2 && (first.num_ghost_faces() == 0 || !is_everywhere_)) {
       try {
         regions_ = find_regions();
-        has_all_faces = true;
+        is_found = true;
       } catch (const InvalidInput&) {  // an area of more than half of the sphere
       }
-    } else if (has_all_faces) {
-      regions_ = find_regions();
     }
-    if (!has_all_faces) {
+    if (!is_found) {
       for (const Point& point : icosahedron()) features_.sites.push_back(point);
       triangulate_sites();
       regions_ = find_regions();
