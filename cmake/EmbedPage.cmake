@@ -35,18 +35,19 @@ function(read_script path result)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
-# Literals of 8 KiB, which every compiler takes; the compiler joins them.
-function(append_literal name text)
-  set(source "constexpr char ${name}_bytes[] =")
+# Appends the function NAME_text to `functions`. Literals have 8 KiB and are joined when the text is first asked for:
+# compilers need not take a longer literal than one of 64 KiB, even one that they join themselves.
+function(append_text name text)
+  set(source "std::string_view ${name}_text() {\n  static const std::string text = joined({")
   string(LENGTH "${text}" length)
   set(at 0)
   while(at LESS length)
     string(SUBSTRING "${text}" ${at} 8192 part)
-    string(APPEND source "\n    R\"~~~(${part})~~~\"")
+    string(APPEND source "\n    R\"~~~(${part})~~~\",")
     math(EXPR at "${at} + 8192")
   endwhile()
-  string(APPEND literals "${source};\n\n")
-  set(literals "${literals}" PARENT_SCOPE)
+  string(APPEND functions "${source}});\n  return text;\n}\n\n")
+  set(functions "${functions}" PARENT_SCOPE)
 endfunction()
 
 set(script "(() => {\n\"use strict\";")
@@ -57,8 +58,8 @@ foreach(module IN LISTS MODULES)
 endforeach()
 string(APPEND script "})();")
 
-set(literals "")
-append_literal(script "${script}")
+set(functions "")
+append_text(script "${script}")
 file(READ "${VIEWER}/page.html" text)
 file(STRINGS "${VIEWER}/parts.txt" parts)
 foreach(part IN LISTS parts)
@@ -69,24 +70,28 @@ foreach(part IN LISTS parts)
   endif()
   string(REPLACE "${place}" "${content}" text "${text}")
 endforeach()
-append_literal(frame "${text}")
+append_text(frame "${text}")
 file(READ "${VIEWER}/style.css" text)
-append_literal(style "${text}")
+append_text(style "${text}")
 file(READ "${COAST}" text)
-append_literal(coast "${text}")
+append_text(coast "${text}")
 
 file(WRITE "${OUTPUT}" "// Made by cmake/EmbedPage.cmake.
 #include \"page/page_text.h\"
 
+#include <initializer_list>
+#include <string>
+
 namespace rondel::page {
 namespace {
 
-${literals}}  // namespace
+std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
 
-std::string_view frame_text() { return {frame_bytes, sizeof(frame_bytes) - 1}; }
-std::string_view style_text() { return {style_bytes, sizeof(style_bytes) - 1}; }
-std::string_view script_text() { return {script_bytes, sizeof(script_bytes) - 1}; }
-std::string_view coast_text() { return {coast_bytes, sizeof(coast_bytes) - 1}; }
+}  // namespace
 
-}  // namespace rondel::page
+${functions}}  // namespace rondel::page
 ")
