@@ -92,14 +92,26 @@ class RegridStreams(unittest.TestCase):
         self.assertRegex(done.stderr, rf"\Arondel: {message}\n\Z")
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
+    def start(self, command, size):
+        """A process that has written so many bytes and runs; one that ended before it was looked at is started again."""
+        old = self.out.read_bytes() if self.out.exists() else None
+        for _ in range(10):
+            process = subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+            while process.poll() is None and open_bytes(process, self.folder) < size:
+                time.sleep(0.0005)
+            if process.poll() is None:
+                return process
+            self.assertEqual((process.returncode, process.communicate()[1]), (0, ""))
+            self.out.unlink()
+            if old is not None:
+                self.out.write_bytes(old)
+        self.fail("each run ended before it could be disturbed")
+
     def interrupt(self, number, *options, size):
         """Sends the signal when so many bytes are written; tells the exit status."""
         command = [TOOL, "regrid", self.input, "healpix:6", "-o", self.out, "--quiet", "--threads", "1", *options]
-        process = subprocess.Popen(command, stderr=subprocess.PIPE)
+        process = self.start(command, size)
         try:
-            while process.poll() is None and open_bytes(process, self.folder) < size:
-                time.sleep(0.0005)
-            self.assertIsNone(process.poll(), "ended before it could be interrupted")
             process.send_signal(number)
             process.communicate(timeout=30)
         finally:
@@ -220,10 +232,7 @@ class RegridStreams(unittest.TestCase):
         for path in (self.input, self.chunks):
             shutil.copy(path, self.folder / "in.nc")
             command = [TOOL, "regrid", "in.nc", "healpix:6", "-o", self.out, "--quiet", "--threads", "1"]
-            process = subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
-            while process.poll() is None and open_bytes(process, self.folder) < path.stat().st_size + (1 << 20):
-                time.sleep(0.0005)
-            self.assertIsNone(process.poll(), "ended before its input could be cut")
+            process = self.start(command, path.stat().st_size + (1 << 20))
             os.truncate(self.folder / "in.nc", path.stat().st_size // 2)
             said = process.communicate(timeout=60)[1]
             self.assertEqual(process.returncode, 1)
@@ -233,10 +242,7 @@ class RegridStreams(unittest.TestCase):
     def test_an_input_that_is_replaced_while_it_is_read(self):
         shutil.copy(self.input, self.folder / "in.nc")
         command = [TOOL, "regrid", "in.nc", "healpix:6", "-o", self.out, "--quiet", "--threads", "1"]
-        process = subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        while process.poll() is None and open_bytes(process, self.folder) < self.input.stat().st_size + (1 << 20):
-            time.sleep(0.0005)
-        self.assertIsNone(process.poll(), "ended before its input could be replaced")
+        process = self.start(command, self.input.stat().st_size + (1 << 20))
         shutil.copy(self.expected, self.folder / "new.nc")
         os.replace(self.folder / "new.nc", self.folder / "in.nc")
         said = process.communicate(timeout=60)[1]
