@@ -106,11 +106,12 @@ Command add_repair_command(CLI::App& tool) {
   parser->footer(
       "A polygon has the places that an odd number of its rings' sides divides from the outside,\n"
       "and a feature is the union of its polygons: where sides cross they get a corner, spikes\n"
-      "and rings without an area vanish, and a ring around a pole has the pole. Features that\n"
-      "are valid keep their corners and sides. Points and lines stay; a line that jumps more than\n"
-      "180 degrees of longitude goes the shorter way. Properties and ids stay, and a feature\n"
-      "without a place has a null geometry, or is left out of files that GDAL writes. --json\n"
-      "lists what was wrong with each feature.\n\n"
+      "and rings without an area vanish, and a ring around a pole has the pole. Corners keep\n"
+      "their longitudes and latitudes of up to 12 decimals, longer ones to the last bit but one.\n"
+      "A side that is no great circle gets corners between its ends. Points and lines stay; a\n"
+      "line that jumps more than 180 degrees of longitude goes the shorter way. Properties and\n"
+      "ids stay, and a feature without a place has a null geometry, or is left out of files that\n"
+      "GDAL writes. --json lists what was wrong with each feature.\n\n"
       "Examples:\n"
       "  rondel repair parcels.geojson -o valid.geojson\n"
       "  rondel repair parcels.geojson -o valid.gpkg --json");

@@ -14,6 +14,7 @@
 
 #include "arrangement/arc_checks.h"
 #include "arrangement/ring_arrays.h"
+#include "map/arc.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/distinct.h"
@@ -82,25 +83,6 @@ void require_fit(const FeatureLines& lines, const CellRings& polygons) {
       "feature " + std::to_string(feature) + " is the whole sphere, which has no sides", feature);
 }
 
-// Returns a number with so many decimals at most that is near to another one: both 10^k and the
-// rounded product are exact, so that it is what a file with these digits is read as.
-double with_decimals(double value, double power) { return std::rint(value * power) / power; }
-
-// Returns the position with the fewest decimals that has this unit vector, or the given one.
-LonLat shortened(const LonLat& position, const Point& point) {
-  constexpr unsigned most_decimals = 13;
-  constexpr double near_deg = 1e-12;  // more than rounding moves longitudes, except next to a pole
-  double power = 1;
-  for (unsigned decimals = 0; decimals <= most_decimals; ++decimals, power *= 10) {
-    const LonLat candidate = {with_decimals(position.lon_deg, power),
-                              with_decimals(position.lat_deg, power)};
-    const bool is_near = std::abs(candidate.lon_deg - position.lon_deg) <= near_deg &&
-                         std::abs(candidate.lat_deg - position.lat_deg) <= near_deg;
-    if (is_near && unit_vector(candidate) == point) return candidate;
-  }
-  return position;
-}
-
 }  // namespace
 }  // namespace constrained
 
@@ -108,7 +90,7 @@ std::vector<LonLat> short_lonlats(std::span<const Point> points) {
   const system::ArithmeticScope arithmetic;
   std::vector<LonLat> positions = lonlats(points);
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i] = constrained::shortened(positions[i], points[i]);
+    positions[i] = map::shortened(positions[i], points[i]);
   }
   return positions;
 }

@@ -74,6 +74,13 @@ void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
   bisect(middle, q, tolerance, out);
 }
 
+// Returns the nearest position with so many decimals at most. 10^k and the rounded product are
+// exact, so that a coordinate is what a file with these digits is read as. No zero has a sign.
+LonLat with_decimals(const LonLat& position, double power) {
+  return {std::rint(position.lon_deg * power) / power + 0.0,
+          std::rint(position.lat_deg * power) / power + 0.0};
+}
+
 }  // namespace
 
 Point snapped(const Point& p) {
@@ -86,6 +93,36 @@ Point point_at(const LonLat& position) {
   const exact::SineCosine lon = exact::sine_cosine_of_degrees(position.lon_deg);
   const exact::SineCosine lat = exact::sine_cosine_of_degrees(position.lat_deg);
   return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
+}
+
+LonLat shortened(const LonLat& position, const Point& p) {
+  constexpr double near_deg = 1e-12;  // more than rounding moves longitudes, except next to a pole
+  const auto fits = [&](const LonLat& candidate) {
+    return std::abs(candidate.lon_deg - position.lon_deg) <= near_deg &&
+           std::abs(candidate.lat_deg - position.lat_deg) <= near_deg && point_at(candidate) == p;
+  };
+  // Few points have such a position. Rounding moves a longitude by less than half of the twelfth
+  // decimal, so that nothing shorter fits if 12 decimals do not, except next to a pole.
+  if (std::abs(position.lat_deg) > 80 || fits(with_decimals(position, 1e12))) {
+    for (double power = 1; power <= 1e12; power *= 10) {
+      const LonLat candidate = with_decimals(position, power);
+      if (fits(candidate)) return candidate;
+    }
+  }
+  const LonLat longest = with_decimals(position, 1e13);
+  return fits(longest) ? longest : position;
+}
+
+LonLat as_written(const LonLat& position, const Point& p) {
+  constexpr double rounding_deg = 0x1p-44;  // of unit vectors and of their longitudes
+  const LonLat written = with_decimals(position, 1e9);
+  const bool is_lon_near = std::abs(written.lon_deg - position.lon_deg) <= rounding_deg;
+  const bool is_lat_near = std::abs(written.lat_deg - position.lat_deg) <= rounding_deg;
+  if (is_lon_near && is_lat_near) return written;
+  const LonLat exact = shortened(position, p);
+  if (!(exact == position)) return exact;
+  return {is_lon_near ? written.lon_deg : position.lon_deg,
+          is_lat_near ? written.lat_deg : position.lat_deg};
 }
 
 bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance) {

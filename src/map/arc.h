@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -57,7 +58,22 @@ struct MapPoint {
 // as shifted to the west by an infinitesimal, so that every point but a pole is on one side of it.
 inline bool is_east(const Point& p) { return p.y >= 0; }
 
-inline MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }
+// A unit vector is that of many longitudes and latitudes: `computed` are those of lonlat_of(), and
+// `written` those of as_written().
+enum class Positions : std::uint8_t { computed, written };
+
+// Returns the position with the fewest decimals that has this unit vector, if one of up to 12
+// decimals has; or one of 13 decimals next to the given one that has; or the given one.
+LonLat shortened(const LonLat& position, const Point& p);
+
+// Returns the position that stands for a point in a file: the shortened() one, but each coordinate
+// that is a number of up to 9 decimals up to rounding is that number.
+LonLat as_written(const LonLat& position, const Point& p);
+
+inline MapPoint map_point(const Point& p, Positions positions = Positions::computed) {
+  const LonLat position = lonlat_of(p, is_east(p));
+  return {p, positions == Positions::computed ? position : as_written(position, p)};
+}
 
 // How far a polyline may be from its arc, in radians: `least` at the point `center`, which is
 // between two sites, and an eighth of the distance from `center` farther away, but at most `most`.

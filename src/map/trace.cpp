@@ -28,7 +28,7 @@ Point crossing(const Point& west, const Point& east) {
 
 class Drawing {
  public:
-  explicit Drawing(Trace& trace) : trace_(trace) {
+  Drawing(Trace& trace, Positions positions) : trace_(trace), positions_(positions) {
     trace_.points.clear();
     trace_.arcs.clear();
     trace_.starts.clear();
@@ -50,7 +50,7 @@ class Drawing {
 
   // Adds the end of an open line, unless it is a pole, which has been added.
   void finish_at(const Point& end) {
-    if (!is_pole(end)) add(map_point(end));
+    if (!is_pole(end)) add(on_map(end));
     std::vector<std::size_t>& starts = trace_.starts;
     if (starts.empty() || starts.front() != 0) starts.insert(starts.begin(), 0);
   }
@@ -66,22 +66,28 @@ class Drawing {
     trace_.arcs.push_back(arc_);
   }
 
+  // Returns a point with its position, which the arc before has computed if it ended there.
+  const MapPoint& on_map(const Point& p) {
+    if (!(p == last_.point)) last_ = map_point(p, positions_);
+    return last_;
+  }
+
   // Adds the line from a point to a pole, which follows a meridian and needs no points between.
   void reach_pole(const Point& p, const Point& pole) {
-    const MapPoint start = map_point(p);
+    const MapPoint start = on_map(p);
     add(start);
     add({pole, {start.position.lon_deg, pole.z * 90}});
   }
 
   void leave_pole(const Point& pole, const Point& q) {
     trace_.starts.push_back(trace_.points.size());
-    add({pole, {map_point(q).position.lon_deg, pole.z * 90}});
+    add({pole, {on_map(q).position.lon_deg, pole.z * 90}});
   }
 
   void add_open_arc(const Point& p, const Point& q, const ArcTolerance& tolerance) {
     const bool east = is_east(p);
-    const MapPoint start = map_point(p);
-    const MapPoint end = map_point(q);
+    const MapPoint start = on_map(p);
+    const MapPoint end = on_map(q);
     add(start);
     const bool crosses = east != is_east(q);
     const Point middle = !crosses ? Point{} : east ? crossing(q, p) : crossing(p, q);
@@ -144,14 +150,17 @@ class Drawing {
   }
 
   Trace& trace_;
+  Positions positions_;
+  MapPoint last_{};
   std::uint32_t arc_ = 0;
   int winding_ = 0;
 };
 
 }  // namespace
 
-void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace) {
-  Drawing drawing(trace);
+void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace,
+          Positions positions) {
+  Drawing drawing(trace, positions);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     drawing.add_arc(ring[i], ring[(i + 1) % ring.size()], static_cast<std::uint32_t>(i),
                     tolerances[i]);
@@ -159,8 +168,9 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
   drawing.finish();
 }
 
-void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace) {
-  Drawing drawing(trace);
+void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace,
+               Positions positions) {
+  Drawing drawing(trace, positions);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     drawing.add_arc(line[i], line[i + 1], static_cast<std::uint32_t>(i), tolerance);
   }

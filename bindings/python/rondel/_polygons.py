@@ -105,10 +105,9 @@ def intersection(
     decided exactly, and places of crossings are rounded once, to the nearest doubles
     (docs/theory/arrangements.md). Straight lines in longitude and latitude become arcs that are
     within 1e-4 degrees of them, the same ones in both arguments. Longitudes and latitudes of the
-    result are rounded once more, to 13 decimals where that is within 8 ulps, so that positions with
-    no more decimals stay what they are; and its lines are near to arcs only. A `CellSet` is exact:
-    its corners are those of the operation, bit by bit, and operations on it can be chained as often
-    as one likes.
+    result are rounded once more, so that those with up to 12 decimals stay what they are; and its
+    lines are near to arcs only. A `CellSet` is exact: its corners are those of the operation, bit
+    by bit, and operations on it can be chained as often as one likes.
 
     Examples
     --------

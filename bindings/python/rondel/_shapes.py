@@ -16,7 +16,6 @@ from ._pickled import with_arrays
 from ._types import BoolArray, FloatArray
 
 UNSURE_AREA = 1e-10  # steradians, of rounding
-ROUNDING = 8  # of a coordinate that became a unit vector and is computed from it, in ulps
 
 
 def shapes_of(
@@ -27,6 +26,8 @@ def shapes_of(
     drawing: str,
 ) -> np.ndarray[Any, Any]:
     """Polygons and multipolygons of shapely; those of cells without a place are empty."""
+    import shapely
+
     are_arcs = is_geodesic(edges)
     # Arcs stay what they are between positions that will be joined by arcs.
     tolerance = 180.0 if are_arcs else float(tolerance_deg)
@@ -35,9 +36,8 @@ def shapes_of(
     if are_arcs:
         positions, rings = _with_ends_of_arcs(positions, rings)
         _require_smaller_sides(positions, rings, drawn, cells.areas())
-    shapes = _shapes_at(_rounded(positions), rings, drawn, cells.num_cells)
-    if not are_valid(shapes).all():
-        shapes = _shapes_at(positions, rings, drawn, cells.num_cells)
+    shapes = polygon_shapes(positions, rings, drawn.polygons, drawn.owners, cells.num_cells)
+    shapes[np.bincount(drawn.owners, minlength=cells.num_cells) == 0] = shapely.Polygon()
     return shapes
 
 
@@ -55,7 +55,7 @@ def shapes_of_geometries(
     shapes = shapes_of(cells, edges, tolerance_deg, threads, drawing)
     tolerance = 180.0 if is_geodesic(edges) else float(tolerance_deg)
     positions, offsets, owners = geometries.drawn_lines(tolerance, as_threads(threads))
-    positions, sizes = _rounded(positions), np.diff(offsets)
+    sizes = np.diff(offsets)
     is_line = sizes > 1
     of_line = np.repeat(is_line, sizes)
     parts = np.empty(len(sizes), object)
@@ -121,23 +121,6 @@ def _collected(parts: list[Any]) -> Any:
         if some:
             made.append(some[0] if len(some) == 1 else collect(some))
     return made[0] if len(made) == 1 else shapely.geometrycollections(made)
-
-
-def _shapes_at(positions: Any, rings: Any, drawn: Any, number: int) -> np.ndarray[Any, Any]:
-    import shapely
-
-    shapes = polygon_shapes(positions, rings, drawn.polygons, drawn.owners, number)
-    shapes[np.bincount(drawn.owners, minlength=number) == 0] = shapely.Polygon()
-    return shapes
-
-
-def _rounded(positions: FloatArray) -> FloatArray:
-    """Positions with the decimals that were meant: what is but for rounding of unit vectors a
-    number with 13 decimals is that number.
-    """
-    short = np.rint(positions * 1e13) / 1e13  # exact below 2^53
-    is_meant = np.abs(short - positions) <= ROUNDING * np.spacing(np.abs(positions))
-    return np.where(is_meant, short, positions)
 
 
 def _with_ends_of_arcs(positions: Any, rings: Any) -> tuple[Any, Any]:

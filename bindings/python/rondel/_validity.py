@@ -118,7 +118,9 @@ def is_valid(geometries: Any, *, edges: Edges = "lonlat", threads: int | None = 
     Notes
     -----
     The rules are those of `CellSet.read`: of simple features, but that rings may have either
-    direction and may touch themselves, and that a ring around a pole has to be led there.
+    direction, may touch themselves, have spikes and have sides in common with other rings, and
+    that a ring around a pole has to be led there. shapely's rules are stricter; `make_valid`
+    returns what is valid by both.
 
     Examples
     --------

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "exact/vector.h"
 #include "map/planar_loops.h"
 #include "map/settled_regions.h"
+#include "rondel/delaunay.h"
 #include "support/random.h"
 
 namespace rondel::test::of_region {
@@ -357,6 +359,35 @@ TEST(settled_regions, fill_a_hole_and_keep_what_is_beside_it) {
   const auto regions = map::settled_convex_regions(sides, 1);
   const std::array<std::size_t, 8> expected{1, 0, 0, 0, 1, 1, 1, 1};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(regions[i].size(), expected[i]) << i;
+}
+
+// A point that a file gives with up to 12 decimals is written with them, and one that is moved by rounding with up to 9.
+TEST(region, lines_have_the_decimals_of_their_file) {
+  Random random(32);
+  double power = 1;
+  for (int decimals = 0; decimals <= 12; ++decimals, power *= 10) {
+    for (int i = 0; i < 100; ++i) {
+      std::vector<LonLat> given;
+      for (int k = 0; k < 3; ++k) {
+        given.push_back({std::rint(170 * random.signed_unit() * power) / power,
+                         std::rint(79 * random.signed_unit() * power) / power});
+      }
+      std::vector<Point> points = unit_vectors(given);
+      if (decimals <= 9) {
+        for (Point& p : points) p = normalized(3 * p);
+      }
+      std::vector<LonLat> found;
+      for (const auto& part : map::line_parts(points, false, 4)) {
+        std::ranges::copy_if(part, std::back_inserter(found), [](const LonLat& p) {
+          return std::abs(p.lon_deg) < 180 && std::abs(p.lat_deg) < 90;
+        });
+      }
+      EXPECT_EQ(found, given) << decimals;
+    }
+  }
+  const std::vector<Point> on_meridian = {unit_vector({20, 5.5}),
+                                          unit_vector({20, 5.123456789012345})};
+  EXPECT_EQ(map::line_parts(on_meridian, false, 4).front().back().lon_deg, 20);
 }
 
 }  // namespace
